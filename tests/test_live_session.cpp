@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "live/gate.h"
@@ -126,16 +128,17 @@ TEST_F(LiveSession, AnEmptyVolumeHasNothingToSave) {
 TEST_F(LiveSession, DoesNotTellWhetherAFileExists) {
   write("there.ply", "ply\n");
   write("folder/there.ply", "ply\n");
-  const auto told = [&](const std::string& more) {
-    Json error = ask({{"call", "compute"}, {"text", kSquare + more}}).header["error"];
-    for (const char* const name : {"there", "gone", "folder", "nowhere"}) {
-      std::string where = error["where"];
+  const auto told_of = [&](const std::string& text) {
+    Json error = ask({{"call", "compute"}, {"text", text}}).header["error"];
+    std::string where = error["where"];
+    for (const char* const name : {"there.ply", "gone.ply", "link.ply", "folder", "nowhere", "linked"}) {
       for (std::size_t at; (at = where.find(name)) != std::string::npos;)
         where.replace(at, std::string(name).size(), "X");
-      error["where"] = where;
     }
+    error["where"] = where;
     return error;
   };
+  const auto told = [&](const std::string& more) { return told_of(kSquare + more); };
   const auto mesh = [&](const std::string& name) { return told("navigation: {meshes: [" + name + "]}\n"); };
   const auto zones = [&](const std::string& name) {
     return told("navigation: {keep_out: [{file: " + name + ", heights: any}]}\n");
@@ -145,6 +148,21 @@ TEST_F(LiveSession, DoesNotTellWhetherAFileExists) {
   EXPECT_EQ(mesh("folder/there.ply"), mesh("nowhere/there.ply"));
   EXPECT_EQ(mesh("/etc/passwd")["code"], name_of(ErrorCode::not_applicable));
   EXPECT_EQ(zones("there.ply"), zones("gone.ply"));
+  const auto target = [&](const std::string& name) {
+    return told_of("target: {file: " + name + "}\nsensor: {max_range: 60}\n");
+  };
+  EXPECT_EQ(target("there.ply")["code"], name_of(ErrorCode::not_applicable));
+  EXPECT_EQ(target("there.ply"), target("gone.ply"));
+  EXPECT_EQ(target("folder/there.ply"), target("nowhere/there.ply"));
+  // Links, and folders in the place of files, are none of its business either.
+  std::filesystem::create_symlink("there.ply", folder_ / "link.ply");
+  std::filesystem::create_directory_symlink("folder", folder_ / "linked");
+  for (const auto& ask_for : {std::function(mesh), std::function(zones), std::function(target)}) {
+    EXPECT_EQ(ask_for("link.ply"), ask_for("gone.ply"));
+    EXPECT_EQ(ask_for("folder"), ask_for("gone.ply"));
+    EXPECT_EQ(ask_for("linked/there.ply"), ask_for("nowhere/there.ply"));
+    EXPECT_EQ(ask_for("folder/../there.ply"), ask_for("nowhere/../there.ply"));
+  }
   // PROJ opens files that a text names.
   const auto crs = [&](const std::string& text) { return told("crs: \"" + text + "\"\n"); };
   EXPECT_EQ(crs("/etc/passwd")["code"], name_of(ErrorCode::not_applicable));
@@ -166,6 +184,38 @@ TEST_F(LiveSession, TakesTheFilesThatTheOpenedMissionNames) {
   }
   EXPECT_EQ(code_of({{"call", "compute"}, {"text", std::string(kSquare) + "navigation: {meshes: [air.ply]}\n"}}),
             name_of(ErrorCode::not_applicable));
+}
+
+TEST_F(LiveSession, TakesTheTargetFilesThatTheOpenedMissionNames) {
+  testing::MapText map;
+  map.box(0, 0, 30, 30, {{"building", "yes"}, {"height", "9"}});
+  write("map.osm", map.text());
+  const auto square = [](const std::string& west, const std::string& east) {
+    return R"({"type": "Polygon", "coordinates": [[[)" + west + ", 48.1370], [" + east + ", 48.1370], [" + east +
+           ", 48.1371], [" + west + ", 48.1371], [" + west + ", 48.1370]]]}";
+  };
+  write("deep/a.geojson", square("11.5750", "11.5752"));
+  write("b.geojson", square("11.5740", "11.5742"));
+  write("other.geojson", square("11.5740", "11.5742"));
+  std::filesystem::create_directory_symlink("deep", folder_ / "linked");
+  const auto text_of = [](const std::string& target) { return target + "\nsensor: {max_range: 60}\n"; };
+  const auto expect_answers = [&](const std::string& opened, const std::vector<std::string>& targets) {
+    write("map.yaml", "scene: {osm: map.osm}\n" + text_of(opened));
+    session_.open_file(folder_ / "map.yaml");
+    for (const std::string& target : targets) {
+      const Json header = ask({{"call", "compute"}, {"text", text_of(target)}}).header;
+      EXPECT_FALSE(header.contains("error")) << target << header.dump(1).substr(0, 500);
+    }
+    for (const std::string name : {"other.geojson", "gone.geojson", "/etc/passwd"}) {
+      EXPECT_EQ(code_of({{"call", "compute"}, {"text", text_of("target: {file: " + name + "}")}}),
+                name_of(ErrorCode::not_applicable))
+          << name;
+    }
+  };
+  expect_answers("target: {file: linked/a.geojson}",
+                 {"target: {file: linked/a.geojson}", "target: {file: ./linked/a.geojson, name: a}"});
+  const std::string both = "targets: [{name: a, file: deep/a.geojson}, {name: b, file: b.geojson}]";
+  expect_answers(both, {both, "target: {file: b.geojson}", "target: {file: deep/a.geojson}"});
 }
 
 // Whatever the page has no control for is told, and drawn.

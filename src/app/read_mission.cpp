@@ -84,6 +84,15 @@ class OpenedFiles {
       meshes[i].file = file_of(meshes[i].name, std::array<ZoneFile, 0>{}, opened_.navigation_meshes, places[i]);
     }
   }
+  void take(std::optional<TargetFile>& target, const std::string& place) const {
+    if (!target) return;
+    std::vector<TargetFile> known;
+    if (opened_.target_file) known.push_back(*opened_.target_file);
+    for (const MissionTarget& one : opened_.targets) {
+      if (one.target_file) known.push_back(*one.target_file);
+    }
+    target->file = file_of(target->name, known, std::array<TargetFile, 0>{}, place);
+  }
   void take(std::vector<ZoneFile>& zones, const std::vector<std::string>& places) const {
     for (std::size_t i = 0; i < zones.size(); ++i) {
       zones[i].file = file_of(zones[i].name, opened_.keep_in_files, opened_.keep_out_files, places[i]);
@@ -143,6 +152,8 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file, const
                               const MissionFile& opened) {
   MissionFile mission = internal::app::parse_mission(text, file, &source);
   const OpenedFiles files(opened);
+  files.take(mission.target_file, mission.places.target);
+  for (MissionTarget& target : mission.targets) files.take(target.target_file, target.place);
   files.take(mission.navigation_meshes, mission.places.navigation_meshes);
   files.take(mission.keep_in_files, mission.places.keep_in_files);
   files.take(mission.keep_out_files, mission.places.keep_out_files);
@@ -156,6 +167,7 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file, const
     throw Error(ErrorCode::not_applicable, "the mission has another 'crs' than when it was opened", file.string(),
                 "write a code such as EPSG:4326, or change the mission file and start again");
   }
+  check_target_files(mission);
   check_limits(mission);
   return mission;
 }

@@ -154,7 +154,7 @@ const differs = (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify
 /** Keys that say where a target is. */
 const PLACES = [
   "vertices", "parts", "point", "outline", "holes", "osm", "object", "at", "part", "facing", "nearest", "center", "width",
-  "length", "heading", "edges", "offset",
+  "length", "heading", "edges", "offset", "file", "feature",
 ];
 
 /** Writes the controls that were edited into the file that was opened. */
