@@ -90,6 +90,29 @@ TEST(Place, TravelsInVolumesAndReports) {
   EXPECT_FALSE(json::parse(report_json(volume, measure(volume.mesh))).contains("georeference"));
 }
 
+// Whoever gives a scene of no known place may have to be named, too.
+TEST(Place, NamesWhomTheDataIsFromWithoutAPlace) {
+  const TemporaryDirectory directory;
+  Scene scene = one_box();
+  scene.objects = named({"house"});
+  Volume volume = one_volume();
+  const auto copyrights = [&] {
+    write_scene(scene, directory / "s.glb");
+    write_volume(volume, directory / "v.glb");
+    std::vector<bool> found;
+    for (const char* name : {"s.glb", "v.glb"}) {
+      found.push_back(read_bytes(directory / name).find("\"copyright\":\"the city\"") != std::string::npos);
+    }
+    return found;
+  };
+  const auto report = [&] { return json::parse(report_json(volume, measure(volume.mesh))); };
+  EXPECT_EQ(copyrights(), std::vector<bool>({false, false}));
+  EXPECT_FALSE(report().contains("attribution"));
+  scene.attribution = volume.attribution = "the city";
+  EXPECT_EQ(copyrights(), std::vector<bool>({true, true}));
+  EXPECT_EQ(report()["attribution"], "the city");
+}
+
 // The licence of OpenStreetMap asks for it wherever the data is shown.
 TEST(Place, NamesWhomTheDataIsFrom) {
   const TemporaryDirectory directory;

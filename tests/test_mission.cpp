@@ -153,9 +153,17 @@ void expect_same_limits(const Navigation& found, const Navigation& expected) {
   EXPECT_EQ(meshes.size(), expected.meshes.size());
 }
 
+TEST(Mission, SaysWhomPicturesHaveToName) {
+  const MissionFile mission = parse(with_scene("mesh: city.obj\n  attribution: \"\u00a9 the city's surveyors\""));
+  EXPECT_EQ(mission.scene.attribution, "\u00a9 the city's surveyors");
+  EXPECT_EQ(parse(text_of_mission("")).scene.attribution, "");
+  EXPECT_EQ(refusal(with_scene("mesh: city.obj\n  attribution: [a, b]")).code(), ErrorCode::wrong_type);
+}
+
 TEST(Mission, TextReadsBackAsTheSameMission) {
   const std::string scenes[] = {
       "scene: {mesh: ../city.obj, up: y, scale: 0.3048, lod: '2.2', crs: 'EPSG:28992', origin: [52, 4.3]}\n",
+      "scene: {mesh: city.obj, attribution: 'The city''s \"surveyors\": \u00a9 2024'}\n",
       "scene: {osm: city.osm.pbf, center: [48.1, 11.5], radius: 600, terrain: dem.tif, error: 0.25,\n"
       "        without: [trees, walls], defaults: {level: 3.25, levels.house: 3, wall.fence: 2, way.path: 1.5}}\n",
       "scene: {osm: 'a \"b\".osm', bbox: [11.1, 48, 11.2, 48.1]}\n",
@@ -183,6 +191,7 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
         const MissionFile again = parse_mission(text, "/data/missions/two.yaml");
         EXPECT_EQ(mission_text(again, "/data/missions"), text);
         EXPECT_EQ(again.scene.file, read.scene.file);
+        EXPECT_EQ(again.scene.attribution, read.scene.attribution);
         EXPECT_EQ(again.target.parts, read.target.parts);
         EXPECT_EQ(again.target.name, read.target.name);
         EXPECT_EQ(again.sensor.max_range_m, read.sensor.max_range_m);

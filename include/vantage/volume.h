@@ -117,6 +117,10 @@ struct Volume {
   /// (VolumeFile::rounding_m). Writers add theirs.
   double read_rounding_m = 0;
 
+  /// Whom files and pictures of it have to name; run_mission fills it in by attribution_of the scene. The report and
+  /// GLB files have it, also where nobody knows a place on the earth.
+  std::string attribution = {};
+
   /// Whether no position sees the whole target; `reason` says why.
   bool empty() const { return mesh.empty(); }
 };

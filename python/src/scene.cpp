@@ -14,6 +14,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "places.h"
+#include "vantage/geometry.h"
 #include "vantage/hash.h"
 #include "vantage/json.h"
 
@@ -57,7 +58,8 @@ std::vector<SceneObject> objects_of(const std::vector<ObjectRow>& rows) {
 std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray& faces, const IndexArray& object_of,
                                      const std::vector<ObjectRow>& objects, const std::optional<PlaceRow>& place,
                                      std::optional<double> sea_level_m,
-                                     const std::optional<std::array<double, 6>>& whole) {
+                                     const std::optional<std::array<double, 6>>& whole,
+                                     const std::string& attribution) {
   LoadedScene loaded;
   loaded.scene.mesh = mesh_of(vertices, faces);
   loaded.scene.object_of.assign(object_of.data(), object_of.data() + object_of.shape(0));
@@ -66,6 +68,8 @@ std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray
     loaded.scene.georeference =
         Georeference{std::get<0>(*place), std::get<1>(*place), std::get<2>(*place), std::get<3>(*place)};
   }
+  loaded.scene.attribution = attribution;
+  if (auto& known = loaded.scene.georeference) known->attribution = attribution_of(loaded.scene);  // for files
   if (whole) loaded.scene.whole = Box{Vec3(whole->data()), Vec3(whole->data() + 3)};
   return std::make_shared<PyScene>(std::make_shared<const LoadedScene>(std::move(loaded)), SceneSource{}, sea_level_m);
 }
@@ -127,7 +131,8 @@ void bind_scene(nb::module_& module) {
 
   module.def("load_scene", &load, "text"_a, "name"_a, "progress"_a = nb::none());
   module.def("scene_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(),
-             "object_of"_a.noconvert(), "objects"_a, "place"_a, "sea_level_m"_a, "whole"_a = nb::none());
+             "object_of"_a.noconvert(), "objects"_a, "place"_a, "sea_level_m"_a, "whole"_a = nb::none(),
+             "attribution"_a = "");
   module.def("object_kinds", [] {
     std::vector<std::string> names;
     for (int i = 0; i <= static_cast<int>(ObjectKind::tree); ++i)
@@ -144,6 +149,14 @@ void bind_scene(nb::module_& module) {
         }
         const Eigen::Vector2d at = scene_position(*place, longitude_deg, latitude_deg);
         return std::tuple(at.x(), at.y());
+      },
+      "scene"_a, "latitude_deg"_a, "longitude_deg"_a);
+  module.def(
+      "seems_swapped",
+      [](const PyScene& s, double latitude_deg, double longitude_deg) {
+        const Scene& scene = s.scene();
+        return scene.georeference &&
+               seems_swapped(*scene.georeference, bounding_box(scene.mesh), longitude_deg, latitude_deg);
       },
       "scene"_a, "latitude_deg"_a, "longitude_deg"_a);
 }

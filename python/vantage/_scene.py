@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -169,7 +170,8 @@ class Scene(Triangles):
     @classmethod
     def from_arrays(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, object_of: npt.ArrayLike | None = None,
                     objects: Iterable[SceneObject | str] | None = None, georeference: Georeference | None = None,
-                    sea_level: float | None = None, _whole: Sequence[float] | None = None) -> Scene:
+                    sea_level: float | None = None, attribution: str = "",
+                    _whole: Sequence[float] | None = None) -> Scene:
         """Makes a scene of triangles; the arrays are copied.
 
         Args:
@@ -179,6 +181,7 @@ class Scene(Triangles):
             objects: names, or `SceneObject`s. Default: numbered.
             georeference: where the frame lies on the earth.
             sea_level: z of the mean sea level.
+            attribution: whom pictures and files of it have to name: "\u00a9 OpenStreetMap contributors".
 
         Raises:
             Error: an array of a wrong shape or type, an index out of range, a coordinate that is not finite.
@@ -202,7 +205,8 @@ class Scene(Triangles):
                                   "choose one of " + ", ".join(KINDS))
             rows.append((one.name, one.source_id, KINDS.index(one.kind)))
         level = None if sea_level is None else _arrays.number(sea_level, "sea_level")
-        return cls(_core.scene_from_arrays(points, triangles, of, rows, _place(georeference), level, _whole))
+        return cls(_core.scene_from_arrays(points, triangles, of, rows, _place(georeference), level, _whole,
+                                           checked_text(attribution, "attribution")))
 
     @classmethod
     def _load(cls, keys: Mapping[str, Any], progress: Progress) -> Scene:
@@ -299,7 +303,12 @@ class Scene(Triangles):
 
     @property
     def attribution(self) -> str:
-        """Whom pictures of it have to name, as "© OpenStreetMap contributors"; empty where nobody is known."""
+        """Whom pictures and pages of it have to name; empty where nobody is known.
+
+        Of a map it is "© OpenStreetMap contributors", as the licence of its data asks. It is what the file says, what
+        `attribution` of `from_arrays` or of a mission file says, or both. `picture` and `plot` draw it; GLB files have it as
+        their copyright, and reports as "attribution".
+        """
         return self._core.attribution
 
     @property
@@ -313,8 +322,16 @@ class Scene(Triangles):
         return json.loads(self._core.report())
 
     def position(self, latitude: float, longitude: float) -> tuple[float, float]:
-        """x and y of a place on the earth (WGS 84, degrees)."""
-        return _core.scene_position(self._core, _arrays.number(latitude, "latitude"), _arrays.number(longitude, "longitude"))
+        """x and y of a place on the earth (WGS 84, degrees).
+
+        Warns of a place outside of the scene that would lie inside with latitude and longitude the other way round.
+        """
+        north, east = _arrays.number(latitude, "latitude"), _arrays.number(longitude, "longitude")
+        at = _core.scene_position(self._core, north, east)
+        if _core.seems_swapped(self._core, north, east):
+            warnings.warn(f"latitude {north} and longitude {east} seem to be swapped: the place lies outside of the scene, and "
+                          "inside with them the other way round", stacklevel=2)
+        return at
 
     def prepare(self, progress: Progress = None) -> Scene:
         """Prepares the scene now, and not with the first volume."""
@@ -374,7 +391,7 @@ class Scene(Triangles):
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (np.array(self.vertices), np.array(self.faces), np.array(self.object_of), self.objects,
                            self.georeference, self._core.sea_level_m, self._core.whole,
-                           None if self._source is None else self._source.kept())
+                           None if self._source is None else self._source.kept(), self.attribution)
 
     def _repr_html_(self) -> str:
         from ._html import of_scene
@@ -423,8 +440,8 @@ def _with_reader(error: Error, given: Mapping[str, Any]) -> Error:
 
 def _restored(vertices: npt.ArrayLike, faces: npt.ArrayLike, object_of: npt.ArrayLike, objects: list[SceneObject],
               georeference: Georeference | None, sea_level: float | None, whole: Sequence[float] | None = None,
-              source: Source | None = None) -> Scene:
+              source: Source | None = None, attribution: str = "") -> Scene:
     scene = Scene.from_arrays(vertices, faces, object_of=object_of, objects=objects, georeference=georeference,
-                              sea_level=sea_level, _whole=whole)
+                              sea_level=sea_level, attribution=attribution, _whole=whole)
     scene._source = source
     return scene

@@ -61,6 +61,10 @@ void add_raster(Json& json, const RasterReport& report) {
                     {"highest_m", report.highest_m}, {"largest_error_m", report.largest_error_m}};
 }
 
+void add_credit(Json& json, const Scene& scene) {
+  if (std::string credit = attribution_of(scene); !credit.empty()) json["attribution"] = std::move(credit);
+}
+
 void add_source(Json& json, const LoadedScene& loaded) {
   if (loaded.city) add_city(json, *loaded.city);
   if (loaded.raster) add_raster(json, *loaded.raster);
@@ -197,6 +201,7 @@ std::string json_text(const LoadedScene& loaded) {
   Json json;
   json["source"] = loaded.scene.source.string();
   if (const auto& place = loaded.scene.georeference) json["georeference"] = internal::io::georeference_json(*place);
+  add_credit(json, loaded.scene);
   json["triangles"] = loaded.scene.mesh.triangles.size();
   json["objects"] = loaded.scene.objects.size();
   const Box box = bounding_box(loaded.scene.mesh);
@@ -223,6 +228,7 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
   json["polygons"] = found.polygons;
   json["bounds"] = json_of(found.bounds);
   if (scene.georeference) json["georeference"] = internal::io::georeference_json(*scene.georeference);
+  add_credit(json, scene);
   json["notes"] = notes_of(loaded);
   add_source(json, loaded);
   return dumped(json, 2);

@@ -133,8 +133,9 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
   result.volume = of_views(mission, views, options, result, seconds, stopwatch, progress);
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   result.volume.seconds = seconds;
+  result.volume.attribution = attribution_of(mission.scene());
   result.volume.georeference = mission.scene().georeference;
-  if (auto& place = result.volume.georeference) place->attribution = attribution_of(mission.scene());
+  if (auto& place = result.volume.georeference) place->attribution = result.volume.attribution;
   if (result.volume.provenance) {
     const std::string& known = options.scene_hash;
     result.volume.provenance->scene_hash = known.empty() ? scene_hash(mission.scene()) : known;

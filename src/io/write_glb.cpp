@@ -130,12 +130,16 @@ Mesh in_file_order(const Volume& volume, const StoredMesh& stored) {
   return mesh;
 }
 
+/// Of a volume that was read the georeference alone knows it.
+const std::string& credit_of(const Volume& volume) {
+  const bool is_placed = volume.attribution.empty() && volume.georeference;
+  return is_placed ? volume.georeference->attribution : volume.attribution;
+}
+
 Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
   Gltf gltf;
   gltf.json["asset"] = {{"version", "2.0"}, {"generator", "vantage " VANTAGE_VERSION}};
-  if (volume.georeference && !volume.georeference->attribution.empty()) {
-    gltf.json["asset"]["copyright"] = volume.georeference->attribution;
-  }
+  if (const std::string& credit = credit_of(volume); !credit.empty()) gltf.json["asset"]["copyright"] = credit;
   gltf.json["asset"]["extras"]["vantage"]["rounding_m"] = stored.rounding_m;
   if (auto statement = statement_json(volume, in_file_order(volume, stored))) {
     gltf.json["asset"]["extras"]["vantage"]["volume"] = std::move(*statement);

@@ -137,8 +137,8 @@ class SceneGlb {
           .append(std::to_string(target));
     };
     std::string text(R"({"asset":{"version":"2.0","generator":"vantage )" VANTAGE_VERSION R"(")");
-    if (scene_.georeference && !scene_.georeference->attribution.empty()) {
-      text.append(R"(,"copyright":)").append(json_text(std::string_view(scene_.georeference->attribution)));
+    if (const std::string credit = attribution_of(scene_); !credit.empty()) {
+      text.append(R"(,"copyright":)").append(json_text(std::string_view(credit)));
     }
     text += R"(},"scene":0,)";
     text.append(R"("scenes":[{"nodes":[)").append(roots_).append("]");

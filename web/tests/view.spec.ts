@@ -178,6 +178,18 @@ test("a report begins with the verdict, the place and the date, and lists every 
   await expect(page.locator("#limit-lines")).toContainText("Keep out, zone 0");
   await expect(page.locator("#controls")).toBeHidden();
   await expect(page.locator("#credit")).toHaveText("© OpenStreetMap contributors");
+  // A picture that is saved says it, too.
+  await page.evaluate(() => {
+    const { prototype } = CanvasRenderingContext2D;
+    const write = prototype.fillText;
+    (window as any).written = [];
+    prototype.fillText = function (text: string, x: number, y: number) {
+      (window as any).written.push(text);
+      write.call(this, text, x, y);
+    };
+  });
+  await saved(page, "picture");
+  expect(await page.evaluate(() => (window as any).written)).toContain("© OpenStreetMap contributors");
 });
 
 test("a report shows the volume, and that it is proved, without an engine", async ({ page }) => {
