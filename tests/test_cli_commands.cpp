@@ -328,6 +328,8 @@ TEST_F(CliVerify, LooksFromWhereTheTargetWasRaisedTo) {
   fs::remove(folder_ / "low.report.json");
   EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500"}).exit_code, 1);
   EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0.001501"}).exit_code, 0);
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "1.501 mm"}).exit_code, 0);
+  expect_bad({"verify", "low.yaml", "low.ply", "--lift", "1 yd"}, "command line");
   for (const char* text : {"", "[]", "{}", "{\"lift_m\": \"far\"}", "{\"lift_m\": -1}", "{\"lift_m\": 1}"}) {
     write("low.report.json", text);
     expect_bad({"verify", "low.yaml", "low.ply"}, "low.report.json");

@@ -80,6 +80,13 @@ TEST_F(CliCompare, ObjTakesAxesAndUnit) {
   EXPECT_NEAR(rest.at("intersection_m3").get<double>(), 12, 1e-6);
   EXPECT_NE(output_of({"compare", "z.ply", "far.obj"}).find("--up y, --scale S"), std::string::npos)
       << "nothing shared: the table asks about axes and unit";
+  const auto volume_at = [&](const std::string& scale) {
+    const auto found = nlohmann::json::parse(output_of({"compare", "far.obj", "far.obj", "--scale", scale, "--json"}));
+    return found.at("volume_a_m3").get<double>();
+  };
+  EXPECT_EQ(volume_at("1 ft"), volume_at("0.3048"));
+  EXPECT_LT(volume_at("1 ft"), 0.1 * volume_at("1"));
+  expect_bad({"compare", "z.ply", "y.obj", "--scale", "1 yd"}, "command line");
   expect_bad({"compare", "z.ply", "z.ply", "--up", "y"}, "command line");
   expect_bad({"compare", "z.ply", "y.obj", "--scale", "0"}, "command line");
   expect_bad({"compare", "z.ply", "y.obj", "--up", "x"}, "command line");

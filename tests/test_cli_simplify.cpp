@@ -47,6 +47,18 @@ TEST_F(CliSimplify, TheFileSaysWhatItIsFor) {
   EXPECT_EQ(result.err, "");  // no warning of another mission, or a mesh that was changed
 }
 
+TEST_F(CliSimplify, TheErrorHasUnits) {
+  const auto size = [&](const std::string& error) {
+    const auto json =
+        nlohmann::json::parse(output_of({"simplify", "v.ply", "--error", error, "-o", "s.ply", "--json"}));
+    return json.at("facets").get<std::size_t>();
+  };
+  const std::size_t feet = size("1 ft");
+  EXPECT_EQ(feet, size("0.3048"));
+  EXPECT_NE(feet, size("1"));
+  expect_bad({"simplify", "v.ply", "--error", "1 yd", "-o", "s.ply"}, "command line");
+}
+
 TEST_F(CliSimplify, SinglePrecisionSaysSo) {
   const auto json =
       nlohmann::json::parse(output_of({"simplify", "v.stl", "--facets", "200", "-o", "small.stl", "--json"}));

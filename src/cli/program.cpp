@@ -142,6 +142,8 @@ int run(const std::vector<std::string>& typed, Host host) {
   if (names_command && !find_command(app, arguments[0])) return print_error(unknown_command(app, arguments[0]), "");
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const Error& error) {  // of an option that is a length
+    return print_error(error, names_command ? arguments[0] : "");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) return print_error(usage_error(app, error, arguments), "");
     std::ostringstream text;  // of --help or --version
