@@ -82,11 +82,11 @@ set(VANTAGE_HELPER_SOURCES)
 foreach(file
     core/bvh core/closed_mesh_check core/convex_corners core/edges core/enclosing_circle
     core/facet_polygon core/grown_polygon core/limit_check core/mend_welded core/orientation
-    core/pieces core/portable_math core/sha256 core/sha256_x86 core/solid_check core/stars
-    core/system_limits core/text core/triangle_contact core/triangle_distance core/triangle_tree
-    core/weld core/zone_check geo/coordinate_system geo/local_frame geo/longitudes geo/proj_files
-    geo/proj_library io/json_text io/png_mark io/zip options/spheres_options target/lengths
-    target/range_check target/range_region)
+    core/pieces core/png_mark core/portable_math core/sha256 core/sha256_x86 core/solid_check
+    core/stars core/system_limits core/text core/triangle_contact core/triangle_distance
+    core/triangle_tree core/weld core/zone_check geo/coordinate_system geo/local_frame
+    geo/longitudes geo/proj_files geo/proj_library io/json_text io/zip options/spheres_options
+    target/lengths target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()
 add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/png_mark.h"
+#include "core/png_mark.h"
 #include "vantage/output.h"
 
 namespace vantage::internal::io {
@@ -58,7 +58,7 @@ bool is_own_file(const std::filesystem::path& file) {
   if (extension == ".glb") {
     return text.starts_with("glTF") && text.find("\"generator\":\"vantage ") != std::string_view::npos;
   }
-  return extension == ".png" && has_png_mark(text);
+  return extension == ".png" && core::has_png_mark(text);
 }
 
 }  // namespace vantage::internal::io

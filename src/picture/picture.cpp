@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include "core/png_mark.h"
 #include "core/progress_reporter.h"
 #include "depth/depth.h"
 #include "depth/gl_context.h"
-#include "io/png_mark.h"
 #include "picture/annotate.h"
 #include "picture/canvas.h"
 #include "picture/draw_list.h"
@@ -148,7 +148,7 @@ void write_png(const Picture& picture, const std::filesystem::path& file, const 
   const internal::core::ProgressReporter progress(callback, file);
   progress.begin("writing the picture");
   AtomicFile output(file);
-  output.write(internal::io::with_png_mark(Canvas(picture).png(progress)));
+  output.write(internal::core::with_png_mark(Canvas(picture).png(progress)));
   progress.finish();
   output.commit();
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace vantage::internal::io {
+namespace vantage::internal::core {
 
 /// With the chunk after the header: so it can be told from the pictures of others. `png`: a whole one.
 std::string with_png_mark(std::string png);
@@ -12,4 +12,4 @@ std::string with_png_mark(std::string png);
 /// Whether the chunk is there, whatever else `bytes` hold, and however few they are.
 bool has_png_mark(std::string_view bytes);
 
-}  // namespace vantage::internal::io
+}  // namespace vantage::internal::core
