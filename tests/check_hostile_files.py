@@ -58,13 +58,14 @@ def try_reader(program: str, reader: readers.Reader, base: pathlib.Path, argumen
         folder = pathlib.Path(scratch) / "work"
         shutil.copytree(base, folder)
         command = [reader.file if word == "FILE" else word for word in reader.arguments]
+        runs_it = reader.program or program
         for i in range(arguments.mutants):
             numbers = random.Random(f"{arguments.seed} {reader.name} {i}")
             original = reader.originals[i % len(reader.originals)]
             content = reader.pack(mutate.mutated(original, reader.originals, numbers) if i >= len(reader.originals)
                                   else original)  # first as it is
             (folder / reader.file).write_bytes(content)
-            run = runs.run(program, command, folder)
+            run = runs.run(runs_it, command, folder)
             fault = run.fault()
             if not fault and i < len(reader.originals) and run.was_refused:
                 fault = f"refuses what is right: {run.err[:300]!r}"
@@ -123,7 +124,10 @@ def check(program: str, arguments: argparse.Namespace) -> list[str]:
 def self_test() -> list[str]:
     """Programs that do what is forbidden."""
     bad = {"crash": "kill -SEGV $$", "defect": "echo 'vantage: no' >&2; exit 3", "escape": "printf 'vantage: \\033[2J\\n' >&2; exit 2",
-           "silent": "exit 2", "loop": "ulimit -t 1; while :; do :; done"}
+           "silent": "exit 2", "loop": "ulimit -t 1; while :; do :; done",
+           "escape in results": "printf 'a\\033[2J\\n'", "order": "printf 'a\\xe2\\x80\\xae\\n'", "separator": "printf 'a\\xe2\\x80\\xa8\\n'",
+           "no text": "printf '\\x9b2J\\n'", "traceback": "echo 'Traceback (most recent call last):' >&2; exit 1",
+           "memory": f"exec {sys.executable} -c 'bytearray({runs.MOST_MEMORY + 200} << 20)'"}
     missed = []
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
@@ -134,10 +138,12 @@ def self_test() -> list[str]:
             if not runs.run(str(file), [], folder).fault():
                 missed.append(name)
         good = folder / "good"
-        good.write_text("#!/bin/bash\necho 'vantage: no' >&2; exit 2\n", encoding="utf-8")
+        good.write_text("#!/bin/bash\necho 'vantage: no' >&2; [ \"$1\" != query ] || printf 'a\\033[2J\\n'; exit 2\n",
+                        encoding="utf-8")
         good.chmod(0o755)
-        if runs.run(str(good), [], folder).fault():
-            missed.append("good")
+        for arguments in ([], ["query"]):  # the second one passes through what users have in their tables
+            if runs.run(str(good), arguments, folder).fault():
+                missed.append("good")
     return [f"not noticed: {name}" for name in missed]
 
 

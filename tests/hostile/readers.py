@@ -5,6 +5,7 @@ import gzip
 import json
 import pathlib
 import struct
+import sys
 import xml.etree.ElementTree as ElementTree
 import zlib
 from collections.abc import Callable
@@ -22,6 +23,7 @@ class Reader(NamedTuple):
     arguments: list[str]
     originals: list[bytes]
     pack: Callable[[bytes], bytes] = bytes  # after a change: what is compressed is changed inside
+    program: str = ""  # where it is another one
 
 
 # ---- files by hand ----
@@ -198,6 +200,7 @@ def prepare(folder: pathlib.Path, run: Callable[[list[str]], None]) -> None:
         (folder / f"{zones}.yaml").write_text(mission, encoding="utf-8")
     run(["compute", "mission.yaml", "-q", *(word for end in ("ply", "obj", "glb", "stl")
                                             for word in ("-o", f"good.{end}"))])
+    run(["prove", "mission.yaml", "good.ply", "-q", "--certificate", "good.cert"])
 
 
 def mesh_readers() -> list[Reader]:
@@ -271,8 +274,20 @@ def volume_readers(folder: pathlib.Path) -> list[Reader]:
                       Reader("volume, report", "reported.report.json", judged("reported.stl"), [report])]
 
 
+def certificate_readers(folder: pathlib.Path) -> list[Reader]:
+    """The checker, on certificates, on the volume and on the scene beside them."""
+    checker = str(ROOT / "tools" / "check_certificate.py")
+
+    def checked(name: str, file: str) -> Reader:
+        return Reader(f"certificate, {name}", file, [checker, "good.cert"], [(folder / file).read_bytes()],
+                      program=sys.executable)
+
+    scene = json.loads((folder / "good.cert").read_bytes())["scene"]["file"]
+    return [checked("itself", "good.cert"), checked("its volume", "good.ply"), checked("its scene", scene)]
+
+
 def all_readers(folder: pathlib.Path) -> list[Reader]:
-    return mesh_readers() + map_readers() + raster_readers() + mission_readers() + volume_readers(folder)
+    return mesh_readers() + map_readers() + raster_readers() + mission_readers() + volume_readers(folder) + certificate_readers(folder)
 
 
 def to_json(value: object) -> bytes:

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -12,6 +13,8 @@ from typing import NamedTuple
 MOST_MEMORY = 2000  # MB, of what is resident
 MOST_TIME = 20  # seconds of the processor
 ALLOWED = (0, 1, 2, 4)  # docs/command-line.md: 3 is a defect
+# Control characters, what turns the order of others, and bytes that are no UTF-8: src/core/printable.cpp.
+OBEYED = re.compile("[\0-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\udc80-\udcff]")
 
 
 class Run(NamedTuple):
@@ -22,6 +25,7 @@ class Run(NamedTuple):
     megabytes: float
     out: bytes
     err: bytes
+    passes_data: bool = False  # to standard output, as they are: those of the user
 
     @property
     def was_refused(self) -> bool:
@@ -37,11 +41,13 @@ class Run(NamedTuple):
             return f"ends with {self.code}: {self.err[:200]!r}"
         if self.megabytes > MOST_MEMORY:
             return f"takes {self.megabytes:.0f} MB"
-        for line in self.err.decode("utf-8", "replace").splitlines():
-            if any(ord(c) < 32 or 127 <= ord(c) < 160 or 0x2028 <= ord(c) <= 0x202E or 0x2066 <= ord(c) <= 0x2069
-                   for c in line):
-                return f"prints what a terminal obeys: {line[:200]!r}"
-        if self.was_refused and not self.err.startswith(b"vantage: "):
+        for text in (self.err, b"" if self.passes_data else self.out):
+            for line in text.decode("utf-8", "surrogateescape").split("\n"):  # splitlines would take out U+2028 as well
+                if OBEYED.search(line):
+                    return f"prints what a terminal obeys: {line[:200]!r}"
+        if b"Traceback (most recent call last)" in self.err:
+            return f"prints a traceback: {self.err[-200:]!r}"
+        if self.was_refused and not self.err.startswith((b"vantage: ", b"error: ")):
             return f"refuses without a message: {self.err[:200]!r}"
         return ""
 
@@ -56,6 +62,7 @@ def limited() -> None:
 
 def run(program: str, arguments: list[str], folder: pathlib.Path) -> Run:
     """Runs the program in the folder, on one thread: so that processor time is time."""
+    passes_data = arguments[:1] == ["query"]
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         environment = os.environ | {"VANTAGE_PROGRESS": "never"}  # a line of progress would look like a message
         process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
@@ -72,4 +79,4 @@ def run(program: str, arguments: list[str], folder: pathlib.Path) -> Run:
         out.seek(0)
         err.seek(0)
         return Run(process.returncode, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, out.read(1 << 20),
-                   err.read(1 << 20))
+                   err.read(1 << 20), passes_data)
