@@ -5,16 +5,21 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "maps/terrain/gdal_library.h"
 #include "maps/terrain/height_grid.h"
+#include "maps/terrain/raster_file.h"
 #include "support/raster_writer.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -120,8 +125,8 @@ TEST(RasterFiles, AFileMayNotNameOthers) {
     }
   }
   EXPECT_FALSE(listener.was_called());
-  write_bytes(folder / "dsm.vrt", simple(secret.string()));
   write_bytes(folder / "dsm.tif", "II*");
+  expect_unread(folder / "dsm.tif");
   for (const char* const driver : {"HFA", "netCDF"}) {  // read by GDAL, and not here
     const fs::path other = folder / "other";
     try {
@@ -161,16 +166,89 @@ TEST(RasterFiles, FilesBesideARasterAreNotOpened) {
 TEST(RasterFiles, WhatChangesHeightsMayNotLieBeside) {
   const TemporaryDirectory folder;
   const fs::path file = write_raster(folder.path(), "dem", small_raster());
+  const fs::path beside = file.string() + ".aux.xml";
+  const auto metadata = [](const std::string& text) {
+    return "<PAMDataset><PAMRasterBand band=\"1\">" + text + "</PAMRasterBand></PAMDataset>";
+  };
   for (const std::string element : {"NoDataValue", "Offset", "Scale", "UnitType"}) {
-    write_bytes(file.string() + ".aux.xml", "<PAMDataset><PAMRasterBand band=\"1\"><" + element + ">95</" + element +
-                                                "></PAMRasterBand></PAMDataset>");
+    write_bytes(beside, metadata("<" + element + ">95</" + element + ">"));
     testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
+  }
+  // Where it lies: GDAL would believe this more than the raster.
+  for (const std::string text : {"<SRS>EPSG:32633</SRS>", "<GeoTransform>600000,10,0,5000000,0,-10</GeoTransform>"}) {
+    write_bytes(beside, "<PAMDataset>" + text + "</PAMDataset>");
+    testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
+  }
+  write_bytes(beside, metadata("<nodatavalue>95</nodatavalue>"));
+  expect_unread(file);
+  // Behind what is looked through.
+  write_bytes(beside, metadata(std::string(std::size_t{1} << 20U, ' ') + "<NoDataValue>95</NoDataValue>"));
+  testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
+  fs::remove(beside);
+  for (const char* const name : {"DEM.TIF.AUX.XML", "dem.tif.MSK"}) {
+    write_bytes(folder / name, metadata("<NoDataValue>95</NoDataValue>"));
+    expect_unread(file);
+    fs::remove(folder / name);
   }
   // Statistics do not.
   write_bytes(file.string() + ".aux.xml",
               "<PAMDataset><PAMRasterBand band=\"1\"><Metadata><MDI key=\"STATISTICS_MEAN\">95</MDI></Metadata>"
               "</PAMRasterBand></PAMDataset>");
   EXPECT_EQ(read_height_grid(file).voids, 0u);
+}
+
+/// A stored (not compressed) archive.
+std::string stored_zip(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::string archive, directory;
+  const auto add = [](std::string& to, std::uint64_t number, int bytes) {
+    for (int i = 0; i < bytes; ++i) to += static_cast<char>(number >> (8 * i));
+  };
+  for (const auto& [name, content] : files) {
+    const std::size_t begin = archive.size();
+    const auto head = [&](std::string& to) {
+      for (const int number : {20, 0, 0, 0, 0x21}) add(to, static_cast<std::uint64_t>(number), 2);
+      add(to, ::crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size())), 4);
+      add(to, content.size(), 4), add(to, content.size(), 4), add(to, name.size(), 2), add(to, 0, 2);
+    };
+    archive += "PK\3\4";
+    head(archive);
+    archive += name + content;
+    directory += "PK\1\2";
+    add(directory, 20, 2);
+    head(directory);
+    add(directory, 0, 2), add(directory, 0, 2), add(directory, 0, 2), add(directory, 0, 4), add(directory, begin, 4);
+    directory += name;
+  }
+  const std::size_t begin = archive.size();
+  archive += directory + "PK\5\6";
+  add(archive, 0, 4), add(archive, files.size(), 2), add(archive, files.size(), 2);
+  add(archive, directory.size(), 4), add(archive, begin, 4), add(archive, 0, 2);
+  return archive;
+}
+
+TEST(RasterFiles, ArchivesHaveOneRasterAndNothingBesideIt) {
+  const TemporaryDirectory folder;
+  const fs::path file = write_raster(folder.path(), "dem", small_raster());
+  std::ifstream stream(file, std::ios::binary);
+  const std::string tif{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const fs::path archive = folder / "dem.zip";
+  write_bytes(archive, stored_zip({{"readme.txt", "heights"}, {"dem.tif", tif}}));
+  EXPECT_EQ(read_height_grid(archive).heights_m, read_height_grid(file).heights_m);
+  for (const std::string name : {"dem.tif.aux.xml", "DEM.TIF.MSK"}) {
+    write_bytes(archive, stored_zip({{"dem.tif", tif}, {name, "<PAMDataset/>"}}));
+    testing::expect_error([&] { read_height_grid(archive); }, ErrorCode::raster_unreadable, "dem.zip");
+  }
+  write_bytes(archive, stored_zip({{"dem.tif", tif}, {"other.tif", tif}}));
+  testing::expect_error([&] { read_height_grid(archive); }, ErrorCode::raster_unreadable, "dem.zip");
+}
+
+/// No path on disk begins as GDAL's names for what is no file; and a folder may have such a name.
+TEST(RasterFiles, PathsAreNoNamesOfGdal) {
+  for (const std::string path : {"/vsicurl/http://a/dem.tif", "/vsizip/dem.zip/dem.tif", "/vsite/dem.tif"}) {
+    EXPECT_FALSE(path_on_disk(path).starts_with("/vsi"));
+    EXPECT_EQ(fs::path(path_on_disk(path)).lexically_normal(), fs::path(path));
+  }
+  EXPECT_EQ(path_on_disk("/home/vsi/dem.tif"), "/home/vsi/dem.tif");
 }
 
 TEST(RasterFiles, AHeaderAloneIsNoRaster) {

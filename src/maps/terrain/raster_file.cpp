@@ -1,11 +1,11 @@
 #include "maps/terrain/raster_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "vantage/error.h"
 
@@ -18,12 +18,14 @@ using namespace gdal_values;
 
 constexpr double kUsualVoids[] = {-9999, -32768};  // what files use for "no value", often without declaring it
 
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+std::string in_lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
 }
+
+std::string lower_extension(const fs::path& file) { return in_lower_case(file.extension().string()); }
 
 void check_regular(const fs::path& file) {
   std::error_code error;
@@ -41,56 +43,92 @@ const GdalLibrary& library_for(const fs::path& file) {
   return gdal(file);
 }
 
-// What a file beside a raster says of its heights: without it they would be read wrong.
-constexpr std::string_view kOfHeights[] = {"<NoDataValue", "<Offset", "<Scale", "<UnitType"};
+// What a file beside a raster says of its heights or of its place: without it they would be read wrong. GDAL reads
+// elements, and names of files, in any case.
+constexpr std::string_view kThatCount[] = {"nodatavalue", "offset", "scale", "unittype", "srs", "geotransform"};
+constexpr std::size_t kMostMetadata = std::size_t{1} << 20U;
 
-/// Masks, overviews and metadata in files of their own are not read: GDAL opens them by any driver that knows them.
-void check_beside(const fs::path& file) {
-  const fs::path mask = file.string() + ".msk", metadata = file.string() + ".aux.xml";
-  const std::string where = file.string(), fix = "write it into the raster, as gdal_translate does: gdal_translate " +
-                                                 file.filename().string() +
-                                                 " new.tif --config GDAL_TIFF_INTERNAL_MASK YES";
-  std::error_code error;
-  if (fs::exists(mask, error)) {
-    throw Error(ErrorCode::raster_unreadable,
-                "the raster has its mask in a file of its own, which is not read: " + mask.filename().string(), where,
-                fix);
-  }
-  std::string text(std::size_t{1} << 20U, '\0');
+[[noreturn]] void refuse_for_beside(const fs::path& file, const std::string& what, const std::string& beside) {
+  throw Error(ErrorCode::raster_unreadable,
+              "the raster has " + what + " in a file of its own, which is not read: " + beside, file.string(),
+              "write it into the raster, as gdal_translate does: gdal_translate " + file.filename().string() +
+                  " new.tif --config GDAL_TIFF_INTERNAL_MASK YES");
+}
+
+/// Refuses a .aux.xml that says what counts.
+void check_metadata(const fs::path& file, const fs::path& metadata) {
+  std::string text(kMostMetadata + 1, '\0');
   std::ifstream stream(metadata, std::ios::binary);
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
-  for (const std::string_view element : kOfHeights) {
-    if (text.find(element) == std::string::npos) continue;
-    throw Error(ErrorCode::raster_unreadable,
-                "the raster has " + std::string(element.substr(1)) +
-                    " in a file of its own, which is not read: " + metadata.filename().string(),
-                where, fix);
+  if (text.size() > kMostMetadata) refuse_for_beside(file, "more than 1 MiB of metadata", metadata.filename().string());
+  const std::string lower = in_lower_case(text);
+  for (const std::string_view element : kThatCount) {
+    const std::size_t at = lower.find("<" + std::string(element));
+    if (at != std::string::npos) {
+      refuse_for_beside(file, text.substr(at + 1, element.size()), metadata.filename().string());
+    }
   }
 }
 
-/// The only file in an archive that may be a raster, by its extension.
-std::string raster_in_archive(const GdalLibrary& library, const std::string& archive) {
+/// Masks, overviews and metadata in files of their own are not read: GDAL opens them by any driver that knows them.
+void check_beside(const fs::path& file) {
+  const std::string own = in_lower_case(file.filename().string());
+  std::error_code error;
+  const fs::path folder = fs::absolute(file).parent_path();
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string(), lower = in_lower_case(name);
+    if (lower == own + ".msk") refuse_for_beside(file, "its mask", name);
+    if (lower == own + ".aux.xml") check_metadata(file, entry->path());
+  }
+  if (!error) return;
+  // A folder that may be passed through and not be listed.
+  if (fs::exists(file.string() + ".msk", error)) refuse_for_beside(file, "its mask", file.filename().string() + ".msk");
+  check_metadata(file, file.string() + ".aux.xml");
+}
+
+/// The only file in an archive that may be a raster, by its extension. What lies beside it there is not looked into.
+std::string raster_in_archive(const GdalLibrary& library, const fs::path& file, const std::string& archive) {
   const std::unique_ptr<char*, void (*)(char**)> names(library.VSIReadDir(archive.c_str()), library.CSLDestroy);
+  std::vector<std::string> rasters;
   for (char* const* name = names.get(); name && *name; ++name) {
     const std::string extension = lower_extension(*name);
     if (extension == ".hgt" || extension == ".tif" || extension == ".tiff" || extension == ".asc") {
-      return archive + "/" + *name;
+      rasters.emplace_back(*name);
     }
   }
-  return archive;
+  if (rasters.size() > 1) {
+    throw Error(
+        ErrorCode::raster_unreadable,
+        "the archive has several rasters: " + rasters[0] + ", " + rasters[1] + (rasters.size() > 2 ? ", ..." : ""),
+        file.string(), "unpack it, and give one of them");
+  }
+  if (rasters.empty()) return archive;
+  const std::string own = in_lower_case(rasters[0]);
+  for (char* const* name = names.get(); *name; ++name) {
+    const std::string lower = in_lower_case(*name);
+    if (lower != own + ".msk" && lower != own + ".aux.xml") continue;
+    throw Error(ErrorCode::raster_unreadable,
+                "the archive has a file beside the raster, which is not read: " + std::string(*name), file.string(),
+                "unpack it, and give the raster");
+  }
+  return archive + "/" + rasters[0];
 }
 
 /// GDAL's name of a file: absolute, so that none is taken for something else (a subdataset, a database).
 std::string gdal_name(const GdalLibrary& library, const fs::path& file) {
-  std::string path = fs::absolute(file).string();
+  const std::string path = path_on_disk(fs::absolute(file).string());
   const std::string extension = lower_extension(file);
-  if (extension == ".zip") return raster_in_archive(library, "/vsizip/" + path);
+  if (extension == ".zip") return raster_in_archive(library, file, "/vsizip/" + path);
   if (extension == ".gz") return "/vsigzip/" + path;
   return path;
 }
 
 }  // namespace
+
+std::string path_on_disk(const std::string& absolute) {
+  return absolute.starts_with("/vsi") ? "/." + absolute : absolute;
+}
 
 void DatasetCloser::operator()(void* dataset) const {
   const GdalCalls calls(*library);
@@ -120,9 +158,6 @@ void RasterFile::open() {
   const GdalCalls calls(library_);
   check_beside(file_);
   const std::string name = gdal_name(library_, file_);
-  if (fs::absolute(file_).string().starts_with("/vsi")) {  // GDAL's names for what is no file
-    fail(ErrorCode::raster_unreadable, "the folder has a name of GDAL's own", "move the raster to another folder");
-  }
   dataset_ = {library_.GDALOpenEx(name.c_str(), kOpenRaster | kOpenVerbose, kRasterDrivers, nullptr, nullptr),
               DatasetCloser{&library_}};
   if (!dataset_) {
@@ -166,11 +201,12 @@ void RasterFile::read_georeference() {
   if (!placed && !system) {
     fail(ErrorCode::not_georeferenced, "the raster does not say where on the earth it lies",
          "give a georeferenced one, or assign its place and its "
-         "system with gdal_translate -a_ullr and -a_srs");
+         "system with gdal_translate -a_ullr and -a_srs; a world file (.tfw) beside it is not read");
   }
   if (!placed) {
     fail(ErrorCode::not_georeferenced, "the raster does not say where its corner lies",
-         "assign it with gdal_translate -a_ullr");
+         "assign it with gdal_translate -a_ullr; without it gdal_translate in.tif out.tif takes the place from a world "
+         "file (.tfw) beside the raster, which is not read here");
   }
   if (!system) {
     fail(ErrorCode::crs_missing, "the raster has no coordinate reference system",

@@ -14,6 +14,10 @@
 
 namespace vantage::internal::terrain {
 
+/// An absolute path so that GDAL takes it for nothing but a file on disk: what begins with "/vsi", as in /vsicurl/, are
+/// its names for other things.
+std::string path_on_disk(const std::string& absolute);
+
 struct DatasetCloser {
   const GdalLibrary* library = nullptr;
   void operator()(void* dataset) const;
