@@ -173,6 +173,20 @@ TEST(RasterScene, RefusesWhatMakesNoScene) {
             ErrorCode::region_outside);  // the other way round
 }
 
+/// Pixels that a wrong header makes too small or too large for a scene.
+TEST(RasterScene, PostsMustLieSideBySide) {
+  const testing::TemporaryDirectory folder;
+  TestRaster small = make_raster(12, 10, block);
+  small.transform = {500000, 1e-5, 0, 5000000, 0, -1e-5};
+  TestRaster world = make_raster(36, 18, block);
+  world.srs = "EPSG:4326";
+  world.transform = {-180, 10, 0, 90, 0, -10};
+  for (const TestRaster& raster : {small, world}) {
+    const auto file = write_raster(folder.path(), "dsm", raster);
+    testing::expect_error([&] { scene_from_raster(file, {}); }, ErrorCode::raster_grid_unsupported, "dsm.tif");
+  }
+}
+
 TEST(RasterScene, SurfaceOfDelft) {
   VANTAGE_REQUIRE_SHARED("dsm/delft-dsm-0.5m.tif");
   for (const char* file : {"dsm/delft-dsm-0.5m.tif", "dsm/delft-dtm-0.5m.tif", "dsm/dsm.tif"}) {

@@ -99,6 +99,22 @@ std::vector<Vec3> posts_of(const HeightGrid& grid, const geo::LocalFrame& frame)
   return posts;
 }
 
+/// Posts are right to 0.1 mm: nearer to each other than a millimetre, their order is not known.
+void check_spacing(const HeightGrid& grid, const std::vector<Vec3>& posts, const fs::path& file) {
+  constexpr double kLeastM = 1e-3;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto is_near = [&](std::size_t a, std::size_t b) {
+    return (posts[a] - posts[b]).head<2>().squaredNorm() < kLeastM * kLeastM;
+  };
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    const bool has_right = (i + 1) % columns != 0, has_next_row = i + columns < posts.size();
+    if ((has_right && is_near(i, i + 1)) || (has_next_row && is_near(i, i + columns))) {
+      refuse(ErrorCode::raster_grid_unsupported, "posts of the raster are less than a millimetre apart", file,
+             "check the size of its pixels and its reference system; at a pole give a region without it");
+    }
+  }
+}
+
 /// Indices of the outermost posts, counter-clockwise seen from above when the rows run south and the columns east.
 std::vector<std::uint32_t> border_of(const HeightGrid& grid) {
   const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
@@ -134,7 +150,7 @@ Mesh every_post(const HeightGrid& grid, std::vector<Vec3> posts) {
 
 /// The facets inside the border, whose posts are the vertices that follow the four corners of the network: all that
 /// cannot be reached from those without crossing it.
-std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size) {
+std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size, const fs::path& file) {
   const auto& facets = tin.facets();
   const auto on_border = [&](std::uint32_t from, std::uint32_t to) {
     if (from < 4 || to < 4 || from >= 4 + border_size || to >= 4 + border_size) return false;
@@ -164,13 +180,14 @@ std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size) {
     }
   }
   if (crossings != border_size) {
-    throw Error(ErrorCode::internal_defect, "the border of a raster is not among the edges of its triangles", "terrain",
-                "");
+    refuse(ErrorCode::raster_grid_unsupported,
+           "the posts of the raster do not lie side by side: it goes round a pole or half the earth", file,
+           "give a smaller region, with --center and --radius, or check the size of its pixels");
   }
   return inside;
 }
 
-Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double max_error_m,
+Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double max_error_m, const fs::path& file,
                 const core::ProgressReporter& progress) {
   Box box;
   for (const Vec3& post : posts) box.extend(post);
@@ -189,7 +206,7 @@ Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double m
   }
   tin.add_candidates(candidates);
   grow(tin, max_error_m, progress);
-  return mesh_of(tin, inside_border(tin, static_cast<std::uint32_t>(border.size())));
+  return mesh_of(tin, inside_border(tin, static_cast<std::uint32_t>(border.size()), file));
 }
 
 }  // namespace
@@ -210,6 +227,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   internal::core::ProgressReporter progress(callback, file);
   progress.begin("triangulating the surface");
   std::vector<Vec3> posts = posts_of(grid, frame);
+  check_spacing(grid, posts, file);
 
   RasterScene result;
   result.report.columns = static_cast<std::size_t>(grid.columns);
@@ -220,7 +238,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   result.report.highest_m = static_cast<double>(*highest);
   Scene& scene = result.scene;
   if (options.max_error_m > 0) {
-    const TriangulatedTerrain surface(simplified(grid, posts, options.max_error_m, progress));
+    const TriangulatedTerrain surface(simplified(grid, posts, options.max_error_m, file, progress));
     result.report.largest_error_m = largest_error(surface, posts);
     scene.mesh = surface.mesh();
   } else {
