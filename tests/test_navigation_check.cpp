@@ -76,6 +76,10 @@ std::vector<WrongLimit> wrong_limits() {
   zone(zone_of(bow_tie, 0, 5), ErrorCode::zone_not_simple);
   zone(zone_of({{0, 0}, {1, 0}}, 0, 5), ErrorCode::zone_not_simple);
   zone(zone_of({{0, 0}, {9, 0}, {9, kNaN}}, 0, 5), ErrorCode::coordinate_not_finite);
+  add("zones", ErrorCode::value_out_of_range, [&](Navigation& n) {
+    n.keep_in_zones.assign(Navigation::kMostZones / 2, zone_of(square, 0, 5));
+    n.keep_out_zones.assign(Navigation::kMostZones / 2 + 1, zone_of(square, 0, 5));
+  });
   Zone above = zone_of(square, 0, 50);
   above.above_ground = AboveGround{9, 5, {0, nullptr}};
   zone(above, ErrorCode::limits_reversed);

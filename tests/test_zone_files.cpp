@@ -453,6 +453,29 @@ TEST(ZoneFiles, SayWhenLongitudeAndLatitudeSeemSwapped) {
   }
 }
 
+// 100,000 would take minutes. Those out of reach do not count.
+TEST(ZoneFiles, TooManyZonesAreRefused) {
+  const ZoneMission mission;
+  const auto zones = [](std::size_t count, double latitude) {
+    std::string list;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = 11 + 1e-6 * static_cast<double>(i % 100), y = latitude + 1e-6 * static_cast<double>(i / 100);
+      const auto place = [](double longitude, double north) {
+        return "[" + shortest(longitude) + ", " + shortest(north) + "]";
+      };
+      list +=
+          (i == 0 ? "" : ", ") + feature("{\"type\": \"Polygon\", \"coordinates\": [[" + place(x, y) + ", " +
+                                         place(x + 5e-7, y) + ", " + place(x, y + 5e-7) + ", " + place(x, y) + "]]}");
+    }
+    return list;
+  };
+  const std::string limits = "keep_out: [{file: zones.json, heights: any}]";
+  mission.write("zones.json", collection(zones(Navigation::kMostZones + 1, 48)));
+  expect_error([&] { mission.resolve(limits); }, ErrorCode::value_out_of_range, "zones.json");
+  mission.write("zones.json", collection(zones(Navigation::kMostZones + 1, 52) + ", " + feature(polygon())));
+  EXPECT_EQ(mission.resolve(limits).navigation.keep_out_zones.size(), 1u);
+}
+
 // A side along a parallel leaves the chord between its corners by 48 km.
 TEST(ZoneFiles, LongSidesThatCurveTowardsTheSceneCount) {
   const ZoneMission mission;

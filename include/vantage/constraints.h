@@ -79,6 +79,8 @@ struct Navigation {
   std::optional<AboveGround> above_ground = {};
   std::optional<Clearance> clearance = {};
 
+  static constexpr std::size_t kMostZones = 10'000;  ///< to stay in and out of, together: 100,000 would take minutes
+
   bool empty() const {
     return !altitude && keep_in.empty() && keep_in_zones.empty() && keep_out.empty() && keep_out_zones.empty() &&
            meshes.empty() && !above_ground && !clearance;

@@ -283,6 +283,10 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
     for (int i = 2; !names.insert(zone.name).second; ++i) zone.name = name + " (" + std::to_string(i) + ")";
     if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
     zones.push_back(std::move(zone));
+    const Navigation& all = mission_.navigation;
+    if (const auto fault = core::fault_of_count(all.keep_in_zones.size() + all.keep_out_zones.size())) {
+      fail(fault->code, "", fault->problem, fault->fix);
+    }
     ++taken;
   }
   if (taken == 0 && far > 0) {

@@ -85,6 +85,8 @@ std::vector<Mesh> checked_navigation(const Navigation& navigation, const Progres
   if (clearance) check_clearance(*clearance);
   check_boxes(keep_in, "keep_in");
   check_boxes(keep_out, "keep_out");
+  refuse(fault_of_count(keep_in_zones.size() + keep_out_zones.size()), "navigation",
+         "navigation");  // before their work
   check_zones(keep_in_zones, "keep_in_zones");
   check_zones(keep_out_zones, "keep_out_zones");
   std::vector<Mesh> checked;

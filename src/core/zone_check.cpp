@@ -161,6 +161,14 @@ std::optional<LimitFault> fault_of_nesting(const Zone& zone) {
 
 }  // namespace
 
+std::optional<LimitFault> fault_of_count(std::size_t zones) {
+  if (zones <= Navigation::kMostZones) return std::nullopt;
+  return LimitFault{
+      ErrorCode::value_out_of_range,
+      "there are more than " + std::to_string(Navigation::kMostZones) + " zones, the most that are possible",
+      "give the zones near the target alone, join those that touch, or ask for a shorter range"};
+}
+
 std::optional<LimitFault> fault_of(const Zone& zone) {
   if (auto fault = fault_of_heights(zone)) return fault;
   if (auto fault = fault_of_ring(zone.outer, 0)) return fault;

@@ -1,6 +1,7 @@
 // Whether a zone is one: a simple polygon, apart from its holes, between two heights.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "core/limit_check.h"
@@ -11,5 +12,8 @@ namespace vantage::internal::core {
 /// What is wrong with a zone first. Sides that pass each other within rounding count as touching. Cost: O(n log n) in
 /// the corners where sides are short, O(n^2) at worst.
 std::optional<LimitFault> fault_of(const Zone& zone);
+
+/// That there are more zones than Navigation::kMostZones.
+std::optional<LimitFault> fault_of_count(std::size_t zones);
 
 }  // namespace vantage::internal::core
