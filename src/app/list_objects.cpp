@@ -7,7 +7,6 @@
 #include "app/named_objects.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
-#include "vantage/json.h"
 #include "vantage/objects.h"
 
 namespace vantage {
@@ -61,23 +60,14 @@ class Pattern {
   bool is_glob_;
 };
 
-/// As YAML, in quotes where that is needed.
-std::string yaml_text(const std::string& text) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '_';
-  };
-  const bool begins_with_letter = !text.empty() && (text[0] < '0' || text[0] > '9') && text[0] != '/';
-  const bool is_word = begins_with_letter && text != "null" && text != "true" && text != "false";
-  return is_word && std::all_of(text.begin(), text.end(), is_plain) ? text : json_text(std::string_view{text});
-}
-
 std::string mission_of(const LoadedScene& loaded, const SceneObject& object) {
   const std::string& known_as = object.source_id.empty() ? object.name : object.source_id;
   if (object.kind == ObjectKind::ground || object.kind == ObjectKind::surface) {
-    return "navigation: {ground: " + yaml_text(known_as) + "}";
+    return "navigation: {ground: " + internal::app::yaml_text(known_as) + "}";
   }
   const bool is_of_map = loaded.city && !object.source_id.empty();
-  return std::string("target: {") + (is_of_map ? "osm: " : "object: ") + yaml_text(known_as) + ", part: roof}";
+  return std::string("target: {") + (is_of_map ? "osm: " : "object: ") + internal::app::yaml_text(known_as) +
+         ", part: roof}";
 }
 
 }  // namespace

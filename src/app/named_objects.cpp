@@ -5,6 +5,7 @@
 
 #include "vantage/error.h"
 #include "vantage/input.h"
+#include "vantage/json.h"
 
 namespace vantage::internal::app {
 
@@ -15,6 +16,15 @@ std::vector<std::uint32_t> objects_named(const Scene& scene, const std::string& 
     if (object.name == name || object.source_id == name || display_name(object) == name) found.push_back(i);
   }
   return found;
+}
+
+std::string yaml_text(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '_';
+  };
+  const bool begins_with_letter = !text.empty() && (text[0] < '0' || text[0] > '9') && text[0] != '/';
+  const bool is_word = begins_with_letter && text != "null" && text != "true" && text != "false";
+  return is_word && std::all_of(text.begin(), text.end(), is_plain) ? text : json_text(std::string_view{text});
 }
 
 bool is_same_name(const std::string& a, const std::string& b) {

@@ -13,6 +13,9 @@ namespace vantage::internal::app {
 /// Indices of the objects whose name, source_id or display name it is.
 std::vector<std::uint32_t> objects_named(const Scene& scene, const std::string& name);
 
+/// A text as YAML, in quotes where that is needed.
+std::string yaml_text(const std::string& text);
+
 /// Whether two names are equal but for the case of the letters a to z.
 bool is_same_name(const std::string& a, const std::string& b);
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/named_objects.h"
 #include "app/scene_warnings.h"
 #include "core/format.h"
 #include "geo/local_frame.h"
@@ -39,10 +40,15 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
 }
 
 std::string how_to_take_roof(const LoadedScene& loaded, std::uint32_t object, const Vec3& at) {
-  std::string target = "object: " + in_quotes(display_name(loaded.scene.objects[object]));
+  // The name as it is: cut short, or with a bracket outside of quotes, the mission would not find it.
+  const SceneObject& found = loaded.scene.objects[object];
+  const std::string& name = found.source_id.empty() ? found.name : found.source_id;
+  std::string target = "object: " + yaml_text(name);
   if (const auto& place = loaded.scene.georeference) {
     const geo::LonLat position = geo::LocalFrame({place->longitude_deg, place->latitude_deg}).to_lonlat(at.head<2>());
     target = core::format("at: [{:.6f}, {:.6f}]", position.latitude_deg, position.longitude_deg);
+  } else if (name.empty() || objects_named(loaded.scene, name).size() > 1) {
+    return "for its roof give the vertices of that: no name tells it from other objects";
   }
   return "for its roof write 'target: {" + target + ", part: roof}'";
 }
