@@ -193,7 +193,7 @@ TEST_F(MissionWarnings, HousesAloneOnTheirSideAreTold) {
   for (int i = 0; i < 12; ++i) {
     for (int j = 0; j < 6; ++j) {
       const double height = i == 3 && j == 2 ? 32 : random.uniform(8, 24);
-      houses.box({31.0 * i, 30.0 * j, height / 2}, {8, 6, height / 2}, random.uniform(-3, 3));
+      houses.box({32.0 * i, 30.0 * j, height / 2}, {8, 6, height / 2}, random.uniform(-3, 3));  // 368 m long
     }
   }
   const std::string target = vertices(square(4, {15, 15, 40}));
@@ -208,6 +208,7 @@ TEST_F(MissionWarnings, HousesAloneOnTheirSideAreTold) {
   loaded.scene = read_scene(folder_ / "scene.obj");
   const std::vector<std::string> noted = notes_of(loaded);
   EXPECT_EQ(std::count(noted.begin(), noted.end(), lying[0].text), 1);
+  EXPECT_EQ(notes_of(loaded), noted);  // kept from the first time
 
   Boxes row;  // a street front: long, and higher than deep
   for (int i = 0; i < 10; ++i) row.box({10.0 * i, 0, 15}, {5, 6, 15 - 0.3 * (i % 3)});
@@ -228,11 +229,47 @@ TEST_F(MissionWarnings, ATargetInsideAHouseIsTold) {
       testing::expect_wording(inside[0].text);
     }
   }
+  // Some of it: the middle is outside.
+  notes(obj, "point: [0, 0, 2]", 40);
+  write_bytes(folder_ / "mission.yaml",
+              "scene: {mesh: scene.obj}\ntarget: {" + vertices(square(4, {28, 0, 4})) + "}\nsensor: {max_range: 40}\n");
+  const std::vector<Warning> some = mission_warnings(resolve_mission(read_mission(folder_ / "mission.yaml")), nullptr);
+  ASSERT_EQ(some.size(), 1u);
+  EXPECT_EQ(some[0].code, WarningCode::target_inside);
+  testing::expect_wording(some[0].text);
   // On its roof, before its wall, and beside it.
   EXPECT_TRUE(notes(obj, vertices(square(2, {20, 0, 10})), 40).empty());
   EXPECT_TRUE(
       notes(obj, vertices({{14, -2, 2}, {14, 2, 2}, {14, 2, 6}, {14, -2, 6}}) + ", front: [-1, 0, 0]", 40).empty());
   EXPECT_TRUE(notes(obj, "point: [0, 0, 2]", 40).empty());
+}
+
+/// What the note says to write is run, whatever the object is called.
+TEST_F(MissionWarnings, TheAdviceForARoofCanBeFollowed) {
+  Boxes boxes;
+  boxes.ground(60);
+  boxes.box({20, 0, 5}, {6, 6, 5});
+  for (const std::string name :
+       {"house", "it's \"A\", [no] {map}: #1", "12", "no",
+        "a house with a name that is longer than what messages show of names, which is no more than sixty bytes"}) {
+    for (const std::string place : {"", ", origin: [48.0, 11.0]"}) {
+      SCOPED_TRACE(name + place);
+      std::string obj = boxes.text();
+      obj.insert(obj.find("\nf ", obj.find("\nf ") + 1) + 1, "o " + name + "\n");
+      const std::vector<Warning> inside = notes(obj, "point: [20, 0, 4]", 40, place);
+      ASSERT_EQ(inside.size(), 1u);
+      const std::size_t begin = inside[0].text.find("write '") + 7, end = inside[0].text.rfind('\'');
+      ASSERT_LT(begin, end) << inside[0].text;
+      const std::string target = inside[0].text.substr(begin, end - begin);
+      write_bytes(folder_ / "mission.yaml",
+                  "scene: {mesh: scene.obj" + place + "}\n" + target + "\nsensor: {max_range: 40}\n");
+      const Mission roof = resolve_mission(read_mission(folder_ / "mission.yaml"));
+      ASSERT_FALSE(roof.target.parts.empty()) << target;
+      for (const std::vector<Vec3>& part : roof.target.parts) {
+        for (const Vec3& vertex : part) EXPECT_NEAR(vertex.z(), 10, 1e-9) << target;
+      }
+    }
+  }
 }
 
 TEST_F(MissionWarnings, ALargePixelIsTold) {

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/combine_targets.h"
 #include "app/pierced_advice.h"
@@ -167,17 +169,33 @@ bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
   return inside;
 }
 
-/// That the target lies inside a closed object: what is seen of it from inside is computed, and seldom meant.
+/// That some of the target lies inside a closed object: what is seen of it from inside is computed, and seldom meant.
+/// Looks at the middle and the corners: who sees the whole target sees these.
 std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& target) {
-  constexpr double kClear = 1e-3;  // metres: it may lie on the object
+  constexpr double kClear = 1e-3;   // metres: it may lie on the object
+  constexpr double kWithin = 0.99;  // of the way to a corner: objects beside it may touch the target there
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
     const TargetFrame frame = make_target_frame(target, i);
-    const Vec3 at = frame.all_sides ? frame.origin : Vec3(frame.origin + kClear * frame.normal);
-    const auto object = object_round(loaded, at);
+    const Vec3 clear = frame.all_sides ? Vec3(Vec3::Zero()) : Vec3(kClear * frame.normal);
+    std::vector<Vec3> places = {frame.origin + clear};
+    for (const auto& corner : frame.polygon) {
+      places.push_back(frame.to_scene({kWithin * corner.x(), kWithin * corner.y(), 0}) + clear);
+    }
+    std::optional<std::uint32_t> object;
+    std::size_t inside = 0, first = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto found = object_round(loaded, places[k]);
+      if (!found || (object && *object != *found)) continue;
+      if (!object) first = k;
+      object = found;
+      ++inside;
+    }
     if (!object) continue;
     return Warning{WarningCode::target_inside,
-                   "the target lies inside " + in_quotes(display_name(loaded.scene.objects[*object])) +
-                       ", so that only positions inside it can see it; " + how_to_take_roof(loaded, *object, at)};
+                   (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
+                       in_quotes(display_name(loaded.scene.objects[*object])) +
+                       ", so no position outside that object sees all of it; " +
+                       how_to_take_roof(loaded, *object, places[first])};
   }
   return std::nullopt;
 }
@@ -191,7 +209,10 @@ struct Turned {
 
 std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at) {
   const Scene& scene = loaded.scene;
-  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
+  struct Count {
+    std::size_t above = 0, all = 0;
+  };
+  std::map<std::uint32_t, Count> counts;
   const auto is_in_plan = [&](const Box& box) {
     return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
   };
@@ -200,20 +221,23 @@ std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3&
     for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
     if (!holds(facet, at)) return true;
     const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
-    ++all[scene.object_of[i]];
-    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
+    Count& count = counts[scene.object_of[i]];
+    ++count.all;
+    count.above += normal.dot(at - facet[0]) * normal.z() < 0;
     return true;
   });
-  for (std::size_t object = 0; object < all.size(); ++object) {
-    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
+  for (const auto& [object, count] : counts) {
+    if (count.all % 2 == 0 && count.above % 2 == 1) return object;
   }
   return std::nullopt;
 }
 
+namespace {
+
 // Of cities the heights are the smallest of the three sizes, and either most of what there is faces up or down, or most
 // corners stand on one level: those of houses alone, without ground, whose walls are more than their roofs. A single
 // facade is like that too, on its side: but not so high, or not so deep.
-std::optional<Warning> on_its_side(const LoadedScene& loaded) {
+std::optional<Warning> found_on_its_side(const LoadedScene& loaded) {
   constexpr double kShare = 0.45, kMore = 3.5;             // real cities: 0.5 to 0.77, and 4 to 30 times the other two
   constexpr double kTooHigh = 100, kHigh = 20, kDeep = 3;  // metres
   constexpr double kLevel = 0.3, kNoLevel = 0.1;  // of the corners. Boxes on flat ground: 0.5, and 2 / their number
@@ -238,6 +262,12 @@ std::optional<Warning> on_its_side(const LoadedScene& loaded) {
                                                      turning_advice(scene)};
 }
 
+}  // namespace
+
+std::optional<Warning> on_its_side(const LoadedScene& loaded) {
+  return looked_up<Turned>(loaded, [&] { return std::make_shared<Turned>(Turned{found_on_its_side(loaded)}); }).warning;
+}
+
 std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume) {
   const LoadedScene& loaded = *mission.loaded;
   std::vector<Warning> warnings;
@@ -252,10 +282,10 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume
     }
   }
   if (!has_corners) return warnings;
-  const auto& side = looked_up<Turned>(loaded, [&] { return std::make_shared<Turned>(Turned{on_its_side(loaded)}); });
-  if (side.warning) warnings.push_back(*side.warning);
+  const std::optional<Warning> side = on_its_side(loaded);
+  if (side) warnings.push_back(*side);
   // A target on the ground was looked at before; where the scene lies on its side, nothing else is worth saying.
-  if (!side.warning && !mission.as_written.ground_target && !mission.target.parts.at(0).empty()) {
+  if (!side && !mission.as_written.ground_target && !mission.target.parts.at(0).empty()) {
     if (auto inside = inside_object(loaded, mission.target)) warnings.push_back(std::move(*inside));
   }
   if (away) {

@@ -16,10 +16,11 @@ namespace vantage::internal::app {
 std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume);
 
 /// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
-/// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
+/// and an even number in all, or else it is not closed there. Nothing where the point is in the open; nor, mostly,
+/// where houses and their ground are one object, which as a whole is not closed.
 std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at);
 
-/// Of these the one that tells that the scene seems to lie on its side, with what to do.
+/// Of these the one that tells that the scene seems to lie on its side, with what to do. Looked for once.
 std::optional<Warning> on_its_side(const LoadedScene& loaded);
 
 }  // namespace vantage::internal::app
