@@ -140,6 +140,11 @@ TEST(ReadScene, SaysWhatATilesetIs) {
   expect("tileset.json", begin + R"("children": [)");  // cut off
   expect("tile.b3dm", std::string("b3dm\1\0\0\0\x1c\0\0\0", 12));
   expect("0.subtree", std::string("subt\1\0\0\0", 8));
+  // Of these there is no GLB to take.
+  expect("points.pnts", std::string("pnts\1\0\0\0\x1c\0\0\0", 12));
+  expect("trees.i3dm", std::string("i3dm\1\0\0\0\x20\0\0\0", 12));
+  expect("several.cmpt", std::string("cmpt\1\0\0\0\x10\0\0\0", 12));
+  expect("tileset.json", begin + R"("content": {"uri": "a.pnts"}}})");
 }
 
 TEST(ReadScene, StopsDecompressionThatGrowsTooMuch) {

@@ -11,8 +11,6 @@
 namespace vantage::internal::io {
 namespace {
 
-constexpr std::array<std::string_view, 5> kContainers = {"b3dm", "i3dm", "cmpt", "pnts", "subt"};
-
 /// The files that a tile names.
 std::vector<std::string> contents_of(const nlohmann::json& tile) {
   std::vector<std::string> found;
@@ -47,31 +45,46 @@ std::optional<std::string> content_with(const nlohmann::json& root, std::initial
   return std::nullopt;
 }
 
+struct TileKind {
+  std::string_view magic, ending;
+  const char* advice;
+};
+constexpr std::array<TileKind, 5> kTileKinds = {{
+    {"b3dm", ".b3dm", "take the GLB out of the tile: 3d-tiles-tools b3dmToGlb -i TILE.b3dm -o tile.glb"},
+    {"cmpt", ".cmpt", "take the GLBs out of the tile: 3d-tiles-tools cmptToGlb -i TILE.cmpt -o tile.glb"},
+    {"i3dm", ".i3dm", "it holds copies of one model: export them as one mesh from the program that made them"},
+    {"pnts", ".pnts", "it is a cloud of points, without surfaces: make a mesh of it"},
+    {"subt", ".subtree", "it only says which tiles there are: give one of these, as GLB"},
+}};
+
 std::string advice_of(const MeshSource& source) {
-  constexpr const char* kConvert = "take the GLB out of a tile: 3d-tiles-tools b3dmToGlb -i TILE.b3dm -o tile.glb";
-  if (is_tile(source.bytes())) return kConvert;
+  for (const TileKind& kind : kTileKinds) {
+    if (source.bytes().starts_with(kind.magic)) return kind.advice;
+  }
+  const std::string convert = std::string("give one of its tiles, as GLB; of b3dm: ") + kTileKinds[0].advice;
   try {
     const nlohmann::json tileset = parse_json(source.bytes(), {}, {});
     const auto root = tileset.find("root");
-    if (root == tileset.end()) return kConvert;
+    if (root == tileset.end()) return convert;
     if (const auto mesh = content_with(*root, {".glb", ".gltf"})) {
       return "give one of the tiles that it names, such as " + in_quotes(*mesh);
     }
-    if (const auto tile = content_with(*root, {".b3dm"})) {
-      return "take the GLB out of a tile that it names, such as " + in_quotes(*tile) +
-             ": 3d-tiles-tools b3dmToGlb -i TILE.b3dm -o tile.glb";
+    for (const TileKind& kind : kTileKinds) {
+      if (const auto tile = content_with(*root, {kind.ending})) {
+        return "it names " + in_quotes(*tile) + "; " + kind.advice;
+      }
     }
   } catch (const JsonProblem&) {  // it is cut off: the advice need not name a tile
   }
-  return kConvert;
+  return convert;
 }
 
 }  // namespace
 
 bool is_tile(std::string_view bytes) {
-  for (const std::string_view magic : kContainers) {
+  for (const TileKind& kind : kTileKinds) {
     // A version in four bytes: a text that begins with these letters has none.
-    if (bytes.starts_with(magic) && bytes.size() >= 8 && bytes[5] == 0 && bytes[6] == 0) return true;
+    if (bytes.starts_with(kind.magic) && bytes.size() >= 8 && bytes[5] == 0 && bytes[6] == 0) return true;
   }
   return false;
 }
