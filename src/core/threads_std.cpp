@@ -4,7 +4,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -70,7 +69,8 @@ class Helpers {
           const Member member(crew_);
           work();
         });
-      } catch (const std::system_error&) {  // the system gives no more: the work is done by those that there are
+      } catch (
+          ...) {  // the system gives no more threads, or no memory for one: the work is done by those that there are
         --crew_.at_work;
         return;
       }
