@@ -1,6 +1,7 @@
 // Text from files and arguments as it may be shown: no byte of it acts on a terminal, or on the order of what is read.
 #include <algorithm>
 
+#include "core/characters.h"
 #include "vantage/input.h"
 
 namespace vantage {
@@ -30,18 +31,12 @@ std::size_t utf8_length(std::string_view text) {
   return wrong ? 0 : length;
 }
 
-/// C0, DEL and C1: a terminal obeys them.
-bool is_control(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character[0]);
-  if (character.size() == 1) return first < 0x20 || first == 0x7f;
-  return character.size() == 2 && first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
-}
-
-/// U+2028 to U+202E and U+2066 to U+2069: separators of lines, and what turns the order of the characters that follow.
-bool is_reordering(std::string_view character) {
-  if (character.size() != 3 || character[0] != '\xe2') return false;
-  const auto second = static_cast<unsigned char>(character[1]), third = static_cast<unsigned char>(character[2]);
-  return (second == 0x80 && third >= 0xa8 && third <= 0xae) || (second == 0x81 && third >= 0xa6 && third <= 0xa9);
+/// Of one character, which is UTF-8.
+unsigned code_of(std::string_view character) {
+  const auto lead = static_cast<unsigned char>(character[0]);
+  unsigned code = character.size() == 1 ? lead : lead & (0x7fU >> character.size());
+  for (const char byte : character.substr(1)) code = code << 6U | (static_cast<unsigned char>(byte) & 0x3fU);
+  return code;
 }
 
 }  // namespace
@@ -57,10 +52,10 @@ std::string printable(std::string_view text) {
     if (length == 0 && byte >= 0xa0) {  // taken as Latin-1
       shown += static_cast<char>(0xc0 | (byte >> 6));
       shown += static_cast<char>(0x80 | (byte & 0x3f));
-    } else if (length == 0 || is_control(character)) {
+    } else if (length == 0 || internal::core::is_control(code_of(character))) {
       shown += ' ';
     } else {
-      shown += is_reordering(character) ? kReplacement : character;
+      shown += internal::core::is_reordering(code_of(character)) ? kReplacement : character;
     }
     text.remove_prefix(character.size());
   }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/characters.h"
 #include "core/format.h"
 #include "vantage/input.h"
 
@@ -42,9 +43,8 @@ std::string escaped_json(const std::string& json) {
     const unsigned code = first == 0x7f   ? first
                           : first == 0xc2 ? second
                                           : 0x2000U | (second & 0x3fU) << 6U | (third & 0x3fU);
-    const bool is_control = code >= 0x7f && code < 0xa0;
-    const bool is_reordering = (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
-    if (!is_control && !is_reordering) continue;
+    // Below U+0020 none begin with these bytes.
+    if (!is_control(code) && !is_reordering(code)) continue;
     escaped.append(json, copied, at - copied).append(format("\\u{:04x}", code));
     copied = at + (first == 0x7f ? 1 : first == 0xc2 ? 2 : 3);
   }
