@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json_text.h"
 #include "io/lod.h"
 #include "support/mesh_reading.h"
 #include "support/objects.h"
@@ -374,6 +375,26 @@ TEST(ReadCityJson, KeepsWithinItsLimits) {
   expect_error([&] { io::read_cityjson(source, progress, limits); }, ErrorCode::mesh_too_large, "surface 0");
   limits = {};
   limits.json_values = 20;
+  expect_error([&] { io::read_cityjson(source, progress, limits); }, ErrorCode::mesh_syntax, "a.city.json");
+}
+
+/// Of what is parsed, empty lists take most memory for a byte of text, then empty texts.
+TEST(ReadCityJson, TheMemoryOfItsJsonIsBounded) {
+  const core::ProgressReporter progress;
+  for (const std::string part : {"[],", "{\"\":{\"\":0}},", "\"\",", "0.5,"}) {
+    SCOPED_TRACE(part);
+    std::string text = "[";
+    for (int i = 0; i < 10000; ++i) text += part;
+    text += "0]";
+    core::ReadLimits limits;
+    limits.json_bytes = 300'000;
+    EXPECT_THROW(io::parse_json(text, progress, limits), io::JsonProblem);
+    limits.json_bytes = 5'000'000;
+    EXPECT_EQ(io::parse_json(text, progress, limits).size(), 10001u);
+  }
+  core::ReadLimits limits;
+  limits.json_bytes = 500;
+  const io::MeshSource source("a.city.json", document().dump());
   expect_error([&] { io::read_cityjson(source, progress, limits); }, ErrorCode::mesh_syntax, "a.city.json");
 }
 
