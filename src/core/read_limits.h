@@ -12,9 +12,9 @@ struct ReadLimits {
   /// Decompressed bytes of one file. A whole city of 100 million triangles is about 4 GB as OBJ.
   std::uint64_t decompressed_bytes = std::uint64_t{4} << 30;
 
-  /// gzip makes up to a thousand bytes of one, meshes of real places 3 to 10. Of a file of n bytes at most 64 MiB + 32
-  /// n are decompressed, so that a mesh of these takes a tenth of a gigabyte and some hundred bytes for each of its
-  /// own.
+  /// gzip can make a thousand bytes of one. Meshes of real places become 3 to 10 times as large. Of a file of n bytes
+  /// at most 64 MiB + 32 n are decompressed. So the memory that reading takes has a bound in proportion to n, beside
+  /// that for the 64 MiB.
   std::uint64_t most_decompressed(std::uint64_t compressed) const {
     return std::min(decompressed_bytes, (std::uint64_t{64} << 20) + 32 * compressed);
   }

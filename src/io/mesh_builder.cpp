@@ -8,6 +8,7 @@
 #include "vantage/input.h"
 
 namespace vantage::internal::io {
+
 std::string clean_name(std::string_view name) {
   const std::string clean = printable(name);
   const std::size_t first = clean.find_first_not_of(' ');

@@ -168,10 +168,11 @@ std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& 
   const internal::core::CornerSlack slack{kStraight * extent + kCornerRounding * largest, kCornerRounding * extent};
   const auto is_corner = internal::core::find_corners(polygon, Vec3::UnitZ(), slack);
   if (!is_corner) {
-    refuse(ErrorCode::target_not_convex, target,
-           "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
-           "give the vertices in order round a convex polygon; of a concave one on the ground write 'outline: [[x, y], "
-           "...]' instead of 'vertices', of another one convex 'parts'");
+    refuse(
+        ErrorCode::target_not_convex, target,
+        "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
+        "give the vertices in order round a convex polygon; for a concave polygon on the ground write 'outline: [[x, "
+        "y], ...]' instead of 'vertices', for any other concave one several convex 'parts'");
   }
   std::vector<Vector2d> corners;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
