@@ -16,7 +16,8 @@ CALL = re.compile(r"\b(?:EXPECT|ASSERT)_\w+\s*\(")
 # Raw strings, strings and characters; comments are taken out before.
 STRING = re.compile(r'R"(\w*)\((.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"', re.DOTALL)
 COMMENT = re.compile(r'("(?:[^"\\\n]|\\.)*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
-WORD = re.compile(r"[A-Za-z]{2,}|\ba\b")
+# Names of files, keys and codes are not words.
+WORD = re.compile(r"(?<!\S)(?:[A-Za-z]{2,}|a)[.,;']?(?!\S)")
 
 
 def arguments_of(text: str, start: int) -> str:
