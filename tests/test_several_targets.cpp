@@ -556,6 +556,47 @@ TEST_F(SeveralTargets, WhatIsWrongWithOneDoesNotStopTheOthers) {
   testing::expect_code([&] { run_missions(all); }, ErrorCode::target_pierced, "mission.yaml:6:");
 }
 
+TEST_F(SeveralTargets, WhatIsWrongWithAllIsNoErrorOfEach) {
+  const Mission good = of("each", {kWest, kNorth});
+  const auto refuse = [&](auto change, ErrorCode code) {
+    Mission wrong = good;
+    change(wrong);
+    int volumes = 0;
+    const Progress told = [&](std::string_view stage, double) {
+      volumes += stage == "targets";
+      return true;
+    };
+    testing::expect_code([&] { try_missions(wrong, {}, told); }, code);
+    EXPECT_EQ(volumes, 0) << "no volume is computed before";
+  };
+  refuse([](Mission& mission) { mission.sensor.max_range_m = -1; }, ErrorCode::value_out_of_range);
+  refuse([](Mission& mission) { mission.navigation.clearance = Clearance{1, {}}; }, ErrorCode::nothing_given);
+  refuse(
+      [](Mission& mission) {
+        mission.as_written.method = Method::spheres;
+        mission.sensor.visible.emplace();
+      },
+      ErrorCode::not_applicable);
+}
+
+TEST_F(SeveralTargets, TheMethodOfSpheresIsRefusedOnceForAll) {
+  Mission wrong = of("each", {kWest, kNorth});
+  wrong.as_written.method = Method::spheres;
+  wrong.as_written.spheres.cubemap = -1;
+  testing::expect_code([&] { try_missions(wrong); }, ErrorCode::value_out_of_range);
+}
+
+TEST_F(SeveralTargets, TheWorkForOneTargetIsItsOwn) {
+  Mission all = of("each", {kWest, kNorth});
+  all.as_written.exact.work_limit = 1;
+  all.navigation.keep_out.emplace_back(Vec3(-20, -20, 5), Vec3(20, 20, 9));
+  for (const Attempt& attempt : try_missions(all)) {
+    ASSERT_TRUE(attempt.error);
+    EXPECT_EQ(attempt.error->code(), ErrorCode::work_too_large);
+    EXPECT_NE(attempt.error->where().find("mission.yaml:"), std::string::npos) << attempt.error->where();
+  }
+}
+
 TEST_F(SeveralTargets, AStopEndsAllAttempts) {
   const Mission all = of("each", {kWest, kNorth});
   int told = 0;

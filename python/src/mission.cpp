@@ -15,6 +15,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "errors.h"
+#include "vantage/constraints.h"
 #include "vantage/result.h"
 #include "volume.h"
 
@@ -115,13 +116,18 @@ nb::list try_each(const PyMission& mission, int threads, nb::object progress) {
   return made;
 }
 
-/// How many volumes a text asks for. Throws what is wrong with its targets: where they are, and where they are
-/// prepared.
-std::size_t check(const PyScene& scene, const std::string& text, const std::string& name, nb::object progress) {
+/// How many volumes a text asks for. Throws what is wrong with its limits and with its targets where they are;
+/// `prepares`: also what is found when these are prepared, which a run does again.
+std::size_t check(const PyScene& scene, const std::string& text, const std::string& name,
+                  const std::vector<MeshRow>& rows, bool prepares, nb::object progress) {
+  std::vector<KeepInMesh> meshes = keep_in_meshes(rows);
   return computed_here(std::move(progress), 0, [&](const Progress& told) {
     MissionFile file = read_mission_text(text, name, scene.source());
     file.sea_level_m = scene.sea_level_m();
-    const Mission mission = resolve_mission(file, scene.loaded(), told);
+    Mission mission = resolve_mission(file, scene.loaded(), told);
+    std::move(meshes.begin(), meshes.end(), std::back_inserter(mission.navigation.meshes));
+    check_navigation(mission.navigation, told);
+    if (!prepares) return volume_count(mission);
     const bool is_in_scene = mission.loaded == scene.loaded();
     const PreparedScene prepared = is_in_scene ? scene.prepared(told) : PreparedScene(mission.scene(), told);
     for (std::size_t i = 0; i < volume_count(mission); ++i) prepare_views(one_volume(mission, i), prepared);
@@ -198,7 +204,7 @@ void bind_mission(nb::module_& module) {
       .def("save", &save, "files"_a, "progress"_a = nb::none());
 
   module.def("resolve", &resolve, "scene"_a, "text"_a, "name"_a, "meshes"_a, "progress"_a = nb::none());
-  module.def("check", &check, "scene"_a, "text"_a, "name"_a, "progress"_a = nb::none());
+  module.def("check", &check, "scene"_a, "text"_a, "name"_a, "meshes"_a, "prepares"_a, "progress"_a = nb::none());
   module.def("read_mission", &read, "file"_a, "progress"_a = nb::none());
 }
 

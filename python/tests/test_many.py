@@ -1,16 +1,21 @@
 """Many targets: errors beside results, and one result for each target."""
 
 import math
+import random
+import re
+import types
 
 import numpy as np
 import pytest
-from conftest import PROJECT, SQUARE, yard
+from conftest import PROJECT, SQUARE, box
 
 import vantage as vt
 
 BENT = [[0, 0, 0], [9, 0, 0], [9, 9, 0], [8, 1, 0]]
 UNDER_THE_TOWER = [[21, 0, 0], [29, 0, 0], [29, 8, 0], [21, 8, 0]]
 THROUGH_IT = [[15, 0, 5], [25, 0, 5], [25, 10, 5]]
+OPEN = types.SimpleNamespace(vertices=box((0, 0, 0), (9, 9, 9))[0], faces=box((0, 0, 0), (9, 9, 9))[1][1:])
+"""A mesh with a hole, in memory: it is checked with the limits, not when it is read."""
 TOWN = PROJECT / "examples" / "town" / "town.osm"
 
 
@@ -44,10 +49,57 @@ def test_one_that_is_wrong_stops_all_unless_told_otherwise(scene):
     assert "errors='collect'" in raised.value.fix
     with pytest.raises(vt.Error) as raised:
         vt.compute_many(scene, [SQUARE, BENT, [[0, 0]]], max_range=60)
-    assert raised.value.where.startswith("targets[2]") or raised.value.where.startswith("targets[1]")
+    assert raised.value.where == "targets[2]" and raised.value.code == "array-sizes-differ"  # what is no target comes first
     with pytest.raises(vt.Error) as raised:
         vt.compute_many(scene, [SQUARE], max_range=60, errors="ignore")
     assert raised.value.where == "errors" and raised.value.code == "unknown-choice"
+
+
+def a_list_with_wrong_ones(seed):
+    """Targets, and the codes of those that are wrong, by their index: found in the arrays, where they are, and prepared."""
+    rng = random.Random(seed)
+    wrong = {"target-not-convex": BENT, "target-pierced": THROUGH_IT, "array-sizes-differ": [[0, 0]], "wrong-type": None}
+    targets, codes = [], {}
+    for number in range(12):
+        code = rng.choice(sorted(wrong)) if rng.random() < 0.5 else None
+        targets.append(beside(rng.uniform(-60, 60)) if code is None else wrong[code])
+        if code is not None:
+            codes[number] = code
+    return targets, codes
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_errors_are_at_the_index_of_their_target(scene, seed):
+    targets, codes = a_list_with_wrong_ones(seed)
+    results = vt.compute_many(scene, targets, max_range=60, errors="collect")
+    assert {number: error.code for number, error in results.errors.items()} == codes, seed
+    for number, error in results.errors.items():
+        assert error.where.startswith(f"targets[{number}]"), f"{seed}: {error}"
+    if codes:
+        with pytest.raises(vt.Error) as raised:
+            vt.compute_many(scene, targets, max_range=60)
+        number = int(re.match(r"targets\[(\d+)\]", raised.value.where)[1])
+        assert codes[number] == raised.value.code, f"{seed}: {raised.value}"
+
+
+def test_errors_of_all_together_are_at_the_index_too(scene, monkeypatch):
+    """A target that is right by itself, and wrong beside the others."""
+    resolve = vt._core.resolve
+
+    def picky(scene, text, name, meshes, progress=None):
+        lines = text.splitlines()
+        for number, line in enumerate(lines):
+            if "20.0, 25.0" in line and "combine" in text:
+                raise vt.InputError("input", "too-far-away", "it is wrong beside others", f"{name}:{number + 1}:3", "move it")
+        return resolve(scene, text, name, meshes, progress)
+
+    monkeypatch.setattr(vt._many._core, "check", lambda *arguments: 1)
+    monkeypatch.setattr(vt._result._core, "resolve", picky)
+    odd = [[20, 20, 0], [25, 20, 0], [20.0, 25.0, 0]]
+    results = vt.compute_many(scene, [SQUARE, None, odd, beside(0), odd], max_range=60, errors="collect")
+    assert {number: error.where.split("]")[0] for number, error in results.errors.items()} == {
+        1: "targets[1", 2: "targets[2", 4: "targets[4"}
+    assert len(results.good) == 2
 
 
 @pytest.mark.parametrize("request_, where", [
@@ -56,11 +108,16 @@ def test_one_that_is_wrong_stops_all_unless_told_otherwise(scene):
     (dict(max_range=60, navigation={"altitude": (20, 10)}), "navigation['altitude']"),
     (dict(max_range=60, navigation={"keep_out": [{"file": "missing.kml"}]}), "navigation['keep_out'][0]['file']"),
     (dict(max_range=60, threads=-1), "threads"), (dict(max_range=60, method="guess"), "method"),
+    (dict(max_range=60, navigation={"meshes": [OPEN]}), "navigation"), (dict(max_range=60, crs="EPSG:4326"), ""),
+    (dict(max_range=60, crs="nowhere"), ""), (dict(max_range=60, method="spheres", spheres={"cubemap": 0}), "spheres"),
 ])
-def test_what_is_wrong_with_all_is_raised(scene, request_, where):
+@pytest.mark.parametrize("targets", [[SQUARE, BENT], [BENT], [None, THROUGH_IT]])
+def test_what_is_wrong_with_all_is_raised(scene, request_, where, targets):
+    """Also where no target is right, and where it is known only after they are."""
     with pytest.raises(vt.Error) as raised:
-        vt.compute_many(scene, [SQUARE, BENT], errors="collect", **request_)
-    assert raised.value.where.startswith(where), raised.value
+        vt.compute_many(scene, targets, errors="collect", **request_)
+    assert raised.value.where.startswith(where) if where else not raised.value.where, raised.value
+    assert "errors='collect'" not in raised.value.fix and "arguments" not in raised.value.where
 
 
 def test_no_targets(scene):
@@ -102,6 +159,53 @@ def test_a_target_of_several_faces_has_one_result():
     for number in (0, 1):
         alone = vt.compute(scene, targets[number], max_range=80)
         assert results[number].volume.hash == alone.volume.hash == raised[number].volume.hash
+
+
+def test_what_the_method_cannot_do_is_no_error_of_each_target(scene):
+    """The method of spheres finds it when it begins."""
+    with pytest.raises(vt.Error) as raised:
+        vt.compute_many(scene, [SQUARE, beside(0)], sensor={"max_range": 60, "visible": 0.5}, method="spheres",
+                        errors="collect")
+    assert raised.value.code == "not-applicable" and raised.value.where.startswith("sensor")
+
+
+def test_a_link_and_a_pilot_are_checked_with_a_point(scene):
+    """Of sensors that want points the limits are checked with one."""
+    points = [vt.Target(point=(0, 0, 30))]
+    link = {"max_range": 60, "link": {"frequency": 2.4, "clear": 0.6}}
+    assert vt.compute_many(scene, points, sensor=link, errors="collect")[0].outcome == "computed"
+    with pytest.raises(vt.Error) as raised:
+        vt.compute_many(scene, points, sensor=link, navigation={"altitude": (20, 10)}, errors="collect")
+    assert raised.value.where.startswith("navigation['altitude']")
+
+
+def test_one_of_several_faces_is_raised_before_volumes_are_computed(monkeypatch):
+    scene = vt.Scene.from_osm(TOWN)
+    faces = scene.find_faces("facade", min_area_m2=5)
+    building = next(name for name in (face.object.source_id for face in faces)
+                    if sum(face.object.source_id == name for face in faces) > 1)
+    low, high = faces[0].parts[0].min(axis=0), faces[0].parts[0].max(axis=0)
+    middle = (low + high) / 2
+    through = [middle + (-3, -3, 0), middle + (3, -3, 0), middle + (3, 3, 0), middle + (-3, 3, 0)]  # of a wall
+    targets = [faces[0].target(), vt.Target(object=building, part="facade"), np.array(through)]
+    for name in ("run", "run_each", "_try_each"):
+        monkeypatch.setattr(vt.Mission, name, lambda *arguments, **options: pytest.fail("a volume is computed"))
+    with pytest.raises(vt.Error) as raised:
+        vt.compute_many(scene, targets, max_range=80)
+    assert raised.value.where.startswith("targets[2]") and "errors='collect'" in raised.value.fix
+
+
+def test_checks_can_be_stopped_one_by_one(scene):
+    told = []
+
+    def progress(stage, fraction):
+        told.append(stage)
+        return fraction < 0.4
+
+    with pytest.raises(vt.CancelledError):
+        vt.compute_many(scene, [SQUARE, BENT, beside(0), beside(20), beside(40)], max_range=60, errors="collect",
+                        progress=progress)
+    assert set(told) == {"checking targets"}
 
 
 def test_progress_is_told_and_stops_while_errors_are_collected(scene):
@@ -148,5 +252,13 @@ def test_parking_lots_of_midtown(shared):
 def test_arrays_of_many_targets(scene):
     """(k, n, 3): k squares."""
     squares = np.array([SQUARE, beside(0), beside(40)], float)
-    assert [one.outcome for one in vt.compute_many(scene, squares, max_range=60)] == ["computed"] * 3
-    assert yard().hash == scene.hash
+    results = vt.compute_many(scene, squares, max_range=60)
+    assert [one.volume.hash for one in results] == [vt.compute(scene, one, max_range=60).volume.hash for one in squares]
+
+
+def test_a_list_of_polygons_is_one_of_targets(scene):
+    """As the documentation of `compute` says: vertices, too, may be in a list."""
+    together = vt.compute(scene, [SQUARE, beside(0)], max_range=60)
+    named = vt.compute(scene, [vt.Target(vertices=SQUARE), vt.Target(vertices=beside(0))], max_range=60)
+    assert together.volume.hash == named.volume.hash == vt.compute(scene, np.array([SQUARE, beside(0)]), max_range=60).volume.hash
+    assert len(together.mission.target_parts) == 2 and len(vt.Mission.of(scene, SQUARE, max_range=60).target_parts) == 1

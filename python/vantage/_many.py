@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Union, overload
+
+import numpy as np
 
 from . import _core
 from ._checks import choice, thread_count
 from ._errors import Error, make
-from ._progress import Progress, listener
-from ._requests import Navigation, Sensor, Target
-from ._result import Mission, Result, asked
+from ._progress import Listener, Progress, listener
+from ._requests import Navigation, Sensor, Target, keys_of
+from ._result import Mission, Result, asked, resolved
 from ._scene import Scene, checked_scene
 from ._shapes import AnyTarget, listed
 from ._text import NAME
@@ -106,7 +109,7 @@ def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float
         return Results() if errors == "collect" else []
     if errors == "raise":
         return _all_or_none(scene, found, request, threads, progress)
-    return _collected(scene, found, request, threads, progress)
+    return _one_by_one(scene, found, request, threads, progress, goes_on=True)
 
 
 def _all_or_none(scene: Scene, found: list[Target | Error], request: dict[str, Any], threads: int,
@@ -116,72 +119,140 @@ def _all_or_none(scene: Scene, found: list[Target | Error], request: dict[str, A
         raise _with_advice(wrong, len(found))
     targets = [one for one in found if isinstance(one, Target)]
     try:
-        mission = Mission.of(scene, targets, combine="each", argument="targets", progress=progress, **request)
+        mission = resolved(scene, targets, _names(range(len(found))), is_one=False, combine="each", progress=progress, **request)
         if mission._core.count == len(targets):
             return mission.run_each(threads=threads, progress=progress)
+        # Of some targets several faces are meant: each target has one volume all the same.
+        return _one_by_one(scene, found, request, threads, progress, goes_on=False).good
     except Error as error:
         raise _with_advice(error, len(found)) from None
-    # Of some targets several faces are meant: each target has one volume all the same.
-    results = _collected(scene, found, request, threads, progress)
-    for one in results:
-        if isinstance(one, Error):
-            raise _with_advice(one, len(found))
-    return results.good
 
 
 def _with_advice(error: Error, count: int) -> Error:
     """How to get the others."""
-    if count < 2 or error.kind != "input" or not error.where.startswith("targets["):
+    if count < 2 or not _is_of_target(error):
         return error
     fix = f"{error.fix}; or pass errors='collect' for what becomes of each" if error.fix else "pass errors='collect'"
     return make(error.kind, error.code, error.problem, error.where, fix, error.object)
 
 
-def _collected(scene: Scene, found: list[Target | Error], request: dict[str, Any], threads: int,
-               progress: Progress) -> Results:
+def _one_by_one(scene: Scene, found: list[Target | Error], request: dict[str, Any], threads: int, progress: Progress, *,
+                goes_on: bool) -> Results:
+    """A result or an error for each. `goes_on`: else the first error is raised, before any volume is computed."""
     told = listener(progress)
     made: list[Result | Error | None] = [None] * len(found)
+
+    def keep(number: int, error: Error) -> None:
+        if not goes_on or not _is_of_target(error):
+            raise error
+        made[number] = error
+
+    _check_limits(scene, request, _checking(told, 0, 0))
     together: list[int] = []
     alone: list[int] = []
-    without_limits = {**request, "navigation": None}
     for number, one in enumerate(found):
-        if told is not None and told("checking targets", number / len(found)) is False:
+        checking = _checking(told, number / len(found), (number + 1) / len(found))
+        if checking is not None and checking("", 0) is False:
             raise make("cancelled", "cancelled", "cancelled while checking targets", "", "", None)
         if isinstance(one, Error):
             made[number] = one
             continue
         try:
-            text, _ = asked(scene, [one], combine="each", argument=f"targets[{number}]", is_one=True, **without_limits)
-            count = text.told(lambda: _core.check(scene._core, text.text(), NAME))
+            count = _volumes_of(scene, one, number, request, checking, prepares=not goes_on)
         except Error as error:
-            made[number] = _of_target(error)
+            keep(number, error)
         else:
             (together if count == 1 else alone).append(number)
-    if together:
-        chosen = [one for one in (found[number] for number in together) if isinstance(one, Target)]
-        mission = Mission.of(scene, chosen, combine="each", argument="targets", progress=told, **request)
-        for number, attempt in zip(together, mission._try_each(threads, told)):
-            made[number] = attempt
+
+    mission = _mission_of(scene, found, together, request, told, keep)
+    if mission is not None:
+        made_together: list[Result | Error] = (list(mission._try_each(threads, told)) if goes_on else
+                                               list(mission.run_each(threads=threads, progress=told)))
+        for number, attempt in zip(together, made_together):
+            if isinstance(attempt, Error):
+                keep(number, attempt)
+            else:
+                made[number] = attempt
     for number in alone:  # several faces, all of which must be seen
-        one = found[number]
-        assert isinstance(one, Target)
         try:
-            made[number] = Mission.of(scene, one, progress=told, **request).run(threads=threads, progress=told)
+            one_alone = resolved(scene, _targets(found, [number]), _names([number]), is_one=True, progress=told, **request)
+            made[number] = one_alone.run(threads=threads, progress=told)
         except Error as error:
-            made[number] = _of_target(_at(error, number))
+            keep(number, error)
     return Results(one for one in made if one is not None)
 
 
-def _at(error: Error, number: int) -> Error:
-    where = error.where.replace("target", f"targets[{number}]", 1) if error.where.startswith("target") else error.where
-    return make(error.kind, error.code, error.problem, where, error.fix, error.object)
+def _mission_of(scene: Scene, found: list[Target | Error], together: list[int], request: dict[str, Any], told: Listener,
+                keep: Callable[[int, Error], None]) -> Mission | None:
+    """The mission of those targets, which are right by themselves. What is wrong with one all the same is kept, and the
+    target taken out of `together`."""
+    while together:
+        try:
+            return resolved(scene, _targets(found, together), _names(together), is_one=False, combine="each", progress=told,
+                            **request)
+        except Error as error:
+            match = re.match(r"targets\[(\d+)\]", error.where)
+            if not match or int(match[1]) not in together:
+                raise
+            keep(int(match[1]), error)
+            together.remove(int(match[1]))
+    return None
 
 
-def _of_target(error: Error) -> Error:
-    """Raises what is not about this target alone."""
-    if error.kind != "input" or not error.where.startswith("targets["):
-        raise error
-    return error
+def _volumes_of(scene: Scene, target: Target, number: int, request: dict[str, Any], told: Listener, *, prepares: bool) -> int:
+    """How many volumes a target has: one, or of several faces one for each. Raises what is wrong with where it is."""
+    without_limits = {**request, "navigation": None}
+    text, _ = asked(scene, [target], _names([number]), is_one=True, combine="each", **without_limits)
+    return text.told(lambda: _core.check(scene._core, text.text(), NAME, [], prepares, told))
+
+
+def _check_limits(scene: Scene, request: dict[str, Any], told: Listener) -> None:
+    """Raises what is wrong with the sensor and the limits, which all targets share: asked with a target that is right."""
+    text, meshes = asked(scene, [_stand_in(scene, request)], [_STAND_IN], is_one=True, **request)
+    try:
+        text.told(lambda: _core.check(scene._core, text.text(), NAME, meshes, False, told))
+    except Error as error:
+        if not error.where.startswith(_STAND_IN):
+            raise
+
+
+_STAND_IN = "target that stands for all"
+
+
+def _stand_in(scene: Scene, request: dict[str, Any]) -> Target:
+    """A triangle at the scene's origin; a point for sensors that want one."""
+    sensor = request["sensor"]
+    keys = keys_of(sensor, Sensor, "sensor") if sensor is not None else {}
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float64)
+    place = scene.georeference
+    if place is not None and isinstance(request["crs"], str):
+        try:
+            plan = _core.to_crs(place.latitude_deg, place.longitude_deg, request["crs"], np.ascontiguousarray(corners[:, :2]))
+        except Error:
+            pass  # no CRS: the check says so
+        else:
+            corners = np.column_stack([plan, corners[:, 2]])
+    return Target(point=corners[0]) if {"vlos", "link"} & set(keys) else Target(vertices=corners)
+
+
+def _checking(told: Listener, begin: float, end: float) -> Listener:
+    """What a check tells: the stage is that of all checks, and the fraction a part of theirs."""
+    if told is None:
+        return None
+    return lambda _, fraction: told("checking targets", begin + (end - begin) * fraction)
+
+
+def _targets(found: list[Target | Error], numbers: Sequence[int]) -> list[Target]:
+    return [one for one in (found[number] for number in numbers) if isinstance(one, Target)]
+
+
+def _names(numbers: Iterable[int]) -> list[str]:
+    return [f"targets[{number}]" for number in numbers]
+
+
+def _is_of_target(error: Error) -> bool:
+    """Whether it is about one target, and not about what all share."""
+    return error.kind == "input" and error.where.startswith("targets[")
 
 
 __all__ = ["Results", "compute_many"]

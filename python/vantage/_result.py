@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
-from ._checks import choice, flag, instance, not_called, path, path as checked_path, shown, text as checked_text, thread_count, whole
+from ._checks import (choice, flag, instance, not_called, path as checked_path, shown, text as checked_text, thread_count,
+                      whole)
 from ._errors import Error, input_error, not_pickled
 from ._mesh import Note, Solid
 from ._progress import Progress
@@ -79,15 +80,16 @@ class Mission:
     def of(cls, scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,
            sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
            combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-           spheres: Mapping[str, Any] | None = None, work_limit: float | None = None, argument: str = "target",
+           spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
            progress: Progress = None) -> Mission:
-        """Of the arguments that `compute` takes. `argument`: what errors call the target."""
+        """Of the arguments that `compute` takes."""
         checked_scene(scene)
         is_one = not is_several(target)
-        text, meshes = asked(scene, targets_of(target, scene, crs, argument), is_one=is_one, argument=argument,
-                             max_range=max_range, sensor=sensor, navigation=navigation, combine=combine, crs=crs,
-                             method=method, tolerance=tolerance, spheres=spheres, work_limit=work_limit)
-        return cls(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
+        targets = targets_of(target, scene, crs)
+        names = ["target"] if is_one else [f"target[{number}]" for number in range(len(targets))]
+        return resolved(scene, targets, names, is_one=is_one, max_range=max_range, sensor=sensor, navigation=navigation,
+                        combine=combine, crs=crs, method=method, tolerance=tolerance, spheres=spheres, work_limit=work_limit,
+                        progress=progress)
 
     @property
     def scene(self) -> Scene:
@@ -180,13 +182,13 @@ class Mission:
     def certify(self, volume_file: Path, certificate: Path, *, maximal: bool = False, shrink: float = 1e-6,
                 threads: int = 0, progress: Progress = None) -> dict[str, Any]:
         """Proves a volume's PLY file and writes the certificate that tools/check_certificate.py checks, with its scene."""
-        return json.loads(_core.certify(self._core, path(volume_file, "volume_file"), path(certificate, "certificate"),
+        return json.loads(_core.certify(self._core, checked_path(volume_file, "volume_file"), checked_path(certificate, "certificate"),
                                         _arrays.number(shrink, "shrink"), flag(maximal, "maximal"), thread_count(threads),
                                         progress))
 
     def text(self, folder: Path = ".") -> str:
         """The mission as the text of a mission file in `folder`."""
-        return self._core.text(path(folder, "folder"))
+        return self._core.text(checked_path(folder, "folder"))
 
     def _asked(self, progress: Progress) -> _core.Query:
         if self._query is None:
@@ -368,24 +370,31 @@ def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range:
     return mission.run(threads=threads, progress=progress)
 
 
-def asked(scene: Scene, targets: Sequence[Target], *, is_one: bool, argument: str, max_range: float | None = None,
+def resolved(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_one: bool, progress: Progress = None,
+             **request: Any) -> Mission:
+    """The mission of some targets. `names`: what errors call each of them."""
+    text, meshes = asked(scene, targets, names, is_one=is_one, **request)
+    return Mission(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
+
+
+def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_one: bool, max_range: float | None = None,
           sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
           combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
           spheres: Mapping[str, Any] | None = None, work_limit: float | None = None) -> tuple[Text, Meshes]:
     """The text of a mission without its scene, and the meshes to stay in that are in memory."""
     checked_text(combine, "combine"), checked_text(method, "method")
     text = Text()
-    if any(one.osm or one.file or one.center is not None or one.outline is not None for one in targets):
-        scene._recall(needs_map=any(one.osm for one in targets))
+    if any(getattr(one, key) is not None for one in targets for key in ("osm", "file", "center", "outline")):
+        scene._recall(needs_map=any(one.osm is not None for one in targets))
     if method != "exact":
         text.add("method", method)
     if crs is not None:
         text.add("crs", crs)
-    keys = [_with_true_path(given(one)) for one in targets]
+    keys = [_with_true_path(given(one), name) for one, name in zip(targets, names)]
     if is_one:
-        text.add("target", keys[0], argument)
+        text.add("target", keys[0], names[0])
     else:
-        text.add("targets", keys, argument)
+        text.add_items("targets", keys, names)
     if combine != "all":
         text.add("combine", combine)
     limits = _sensor(sensor, max_range)
@@ -405,8 +414,8 @@ def asked(scene: Scene, targets: Sequence[Target], *, is_one: bool, argument: st
     return text, meshes
 
 
-def _with_true_path(keys: dict[str, Any]) -> dict[str, Any]:
-    return {**keys, "file": path(keys["file"], "target.file")} if "file" in keys else keys
+def _with_true_path(keys: dict[str, Any], name: str) -> dict[str, Any]:
+    return {**keys, "file": checked_path(keys["file"], f"{name}['file']")} if "file" in keys else keys
 
 
 def _sensor(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:
@@ -429,9 +438,9 @@ def _navigation(navigation: Navigation | Mapping[str, Any]) -> tuple[dict[str, A
     for number, mesh in enumerate(_items(keys.pop("meshes", ()), "navigation.meshes")):
         name = f"navigation.meshes[{number}]"
         if isinstance(mesh, (str, os.PathLike)):
-            files.append(path(mesh, name))
+            files.append(checked_path(mesh, name))
         elif isinstance(mesh, Mapping):
-            files.append({**mesh, "mesh": path(mesh.get("mesh"), f"{name}['mesh']")})
+            files.append({**mesh, "mesh": checked_path(mesh.get("mesh"), f"{name}['mesh']")})
         else:
             source = mesh.volume if isinstance(mesh, Result) else mesh
             if not (hasattr(source, "vertices") and hasattr(source, "faces")):
@@ -456,6 +465,6 @@ def _items(value: Any, name: str) -> Sequence[Any]:
 
 def _zone(zone: Any, name: str) -> dict[str, Any]:
     keys = instance(zone, Mapping, name, 'pass a dictionary: {"polygon": ..., "z": ...} or {"file": ...}')  # type: ignore[type-abstract]
-    return {**keys, "file": path(keys["file"], f"{name}['file']")} if "file" in keys else dict(keys)
+    return {**keys, "file": checked_path(keys["file"], f"{name}['file']")} if "file" in keys else dict(keys)
 
 

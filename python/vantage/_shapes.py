@@ -43,9 +43,19 @@ def is_several(target: Any) -> bool:
     """Whether it is a list of targets, or a table: not an array of vertices, which also is a list."""
     if is_table(target):
         return True
+    if isinstance(target, np.ndarray):
+        return target.ndim == 3 and len(target) > 0
     if isinstance(target, (str, bytes, Mapping)) or not isinstance(target, Sequence):
         return False
-    return any(_is_one_by_itself(one) for one in target)
+    return any(_is_one_by_itself(one) or _is_polygon(one) for one in target)
+
+
+def _is_polygon(value: Any) -> bool:
+    """Whether it is an array of vertices itself, and no vertex."""
+    try:
+        return np.ndim(value) == 2
+    except (ValueError, TypeError, RecursionError):
+        return False
 
 
 def _is_one_by_itself(value: Any) -> bool:

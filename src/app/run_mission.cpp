@@ -13,9 +13,11 @@
 #include "app/places.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 #include "vantage/mission.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
 namespace {
@@ -36,6 +38,48 @@ void add_report(const SpheresReport& part, std::optional<SpheresReport>& all) {
   all->boolean_seconds += part.boolean_seconds;
 }
 
+/// What is wrong with one target: others of the same mission may be right.
+struct TargetError : Error {
+  explicit TargetError(const Error& error) : Error(error) {}
+};
+
+/// Calls `action` and returns what it returns. An Error(input) from it is one of this target.
+template <typename Action>
+auto about_target(const Mission& mission, const Action& action) {
+  try {
+    return internal::app::with_place(mission.as_written.places.target, action);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    throw TargetError(error);
+  }
+}
+
+/// What the method of spheres cannot do.
+void check_method(const Mission& mission) {
+  if (mission.as_written.method != Method::spheres) return;
+  if (mission.sensor.link) {
+    throw Error(ErrorCode::not_applicable, "the method of spheres knows no zones of radio links",
+                mission.as_written.places.sensor, "use 'method: exact', or leave out sensor.link");
+  }
+  if (mission.sensor.visible) {
+    throw Error(ErrorCode::not_applicable, "the method of spheres cannot tell how much of a target is seen",
+                mission.as_written.places.sensor, "use 'method: exact', or leave 'visible' out");
+  }
+}
+
+/// What would be wrong for every target.
+void check_what_all_share(const Mission& mission) {
+  internal::app::with_place(mission.as_written.places.sensor, [&] {
+    check_sensor(mission.sensor);
+    return 0;
+  });
+  check_method(mission);
+  internal::app::with_place(mission.as_written.file.string(), [&] {
+    check_navigation(mission.navigation);
+    return 0;
+  });
+}
+
 /// Whether each target is several faces that must all be seen from one position. With other targets beside them these
 /// may be what cannot be seen.
 bool are_faces_together(const Mission& mission) {
@@ -52,14 +96,7 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const RunOp
     return internal::app::kept_or_computed(run.kept, target, options.tolerance_m,
                                            [&] { return internal::app::exact_volume(target, options, progress); });
   }
-  if (mission.sensor.link) {
-    throw Error(ErrorCode::not_applicable, "the method of spheres knows no zones of radio links",
-                mission.as_written.places.sensor, "use 'method: exact', or leave out sensor.link");
-  }
-  if (target.sensor().visible) {
-    throw Error(ErrorCode::not_applicable, "the method of spheres cannot tell how much of a target is seen",
-                mission.as_written.places.sensor, "use 'method: exact', or leave 'visible' out");
-  }
+  check_method(mission);
   SpheresOptions options = mission.as_written.spheres;
   options.threads = 0;
   const auto georeferenced = [&](const SphereStage& stage) {
@@ -87,15 +124,20 @@ Volume limited(const Mission& mission, const PreparedTarget& target, const RunOp
     // The target itself is checked by now. The exact method may still find it too large for the tolerance; the method
     // of spheres refuses only its options and devices, which the mission names elsewhere.
     if (mission.as_written.method == Method::spheres) throw;
-    internal::app::with_place(mission.as_written.places.target, [&]() -> int { throw error; });
+    about_target(mission, [&]() -> int { throw error; });
   }
   seconds.engine += stopwatch.lap();
   const bool is_limited = !mission.navigation.empty() || target.sensor().limits_view();
   if (volume.outcome == Outcome::computed && is_limited) {
-    volume = internal::app::with_place(mission.as_written.file.string(), [&] {
-      return internal::app::within_limits(volume, target, mission.navigation, progress,
-                                          mission.as_written.exact.work_limit);
-    });
+    try {
+      volume = internal::app::within_limits(volume, target, mission.navigation, progress,
+                                            mission.as_written.exact.work_limit);
+    } catch (const Error& error) {
+      const auto throw_it = [&]() -> int { throw error; };
+      // How much work the limits are depends on the volume that they cut: another target may need less.
+      if (error.code() == ErrorCode::work_too_large) about_target(mission, throw_it);
+      internal::app::with_place(mission.as_written.file.string(), throw_it);
+    }
     seconds.navigation += stopwatch.lap();
   }
   return volume;
@@ -148,7 +190,7 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
 
 PreparedTarget prepare(const Mission& mission, const Target& target, const PreparedScene& scene) {
   const auto& ground = mission.as_written.ground_target;
-  return internal::app::with_place(mission.as_written.places.target, [&] {
+  return about_target(mission, [&] {
     try {
       return PreparedTarget(scene, target, mission.sensor);
     } catch (const Error& error) {
@@ -210,21 +252,12 @@ void check_one_target(const Mission& mission) {
 
 enum class OnError { stop, go_on };
 
-/// The error that is thrown, if it is about this target alone. Others are thrown on.
-Error error_of_target() {
-  try {
-    throw;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    return error;
-  }
-}
-
 /// A result for each volume. `OnError::go_on`: or what is wrong with its target.
 std::vector<Attempt> run_each(const Mission& mission, const RunOptions& options, OnError on_error,
                               const Progress& progress) {
   const std::size_t count = volume_count(mission);
   std::vector<Attempt> attempts(count);
+  check_what_all_share(mission);
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
     const PreparedScene scene = prepared_scene(mission, options, progress);
@@ -236,9 +269,9 @@ std::vector<Attempt> run_each(const Mission& mission, const RunOptions& options,
     for (std::size_t i = 0; i < count; ++i) {
       try {
         prepared[i] = prepare_views(one_volume(mission, i), scene);
-      } catch (const Error&) {
+      } catch (const TargetError& error) {
         if (on_error == OnError::stop) throw;
-        attempts[i].error = error_of_target();
+        attempts[i].error = error;
       }
     }
     internal::app::begin_run(options.kept);
@@ -256,9 +289,9 @@ std::vector<Attempt> run_each(const Mission& mission, const RunOptions& options,
         try {
           try {
             if (!attempts[i].error) run_one(i);
-          } catch (const Error&) {
+          } catch (const TargetError& error) {
             if (on_error == OnError::stop) throw;
-            attempts[i].error = error_of_target();
+            attempts[i].error = error;
           }
           shared.finish_one();
         } catch (...) {
