@@ -154,6 +154,28 @@ def test_a_map_that_changed_before_it_was_pickled(tmp_path):
     assert raised.value.code == "file-changed"
 
 
+def test_each_example_is_run():
+    """A new one needs a test, and says which extras it needs: pip install 'vantage[...]'."""
+    scripts = sorted((PROJECT / "examples" / "python").glob("*.py"))
+    assert [script.name for script in scripts] == ["first_volume.py"]
+    for script in scripts:
+        text = script.read_text()
+        assert ("pip install 'vantage[plot]'" in text) == (".plot(" in text)
+
+
+def test_the_first_example_without_its_extra(tmp_path):
+    """It computes and prints all the same, and says what to install for the picture."""
+    script = PROJECT / "examples" / "python" / "first_volume.py"
+    hidden = tmp_path / "hidden"
+    hidden.mkdir()
+    (hidden / "pyvista.py").write_text("raise ImportError('not here')\n")
+    environment = {**os.environ, "PYTHONPATH": f"{hidden}:{pathlib.Path(vt.__file__).parents[1]}"}
+    ran = subprocess.run([sys.executable, script, tmp_path / "picture.png"], capture_output=True, text=True, cwd=tmp_path,
+                         env=environment)
+    assert "proof: proved" in ran.stdout and "vantage[plot]" in ran.stderr, ran.stderr
+    assert not (tmp_path / "picture.png").exists()
+
+
 def test_the_first_example(tmp_path):
     """Thirty lines that fetch nothing and end in a picture."""
     pytest.importorskip("pyvista")

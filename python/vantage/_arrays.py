@@ -34,20 +34,23 @@ def numbers(values: Any, name: str) -> npt.NDArray[np.float64]:
     if array.dtype.kind == "O" and array.size and all(type(one) is int for one in array.flat):
         raise input_error("value-out-of-range", f"{name} has integers that float64 cannot hold", name, "pass float64")
     if array.dtype.kind not in "iuf" or array.dtype.itemsize not in (4, 8) and array.dtype.kind == "f":
-        raise input_error("wrong-type", f"{name} is an array of {array.dtype}", name, "pass float64, float32 or integers")
+        what = "an array" if array.ndim else "a number"
+        raise input_error("wrong-type", f"{name} is {what} of {array.dtype}", name, "pass float64, float32 or integers")
     if array.dtype.kind in "iu" and array.size and (int(array.max()) > 2**53 or int(array.min()) < -(2**53)):
         raise input_error("value-out-of-range", f"{name} has integers that float64 cannot hold", name, "pass float64")
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
 def number(value: Any, name: str) -> float:
-    """One finite number. True and texts are none."""
+    """One finite number, of the kinds that `numbers` takes. True and texts are none."""
     array = _as_array(value, name)
-    if array.shape != () or array.dtype.kind not in "iuf":
+    is_large = array.dtype.kind == "O" and type(value) is int  # beyond 64 bits
+    if array.shape != () or not (array.dtype.kind in "iuf" or is_large):
         raise input_error("wrong-type", f"{shown(value)} is not a number", name, "pass one number")
-    if not np.isfinite(array):
-        raise input_error("value-out-of-range", f"{name} is {value}", name, "pass a finite number")
-    return float(array)
+    one = float(numbers(array, name)[0])
+    if not np.isfinite(one):
+        raise input_error("value-out-of-range", f"{name} is {one}", name, "pass a finite number")
+    return one
 
 
 def vector(values: Any, name: str) -> npt.NDArray[np.float64]:

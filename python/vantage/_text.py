@@ -28,11 +28,20 @@ class Text:
 
     def add(self, key: str, value: Any, argument: str | None = None) -> None:
         """A key of the outermost map. `argument`: what the caller knows it as."""
+        self._add(f"{key}:", value, 0, argument or key)
+
+    def add_items(self, key: str, items: Sequence[Any], arguments: Sequence[str]) -> None:
+        """A key with a list. `arguments`: what the caller knows each item as."""
+        self._line(f"{key}:", 0, key)
+        for item, argument in zip(items, arguments):
+            self._add("-", item, 1, argument)
+
+    def _add(self, head: str, value: Any, depth: int, argument: str) -> None:
         try:
-            self._value(f"{key}:", value, 0, argument or key)
+            self._value(head, value, depth, argument)
         except RecursionError:
-            name = argument or key
-            raise input_error("value-syntax", f"{name} is nested too deeply", name, "pass plain lists and dictionaries") from None
+            raise input_error("value-syntax", f"{argument} is nested too deeply", argument,
+                              "pass plain lists and dictionaries") from None
 
     def text(self) -> str:
         return "".join(line + "\n" for line in self._lines) or "{}\n"
@@ -47,9 +56,7 @@ class Text:
                 return self._line(f"{head} {{}}", depth, argument)
             self._line(head, depth, argument)
             for key, item in value.items():
-                if not isinstance(key, str) or not re.fullmatch(r"[A-Za-z_][\w.]*", key):
-                    raise input_error("unknown-key", f"{key!r} is not a key", argument, "use the mission file's keys")
-                self._value(f"{key}:", item, depth + 1, f"{argument}[{key!r}]")
+                self._value(f"{_key(key, argument)}:", item, depth + 1, f"{argument}[{key!r}]")
         elif _is_list(value) and any(isinstance(item, Mapping) for item in value):
             self._line(head, depth, argument)
             for number, item in enumerate(value):
@@ -68,12 +75,22 @@ class Text:
         """The same error, with the argument for its place in the text."""
         match = re.search(rf"(?:^|/){NAME}:(\d+):\d+", error.where)
         if not match:
-            return error
+            whole = re.match(rf"(?:/.*/)?{NAME}(?:, |$)", error.where)  # of the mission, no line of it
+            where = error.where[whole.end():] if whole else error.where
+            return make(error.kind, error.code, error.problem, where, error.fix, error.object)
         argument = self._arguments[min(int(match[1]), len(self._arguments)) - 1] if self._arguments else ""
         rest = error.where[match.end():].strip(" ,:")
-        is_exact = re.fullmatch(r"\w+(\.\w+)+", rest)  # "sensor.incidence" says more than the line of the section
+        # "sensor.incidence" says more than the line of the section; but not of which target something is.
+        is_exact = re.fullmatch(r"\w+(\.\w+)+", rest) and not argument.startswith("target")
         where = rest if is_exact else f"{argument}, {rest}" if rest else argument
         return make(error.kind, error.code, error.problem, where, error.fix, error.object)
+
+
+def _key(key: Any, argument: str) -> str:
+    """A key as it may stand in the text: nothing in it begins another one."""
+    if not isinstance(key, str) or not re.fullmatch(r"[A-Za-z_][\w.]*", key):
+        raise input_error("unknown-key", f"{shown(key)} is not a key", argument, "use the mission file's keys")
+    return key
 
 
 def _is_list(value: Any) -> bool:
@@ -100,7 +117,7 @@ def flow(value: Any, argument: str) -> str:
     if isinstance(value, str):
         return json.dumps(checked_text(value, argument))
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key}: {flow(item, argument)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{_key(key, argument)}: {flow(item, argument)}" for key, item in value.items()) + "}"
     if _is_list(value):
         return "[" + ", ".join(flow(item, argument) for item in value) + "]"
     raise input_error("wrong-type", f"{argument} has a value of type {type(value).__name__}", argument,
