@@ -1,6 +1,7 @@
 // vantage inspect --objects: the names of objects, and what a mission writes for them.
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
+#include "vantage/objects.h"
 
 namespace vantage::testing {
 namespace {
@@ -18,7 +19,9 @@ class CliObjects : public Cli {
     write("city.osm", map.text());
     write("town.obj",
           "o ground\nv -99 -99 0\nv 99 -99 0\nv 0 99 0\nf 1 2 3\n"
-          "o clock tower\nv 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 25\nf 4 6 5\nf 4 5 7\nf 5 6 7\nf 6 4 7\n");
+          "o clock tower\nv 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 25\nf 4 6 5\nf 4 5 7\nf 5 6 7\nf 6 4 7\n"
+          "o cabin\nv 40 0 0\nv 50 0 0\nv 50 8 0\nv 40 8 0\nv 40 0 4\nv 50 0 4\nv 50 8 4\nv 40 8 4\n"
+          "f 8 11 10 9\nf 12 13 14 15\nf 8 9 13 12\nf 9 10 14 13\nf 10 11 15 14\nf 11 8 12 15\n");
   }
   json objects(const std::string& scene, const std::string& pattern) {
     return json::parse(output_of({"inspect", scene, "--objects", pattern, "--json"})).at("objects");
@@ -50,22 +53,62 @@ TEST_F(CliObjects, WhatAMissionWritesFindsTheObject) {
   const json tower = objects("town.obj", "tower").at(0);
   EXPECT_EQ(tower.at("height_m"), 25);
   EXPECT_TRUE(tower.at("footprint_m2").is_null());
-  for (const auto& [scene, found] : {std::pair{"osm: city.osm", mill}, {"mesh: town.obj", tower}}) {
+  const json cabin = objects("town.obj", "cabin").at(0);
+  for (const auto& [scene, found] : {std::pair{"osm: city.osm", mill}, {"mesh: town.obj", cabin}}) {
     write("mission.yaml", std::string("scene: {") + scene + "}\nsensor: {max_range: 60}\n" +
                               found.at("mission").get<std::string>() + "\n");
-    if (found == mill) EXPECT_GT(output_of({"compute", "mission.yaml", "-o", "volume.ply"}).size(), 0u);
+    const json report = json::parse(output_of({"compute", "mission.yaml", "-o", "volume.ply", "--json"}));
+    EXPECT_EQ(report.at("outcome"), "computed") << report.dump(2);
+    EXPECT_GT(report.at("volume_m3").get<double>(), 1000);
   }
-  EXPECT_EQ(tower.at("mission"), "target: {object: \"clock tower\", part: roof}");
-  EXPECT_EQ(objects("town.obj", "ground").at(0).at("mission"), "navigation: {ground: ground}");
+  const std::string of_tower = "target: {object: \"clock tower\", part: roof}",
+                    of_ground = "navigation: {ground: ground}";
+  EXPECT_EQ(tower.at("mission"), of_tower);
+  EXPECT_EQ(objects("town.obj", "ground").at(0).at("mission"), of_ground);
+}
+
+TEST_F(CliObjects, AQuestionMarkIsOneCharacter) {
+  const std::string side = "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n";
+  write("names.obj", "o caf\u00e9\n" + side + "o M\u00fchle\nf 1 2 3\no NULL\nf 1 2 3\no Null 2\nf 1 2 3\n");
+  EXPECT_EQ(names("names.obj", "caf?"), Names({"caf\u00e9"}));
+  EXPECT_EQ(names("names.obj", "m?hle"), Names({"M\u00fchle"}));
+  EXPECT_EQ(names("names.obj", "m*?hle"), Names({"M\u00fchle"})) << "the star goes on by characters too";
+  expect_bad({"inspect", "names.obj", "--objects", "caf??"}, "");
+  const std::string quoted = "target: {object: \"NULL\", part: roof}";
+  EXPECT_EQ(objects("names.obj", "null").at(0).at("mission"), quoted) << "not YAML's null";
+}
+
+TEST(ListedObjects, WallsHaveFacadesAndTreesAreNoTargets) {
+  LoadedScene loaded;
+  loaded.scene.mesh.vertices = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
+  loaded.scene.mesh.triangles.assign(5, {0, 1, 2});
+  loaded.scene.object_of = {0, 1, 2, 3, 4};
+  loaded.scene.objects = {{"fence", "", ObjectKind::wall},
+                          {"oak", "", ObjectKind::tree},
+                          {"", "", ObjectKind::building},
+                          {"Yes", "", ObjectKind::building},
+                          {"", "", ObjectKind::ground}};
+  const std::vector<std::string> expected = {"target: {object: fence, part: facade}", "", "",
+                                             "target: {object: \"Yes\", part: roof}", ""};
+  std::vector<std::string> missions;
+  for (const ListedObject& one : list_objects(loaded)) missions.push_back(one.mission);
+  EXPECT_EQ(missions, expected);
+}
+
+TEST_F(CliObjects, TheSceneMayStandBehindTheOption) {
+  EXPECT_EQ(output_of({"inspect", "--objects", "city.osm"}), output_of({"inspect", "city.osm", "--objects"}));
+  EXPECT_EQ(output_of({"inspect", "--json", "--objects", "city.osm"}),
+            output_of({"inspect", "city.osm", "--json", "--objects"}));
+  expect_bad({"inspect", "--objects"}, "");
+  expect_bad({"inspect", "--objects", "missing.osm"}, "");
 }
 
 TEST_F(CliObjects, TheTableHasARowForEach) {
   const std::string table = output_of({"inspect", "city.osm", "--objects"});
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 4) << "three houses and the ground\n" << table;
-  EXPECT_NE(table.find("target: {osm: way/1, part: roof}"), std::string::npos) << table;
-  EXPECT_NE(table.find("way/1 Old Mill"), std::string::npos);
-  EXPECT_NE(table.find("12.0"), std::string::npos);
-  EXPECT_NE(table.find("600"), std::string::npos) << "square metres";
+  const std::vector<std::string> cells = {"target: {osm: way/1, part: roof}", "way/1 Old Mill", "12.0",
+                                          "600"};  // m, m2
+  for (const std::string& cell : cells) EXPECT_NE(table.find(cell), std::string::npos) << cell << "\n" << table;
 }
 
 TEST_F(CliObjects, NamesThatAreNotThereAreRefused) {

@@ -20,7 +20,7 @@ struct ListedObject {
   double height_m = 0;              ///< above the ground where a map says where that is, else above min_z_m
   std::optional<double> footprint_m2 = std::nullopt;  ///< where a map says it
   std::string mission;  ///< what a mission writes for it: "target: {osm: way/1, part: roof}"; of ground and surfaces
-                        ///< "navigation: {ground: terrain}"
+                        ///< "navigation: {ground: terrain}"; empty for a tree, and for an object without a name
 };
 
 /// The objects that have triangles and whose name, source_id or display name contains `pattern`, or is matched by it as

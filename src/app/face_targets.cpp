@@ -71,13 +71,16 @@ struct MapObjects {
   std::vector<NamedId> named;
 };
 
-/// Whether it is written as ids of maps are: "way/123", "w123".
+/// Whether it is written as ids of maps are: "way/123", "w123", "way/-1" before it is uploaded. The reader of maps
+/// (osm::parse_object_id) is in a library that a build may lack.
 bool is_map_id(const std::string& text) {
-  const std::size_t digits = text.find_first_of("0123456789");
-  const std::string_view head = std::string_view(text).substr(0, digits);
+  const std::size_t begin = text.find_first_of("-0123456789");
+  const std::string_view head = std::string_view(text).substr(0, begin);
   const bool is_type =
       head == "way/" || head == "relation/" || head == "node/" || head == "w" || head == "r" || head == "n";
-  return is_type && digits != std::string::npos && text.find_first_not_of("0123456789", digits) == std::string::npos;
+  if (!is_type || begin == std::string::npos) return false;
+  const std::string_view digits = std::string_view(text).substr(text[begin] == '-' ? begin + 1 : begin);
+  return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 /// An object of the map, by its id or its name, and, of a building, its parts.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -20,11 +21,21 @@ std::string in_lower_case(std::string_view text) {
   return lower;
 }
 
-/// '*' stands for any text, '?' for a byte. Goes back to the last '*' only: linear in practice, never exponential.
+/// How many bytes the character at a place of a text in UTF-8 has.
+std::size_t character_bytes(std::string_view text, std::size_t at) {
+  std::size_t end = at + 1;
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+  return end - at;
+}
+
+/// '*' stands for any text, '?' for a character. Goes back to the last '*' only: linear in practice, never exponential.
 bool is_matched(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0, star = std::string_view::npos, after = 0;
   while (t < text.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || (pattern[p] != '*' && pattern[p] == text[t]))) {
+    if (p < pattern.size() && pattern[p] == '?') {
+      ++p;
+      t += character_bytes(text, t);
+    } else if (p < pattern.size() && pattern[p] != '*' && pattern[p] == text[t]) {
       ++p;
       ++t;
     } else if (p < pattern.size() && pattern[p] == '*') {
@@ -32,7 +43,8 @@ bool is_matched(std::string_view pattern, std::string_view text) {
       after = t;
     } else if (star != std::string_view::npos) {
       p = star + 1;
-      t = ++after;
+      after += character_bytes(text, after);
+      t = after;
     } else {
       return false;
     }
@@ -60,14 +72,17 @@ class Pattern {
   bool is_glob_;
 };
 
+/// Nothing of an object that has no name to write, and of a tree, which has neither a roof nor a facade.
 std::string mission_of(const LoadedScene& loaded, const SceneObject& object) {
   const std::string& known_as = object.source_id.empty() ? object.name : object.source_id;
+  if (known_as.empty() || object.kind == ObjectKind::tree) return "";
   if (object.kind == ObjectKind::ground || object.kind == ObjectKind::surface) {
     return "navigation: {ground: " + internal::app::yaml_text(known_as) + "}";
   }
   const bool is_of_map = loaded.city && !object.source_id.empty();
+  const char* const part = object.kind == ObjectKind::wall ? ", part: facade}" : ", part: roof}";
   return std::string("target: {") + (is_of_map ? "osm: " : "object: ") + internal::app::yaml_text(known_as) +
-         ", part: roof}";
+         part;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/named_objects.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "vantage/error.h"
@@ -8,6 +9,15 @@
 #include "vantage/json.h"
 
 namespace vantage::internal::app {
+namespace {
+
+/// "areas of the map" of "area of the map".
+std::string plural_of(const std::string& what) {
+  const std::size_t noun = std::min(what.find(' '), what.size());
+  return what.substr(0, noun) + "s" + what.substr(noun);
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> objects_named(const Scene& scene, const std::string& name) {
   std::vector<std::uint32_t> found;
@@ -23,7 +33,11 @@ std::string yaml_text(const std::string& text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '_';
   };
   const bool begins_with_letter = !text.empty() && (text[0] < '0' || text[0] > '9') && text[0] != '/';
-  const bool is_word = begins_with_letter && text != "null" && text != "true" && text != "false";
+  // What YAML, of one version or another, reads as no text at all, in any case.
+  constexpr std::array<std::string_view, 9> kNoTexts = {"null", "true", "false", "yes", "no", "on", "off", "y", "n"};
+  const bool is_word = begins_with_letter && std::none_of(kNoTexts.begin(), kNoTexts.end(), [&](std::string_view no) {
+                         return is_same_name(text, std::string{no});
+                       });
   return is_word && std::all_of(text.begin(), text.end(), is_plain) ? text : json_text(std::string_view{text});
 }
 
@@ -50,7 +64,7 @@ std::string id_of_name(const std::vector<NamedId>& known, const std::string& nam
       list += (list.empty() ? "" : ", ") + id;
     }
     if (ids.size() > kMost) list += ", ...";
-    throw Error(ErrorCode::map_object_missing, "the name " + in_quotes(name) + " is that of several " + what + "s",
+    throw Error(ErrorCode::map_object_missing, "the name " + in_quotes(name) + " is that of several " + plural_of(what),
                 where, "write the id of one of these " + std::to_string(ids.size()) + ": " + list);
   }
   std::set<std::string> names;

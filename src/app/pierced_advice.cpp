@@ -31,7 +31,8 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
   if (kind == kLeftOut.end()) return std::nullopt;
   std::string what = std::string("the map has a ") + name_of(found.kind) + " there";
   if (found.kind == ObjectKind::wall) {
-    const bool is_its_own = !target_object.empty() && (found.source_id == target_object || found.name == target_object);
+    const bool is_its_own =
+        !target_object.empty() && (found.source_id == target_object || is_same_name(found.name, target_object));
     what = is_its_own ? "the target's own wall or fence stands on its outline"
                       : "the map has a wall, fence or hedge there";
   }

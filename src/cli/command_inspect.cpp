@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "cli/command.h"
 #include "cli/progress_line.h"
@@ -136,7 +137,12 @@ int list_objects_of(const InspectArguments& options, const SceneSource& source) 
   return kSuccess;
 }
 
-int run_inspect(const InspectArguments& options) {
+int run_inspect(const InspectArguments& given) {
+  InspectArguments options = given;
+  if (options.scene.input.empty()) {  // of `inspect --objects city.osm` the option takes the scene as its text
+    if (!options.objects || options.objects->empty()) throw CLI::RequiredError("scene");
+    options.scene.input = std::exchange(*options.objects, "");
+  }
   const SceneSource source = scene_source(options.scene, "the scene file");
   if (options.objects) return list_objects_of(options, source);
   if (!options.areas.empty() || options.named) return list_areas(options, source);
@@ -157,7 +163,6 @@ void add_inspect(CLI::App& app, Command& chosen) {
       ->add_option(
           "scene", options->scene.input,
           "OBJ, PLY, STL, glTF, GLB or CityJSON, also compressed with gzip; OpenStreetMap; a raster of heights")
-      ->required()
       ->option_text("FILE");
   add_scene_options(*command, options->scene);
   command
@@ -169,7 +174,8 @@ void add_inspect(CLI::App& app, Command& chosen) {
   command
       ->add_option("--objects", options->objects,
                    "List the objects of the scene whose name or id contains this text, or fits it where it has * or "
-                   "?: kind, height, area, and what a mission writes for them. Without a text: all of them")
+                   "?: kind, height, area, and what a mission writes for them. Without a text: all of them. With one, "
+                   "the scene stands before it")
       ->expected(0, 1)
       ->option_text("PATTERN");
   command->add_flag("--named", options->named, "List only areas with a name");
