@@ -134,6 +134,10 @@ class TargetFiles : public ::testing::Test {
                                               "}\nsensor: {max_range: 90}\ntarget: {" + target + "}\n");
     return resolve_mission(read_mission(folder_ / "mission.yaml"));
   }
+  /// The target of a file, or of one feature of it.
+  Target of_file(const std::string& file, const std::string& feature = "") {
+    return placed("file: " + file + (feature.empty() ? "" : ", feature: " + feature)).target;
+  }
   void write(const std::string& name, const std::string& text) { write_bytes(folder_ / name, text); }
   void refuse(const std::string& target, ErrorCode code, const std::string& where = "") {
     testing::expect_error([&] { placed(target); }, code, where);
@@ -184,7 +188,7 @@ TEST_F(TargetFiles, APolygonOfGeoJsonLiesOnTheGround) {
   EXPECT_NEAR((mission.target.parts[0][0] - Vec3(30, 0, 0)).norm(), 0, 1e-3);
   EXPECT_EQ(run_mission(mission).volume.outcome, Outcome::computed);
   write("bent.geojson", R"({"type": "Polygon", "coordinates": [)" + json_ring(kBent) + "]}");
-  EXPECT_GT(placed("file: bent.geojson, name: corner").target.parts.size(), 1u);
+  EXPECT_GT(of_file("bent.geojson").parts.size(), 1u);
 }
 
 TEST_F(TargetFiles, CornersWithHeightsLieThere) {
@@ -209,6 +213,40 @@ TEST_F(TargetFiles, CornersWithHeightsLieThere) {
   refuse("file: inside.geojson", ErrorCode::target_inside_solid, "mission.yaml:3:");
 }
 
+TEST_F(TargetFiles, HeightsAtSomeCornersAreRefused) {
+  const Corners some = {{30, 0, 30}, {50, 0}, {50, 20, 30}, {30, 20, 30}};
+  write("some.geojson", feature(json_ring(some)));
+  refuse("file: some.geojson", ErrorCode::wrong_type, "some.geojson");
+  write("hole.geojson", feature(json_ring(raised(kSquare, 30)) + ", " + json_ring({{35, 5}, {40, 5}, {40, 10}})));
+  refuse("file: hole.geojson", ErrorCode::wrong_type, "hole.geojson");
+  write("some.kml", kml(placemark("deck", mode("absolute"), some)));
+  refuse("file: some.kml", ErrorCode::wrong_type, "some.kml");
+  write("above.kml", kml(placemark("deck", mode("relativeToGround"), some)));
+  refuse("file: above.kml", ErrorCode::wrong_type, "above.kml");
+  write("clamped.kml", kml(placemark("deck", "", some)));
+  EXPECT_EQ(heights(of_file("clamped.kml")), std::pair(0.0, 0.0)) << "they do not count";
+}
+
+TEST_F(TargetFiles, AHoleMayStandBeforeItsOutline) {
+  const std::string hole = positions({{35, 5, 20.5}, {40, 5, 21}, {40, 10, 21}}, "", ",", "", " ");
+  const std::string before = mode("absolute") + "<innerBoundaryIs><LinearRing><coordinates>" + hole +
+                             "</coordinates></LinearRing></innerBoundaryIs>";
+  write("holed.kml", kml(placemark("deck", before, {{30, 0, 20}, {50, 0, 22}, {50, 20, 22}, {30, 20, 20}})));
+  const Mission holed = placed("file: holed.kml", ", sea_level: 0");
+  EXPECT_NEAR(plan_area(holed.target), 400 - 12.5, 0.1);
+  for (const std::vector<Vec3>& part : holed.target.parts) {
+    for (const Vec3& corner : part) EXPECT_NEAR(corner.z(), 17 + 0.1 * corner.x(), 1e-4);
+  }
+}
+
+TEST_F(TargetFiles, UprightPolygonsAreRefusedWithWhatToUse) {
+  refuse("outline: [[30, 0, 0], [50, 0, 0], [50, 0, 9], [30, 0, 9]]", ErrorCode::zone_not_simple, "mission.yaml:3:");
+  write("wall.geojson", feature(json_ring({{30, 0, 0}, {50, 0, 0}, {50, 0, 9}, {30, 0, 9}})));
+  refuse("file: wall.geojson", ErrorCode::zone_not_simple, "wall.geojson");
+  refuse("outline: [[30, 0, 0], [50, 0, 0], [50, 0.002, 9], [30, 0.002, 9]]", ErrorCode::target_without_area,
+         "mission.yaml:3:");
+}
+
 TEST_F(TargetFiles, OneOfSeveralFeaturesIsChosen) {
   write("areas.geojson",
         collection(feature(json_ring(kSquare), R"({"name": "North lot"})") + "," +
@@ -217,9 +255,9 @@ TEST_F(TargetFiles, OneOfSeveralFeaturesIsChosen) {
                            "MultiPolygon")));
   refuse("file: areas.geojson", ErrorCode::missing_key, "areas.geojson");
   refuse("file: areas.geojson, feature: East lot", ErrorCode::object_missing, "areas.geojson");
-  EXPECT_NEAR(plan_area(placed("file: areas.geojson, feature: North lot").target), 400, 0.1);
-  EXPECT_NEAR(plan_area(placed("file: areas.geojson, feature: NORTH LOT").target), 400, 0.1);
-  EXPECT_NEAR(plan_area(placed("file: areas.geojson, feature: 7").target), 175, 0.1) << "by the id";
+  EXPECT_NEAR(plan_area(of_file("areas.geojson", "North lot")), 400, 0.1);
+  EXPECT_NEAR(plan_area(of_file("areas.geojson", "NORTH LOT")), 400, 0.1);
+  EXPECT_NEAR(plan_area(of_file("areas.geojson", "7")), 175, 0.1) << "by the id";
   const Mission south = placed("file: areas.geojson, feature: South lot");
   EXPECT_NEAR(plan_area(south.target), 175, 0.1);
   EXPECT_EQ(south.target.name, "South lot");
@@ -238,22 +276,27 @@ TEST_F(TargetFiles, KmlSaysFromWhereItsHeightsAre) {
   EXPECT_EQ(heights(ground.target), std::pair(0.0, 0.0)) << "clamped to the ground";
   write("two.kml",
         kml("<Placemark><name>a line</name></Placemark>" + placemark("", "", kSquare) + placemark("", "", kBent)));
-  EXPECT_NEAR(plan_area(placed("file: two.kml, feature: 2").target), 175, 0.1) << "placemarks are counted from 0";
+  EXPECT_NEAR(plan_area(of_file("two.kml", "2")), 175, 0.1) << "placemarks are counted from 0";
   write("above.kml", kml(placemark("deck", mode("relativeToGround"), raised(kSquare, 30))));
-  EXPECT_EQ(heights(placed("file: above.kml").target), std::pair(30.0, 30.0));
+  EXPECT_EQ(heights(of_file("above.kml")), std::pair(30.0, 30.0));
   write("uneven.kml", kml(placemark("deck", mode("relativeToGround"), {{30, 0, 9}, {50, 0, 9}, {50, 20, 8}})));
   refuse("file: uneven.kml", ErrorCode::target_not_planar, "uneven.kml");
   write("sea.kml", kml(placemark("deck", mode("absolute"), raised(kSquare, 530))));
   refuse("file: sea.kml", ErrorCode::heights_differ, "sea.kml");
-  EXPECT_EQ(heights(placed("file: sea.kml", ", sea_level: -500").target), std::pair(30.0, 30.0));
+  const Mission sea = placed("file: sea.kml", ", sea_level: -500");
+  EXPECT_EQ(heights(sea.target), std::pair(30.0, 30.0));
 }
 
 TEST_F(TargetFiles, KmzIsUnpacked) {
   const std::string yard = kml(placemark("yard", "", kSquare)), other = kml(placemark("other", "", kBent));
   write("a.kmz", zip({{"files/icon.png", std::string(3000, 'x')}, {"other.kml", other}, {"doc.kml", yard}}));
-  EXPECT_EQ(placed("file: a.kmz").target.name, "yard") << "doc.kml counts before others";
+  EXPECT_EQ(of_file("a.kmz").name, "yard") << "doc.kml counts before others";
   write("b.kmz", zip({{"__MACOSX/other.kml", "notes"}, {"Folder/Other.KML", other, false}}));
-  EXPECT_EQ(placed("file: b.kmz").target.name, "other") << "stored as it is, under any name";
+  EXPECT_EQ(of_file("b.kmz").name, "other") << "stored as it is, under any name";
+  ZipFile streamed = {"doc.kml", yard};
+  streamed.flags = 8;  // sizes behind the bytes: the directory has them too
+  write("streamed.kmz", zip({streamed}));
+  EXPECT_EQ(of_file("streamed.kmz").name, "yard");
   write("zones.kmz", zip({{"doc.kml", kml(placemark("park", "", kSquare))}}));
   write("mission.yaml",
         "scene: {osm: city.osm, center: [48.1374, 11.5755], radius: 300}\nsensor: {max_range: 90}\n"
@@ -275,6 +318,11 @@ TEST_F(TargetFiles, HostileArchivesAreRefused) {
     return zip({file});
   };
   refuse_archive("PK\3\4");
+  const std::string whole = zip({{"doc.kml", yard}}), ones(4, '\xFF');
+  std::string zip64 = whole;
+  refuse_archive(zip64.replace(whole.rfind("PK\1\2") + 24, 4, ones));
+  zip64 = whole;
+  refuse_archive(zip64.replace(whole.rfind("PK\5\6") + 16, 4, ones));
   refuse_archive(zip({{"doc.kml", yard}}).substr(0, 300));
   refuse_archive(zip({{"readme.txt", yard}}));
   refuse_archive(with([](ZipFile& file) { file.flags = 1; }));
@@ -298,7 +346,7 @@ TEST_F(TargetFiles, HostileArchivesAreRefused) {
     bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
     write("flipped.kmz", bytes);
     try {
-      EXPECT_NEAR(plan_area(placed("file: flipped.kmz").target), 400, 0.1) << "byte " << i;
+      EXPECT_NEAR(plan_area(of_file("flipped.kmz")), 400, 0.1) << "byte " << i;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input) << "byte " << i << error.what();
     }
@@ -349,6 +397,25 @@ TEST_F(TargetFiles, OutlinesMayHaveHeights) {
   refuse("outline: [[30, 0, 30], [50, 0, 30], [50, 20]]", ErrorCode::wrong_type, "mission.yaml:3:");
   refuse("outline: [[30, 0, 30], [50, 0, 30], [50, 20, 32], [40, 5, 30]]", ErrorCode::target_not_planar,
          "mission.yaml:3:");
+}
+
+TEST_F(TargetFiles, NoOutlineIsLeftOutUnsaid) {
+  const std::string square = "[[30, 0], [50, 0], [50, 20], [30, 20]]", sliver = "[[60, 0], [90, 0], [90, 0.005]]";
+  refuse("outline: [" + square + ", " + sliver + "]", ErrorCode::target_without_area, "mission.yaml:3:");
+  refuse(
+      "outline: [[[30, 0, 9], [50, 0, 9], [50, 20, 9], [30, 20, 9]], [[60, 0, 9], [90, 0, 9], [90, 0.005, 9], [60, "
+      "0.005, 9]]]",
+      ErrorCode::target_without_area, "mission.yaml:3:");
+  write("sliver.geojson", feature("[" + json_ring(kSquare) + "], [" + json_ring({{60, 0}, {90, 0}, {90, 0.005}}) + "]",
+                                  "{}", "MultiPolygon"));
+  refuse("file: sliver.geojson", ErrorCode::target_without_area, "mission.yaml:3:");
+}
+
+TEST_F(TargetFiles, AnOutlineIsConvexAsItIsGivenOrNotAtAll) {
+  // A dent of 0.05 mm is less than the rounding of corners that are cut into parts: what is rounded is convex.
+  const Mission dented = placed("outline: [[30, 0, 30], [50, 0, 30], [50, 20, 30], [40, 19.99995, 30], [30, 20, 30]]");
+  EXPECT_NEAR(plan_area(dented.target), 400, 0.1);
+  EXPECT_EQ(heights(dented.target), std::pair(30.0, 30.0));
 }
 
 TEST_F(TargetFiles, ThereMayBeSeveralOutlines) {

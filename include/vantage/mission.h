@@ -96,9 +96,9 @@ struct MissionTarget {
   Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
-  std::optional<TargetFile> target_file = std::nullopt;      ///< says where to read it
   bool both_sides = false;  ///< a position sees it that sees it from the front, or from the back
   std::string place = {};   ///< in the mission file; empty for a mission made in memory
+  std::optional<TargetFile> target_file = std::nullopt;  ///< instead of the first two: says where to read it
 };
 
 /// A camera as a mission file gives it: one of these.
@@ -307,7 +307,9 @@ struct Attempt {
   std::optional<Error> error = {};
 };
 
-/// The same, but what is wrong with one target (Error(input)) does not stop the others. Other errors do.
+/// The same, but what is wrong with one target does not stop the others: that it cannot be seen as it lies, is too
+/// large for the tolerance, or that its volume takes more work than ExactOptions::work_limit. Other errors do, before
+/// any volume is computed where they are of the sensor or the navigation limits.
 VANTAGE_API std::vector<Attempt> try_missions(const Mission& mission, const RunOptions& options = {},
                                               const Progress& progress = {});
 

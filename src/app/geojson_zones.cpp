@@ -279,7 +279,7 @@ ListedRing GeoJsonReader::ring(const json& positions, const std::string& place) 
   for (const json& numbers : positions) {
     closed.corners.push_back(position(numbers, place));
     const bool has_height = numbers.size() > 2 && numbers[2].is_number();
-    if (has_height) closed.z_m.push_back(number(numbers[2], "a height", place));
+    closed.z_m.push_back(has_height ? number(numbers[2], "a height", place) : std::nan(""));
   }
   return opened_ring(closed, file_, place);
 }

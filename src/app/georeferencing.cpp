@@ -253,7 +253,7 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
 
 std::vector<MissionTarget> given_targets(const MissionFile& file) {
   if (!file.targets.empty()) return file.targets;
-  return {{file.target, file.ground_target, file.face_target, file.target_file, file.both_sides, file.places.target}};
+  return {{file.target, file.ground_target, file.face_target, file.both_sides, file.places.target, file.target_file}};
 }
 
 /// As the mission of that target alone, for functions of one target.

@@ -170,9 +170,9 @@ class Writer {
     std::string text;
     if (mission_.targets.empty()) {
       Section section("target");
-      add_target(
-          {mission_.target, mission_.ground_target, mission_.face_target, mission_.target_file, mission_.both_sides},
-          section);
+      add_target({mission_.target, mission_.ground_target, mission_.face_target, mission_.both_sides, "",
+                  mission_.target_file},
+                 section);
       text = section.text();
     } else {
       text = "targets:\n";

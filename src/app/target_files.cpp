@@ -10,6 +10,7 @@
 
 #include "app/input_file.h"
 #include "app/named_objects.h"
+#include "app/target_section.h"
 #include "app/zone_file.h"
 #include "app/zone_files.h"
 #include "core/zone_check.h"
@@ -114,7 +115,15 @@ Zone::Ring FeatureOfFile::in_frame(const Zone::Ring& ring, const std::string& pl
 }
 
 void FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline, GroundTarget& target) const {
-  if (listed.corner_z_m.empty()) return;
+  const std::size_t count = listed.corner_z_m.size();
+  const auto without = static_cast<std::size_t>(
+      std::count_if(listed.corner_z_m.begin(), listed.corner_z_m.end(), [](double z) { return std::isnan(z); }));
+  if (without == count) return;
+  if (without > 0) {
+    fail(ErrorCode::wrong_type, listed.place,
+         std::to_string(without) + " of its " + std::to_string(count) + " corners have no height, and others have one",
+         "give all corners a height, or none: then they lie on the ground");
+  }
   if (listed.corners_from == HeightReference::ground) {
     const auto [low, high] = std::minmax_element(listed.corner_z_m.begin(), listed.corner_z_m.end());
     const bool is_first = target.outlines.empty();
@@ -146,7 +155,9 @@ GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) cons
     Zone area;
     area.outer = outline.outer;
     area.holes = outline.holes;
-    if (const auto fault = core::fault_of(area)) fail(fault->code, listed.place, fault->problem, fault->fix);
+    if (const auto fault = core::fault_of(area)) {
+      fail(fault->code, listed.place, fault->problem, advice_for_outline(*fault, listed.corner_z_m));
+    }
     add_heights(listed, outline, target);
     target.outlines.push_back(std::move(outline));
   }

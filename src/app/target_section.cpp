@@ -240,7 +240,7 @@ const YamlNode& TargetParser::parse_outline(const YamlNode& node, const YamlNode
     area.outer = one.outer;
     area.holes = one.holes;
     if (const auto fault = core::fault_of(area)) {
-      fail(fault->code, outline, "target.outline: " + fault->problem, fault->fix);
+      fail(fault->code, outline, "target.outline: " + fault->problem, advice_for_outline(*fault, one.z_m));
     }
   }
   return outline;
@@ -442,6 +442,12 @@ const YamlNode& TargetParser::require(const YamlNode& map, std::string_view key,
 }
 
 }  // namespace
+
+std::string advice_for_outline(const core::LimitFault& fault, const std::vector<double>& z_m) {
+  const bool has_heights = std::any_of(z_m.begin(), z_m.end(), [](double z) { return std::isfinite(z); });
+  if (fault.code != ErrorCode::zone_not_simple || !has_heights) return fault.fix;
+  return fault.fix + "; a polygon that stands upright, as a wall, cannot be given so: " + kUprightAdvice;
+}
 
 std::string heading_text(double heading_deg) {
   for (std::size_t i = 0; i < kHeadings.size(); ++i) {

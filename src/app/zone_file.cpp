@@ -85,29 +85,23 @@ ListedRing opened_ring(const ListedRing& closed, const std::filesystem::path& fi
                                      : "the ring is not closed",
                   "end each ring with its first position");
   }
-  const bool has_heights = closed.z_m.size() == corners.size();
   ListedRing ring;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!ring.corners.empty() && ring.corners.back() == corners[i]) continue;
     ring.corners.push_back(corners[i]);
-    if (has_heights) ring.z_m.push_back(closed.z_m[i]);
+    ring.z_m.push_back(closed.z_m[i]);
   }
   if (ring.corners.size() > 1) {
     ring.corners.pop_back();
-    if (has_heights) ring.z_m.pop_back();
+    ring.z_m.pop_back();
   }
   return ring;
 }
 
 void add_ring(ListedRing ring, bool is_outer, ListedZone& zone) {
-  const std::size_t before = zone.corner_z_m.size();
-  std::size_t corners = is_outer ? 0 : zone.outer.size();
-  for (const Zone::Ring& hole : zone.holes) corners += hole.size();
-  if (before == corners && ring.z_m.size() == ring.corners.size()) {
-    zone.corner_z_m.insert(zone.corner_z_m.end(), ring.z_m.begin(), ring.z_m.end());
-  } else {
-    zone.corner_z_m.clear();
-  }
+  // Holes may stand before the outer ring, whose heights come first.
+  const auto at = is_outer ? zone.corner_z_m.begin() : zone.corner_z_m.end();
+  zone.corner_z_m.insert(at, ring.z_m.begin(), ring.z_m.end());
   if (is_outer) {
     zone.outer = std::move(ring.corners);
   } else {

@@ -29,7 +29,7 @@ struct ListedCircle {
   double least_radius_m = 0, radius_m = 0;
 };
 
-/// Corners in plan, and the height that the file gives each of them, if it gives all of them one.
+/// Corners in plan, and the height that the file gives each of them: not a number where it gives none.
 struct ListedRing {
   Zone::Ring corners;  ///< longitude and latitude, degrees
   std::vector<double> z_m;
@@ -48,7 +48,7 @@ struct ListedZone {
   std::string unused_heights;              ///< what else it says of heights, and why that is not used; for messages
   std::optional<bool> is_inclusion;        ///< of a fence: to stay in or out
   /// Of the corners themselves, of `outer` and then of the holes; empty where the file has none, or says to ignore
-  /// them. They are no bounds of a zone.
+  /// them. Not a number for a corner without, beside others with one. They are no bounds of a zone.
   std::vector<double> corner_z_m;
   std::optional<HeightReference> corners_from;  ///< nothing: the file leaves open from where they are measured
 };
@@ -81,7 +81,7 @@ Eigen::Vector2d checked_position(double longitude_deg, double latitude_deg, cons
 /// Error(input) for a ring that is not closed.
 ListedRing opened_ring(const ListedRing& closed, const std::filesystem::path& file, const std::string& place);
 
-/// Makes a ring the outer one of a polygon, or else a hole. Heights count only where all corners have one.
+/// Makes a ring the outer one of a polygon, or else a hole.
 void add_ring(ListedRing ring, bool is_outer, ListedZone& zone);
 
 }  // namespace vantage::internal::app

@@ -31,7 +31,7 @@ void check_target(const vantage::MissionTarget& given, bool is_in_frame) {
 void check_accepted(const vantage::MissionFile& mission) {
   require(mission.scene.file.is_absolute());
   if (mission.targets.empty()) {
-    check_target({mission.target, mission.ground_target, mission.face_target, mission.target_file},
+    check_target({mission.target, mission.ground_target, mission.face_target, false, "", mission.target_file},
                  mission.crs.empty());
   }
   for (const vantage::MissionTarget& target : mission.targets) check_target(target, mission.crs.empty());

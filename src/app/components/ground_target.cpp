@@ -17,6 +17,7 @@
 #include "app/pierced_advice.h"
 #include "app/scene_lookups.h"
 #include "app/scene_warnings.h"
+#include "app/target_section.h"
 #include "app/triangle_runs.h"
 #include "io/mesh_builder.h"
 #include "maps/city/object_outlines.h"
@@ -121,10 +122,16 @@ std::string id_of_area(const city::OutlineFinder& find, const std::string& name,
   return id_of_name(areas, name, "area of the map", place);
 }
 
-/// The outlines of an object of the map. What is in a hole, a building maybe, is not part of it and need not be seen. A
-/// target that has no name of its own gets the object's.
-std::vector<city::Footprint> outlines(Mission& mission, const std::string& asked, const geo::LocalFrame& frame,
-                                      const Progress& progress) {
+struct NamedArea {
+  std::string id;    ///< "way/123"
+  std::string name;  ///< of the map; may be empty
+  std::vector<city::Footprint> outlines;
+};
+
+/// An area of the map. What is in a hole, a building maybe, is not part of it and need not be seen. `asked`: its id or
+/// its name.
+NamedArea area_of_map(const Mission& mission, const std::string& asked, const geo::LocalFrame& frame,
+                      const Progress& progress) {
   const SceneSource& source = mission.as_written.scene;
   const auto& find = looked_up<city::OutlineFinder>(*mission.loaded, [&] {
     return std::make_shared<const city::OutlineFinder>(city::find_outlines(source.file, source.city.region, progress));
@@ -142,10 +149,7 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& asked
   }
   if (found->outlines.empty())
     throw Error(ErrorCode::map_object_missing, name + " has no area", place, "name another object");
-  const std::string known_as = io::clean_name(found->name);
-  if (mission.target.name == asked && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
-  mission.as_written.ground_target->osm = name;  // for this target alone: see georeference()
-  return found->outlines;
+  return {name, io::clean_name(found->name), found->outlines};
 }
 
 std::vector<city::Footprint> drawn(const std::vector<TargetOutline>& outlines) {
@@ -206,25 +210,50 @@ void put_on_plane_of_ground(Mission& mission, const std::vector<city::Footprint>
   }
 }
 
-/// Convex parts at the heights of the corners.
+/// The outline as the one part of a target, if it can be that: convex, with no more corners than a target may have.
+std::optional<std::vector<Vec3>> as_one_part(const TargetOutline& outline) {
+  if (!outline.holes.empty()) return std::nullopt;
+  Target target;
+  target.parts.resize(1);
+  for (std::size_t i = 0; i < outline.outer.size(); ++i) {
+    target.parts[0].emplace_back(outline.outer[i].x(), outline.outer[i].y(), outline.z_m[i]);
+  }
+  try {
+    make_target_frame(target);
+  } catch (const Error&) {  // it may be a target in several parts
+    return std::nullopt;
+  }
+  return std::move(target.parts[0]);
+}
+
+/// Convex parts at the heights of the corners: a convex outline as it is given, to the bit. Others lie in the plane
+/// nearest to their corners, which is no farther from these than plane_of_corners allows.
 void put_at_heights(Mission& mission, const std::vector<TargetOutline>& outlines) {
-  constexpr std::size_t kMostCorners = 64;
   for (const TargetOutline& outline : outlines) {
     const Incline plane = plane_of_corners(outline, mission.as_written.places.target);
-    const auto pieces = city::convex_areas(drawn({outline}), city::Outlines::rough);
-    const bool is_convex = outline.holes.empty() && pieces.size() == 1 && pieces[0].pieces.size() == 1;
-    if (is_convex && outline.outer.size() <= kMostCorners) {  // to the bit as it is given
-      std::vector<Vec3>& part = mission.target.parts.emplace_back();
-      for (std::size_t i = 0; i < outline.outer.size(); ++i) {
-        part.emplace_back(outline.outer[i].x(), outline.outer[i].y(), outline.z_m[i]);
-      }
+    if (auto part = as_one_part(outline)) {
+      mission.target.parts.push_back(std::move(*part));
       continue;
     }
-    for (const city::ConvexArea& area : pieces) {
+    for (const city::ConvexArea& area : city::convex_areas(drawn({outline}), city::Outlines::rough)) {
       for (const city::Ring& piece : area.pieces) {
         for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
       }
     }
+  }
+}
+
+/// Of a target all must be seen: an outline of which nothing is left, as convex_areas leaves narrow pieces out, is not
+/// left out of it unsaid.
+void check_area_of_each(const Mission& mission, const std::vector<TargetOutline>& outlines) {
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    if (!city::convex_areas(drawn({outlines[i]}), city::Outlines::rough).empty()) continue;
+    const std::string which = outlines.size() == 1 ? "" : " " + std::to_string(i);
+    const bool has_heights = !outlines[i].z_m.empty();
+    throw Error(ErrorCode::target_without_area, "the target's outline" + which + " has hardly any area",
+                mission.as_written.places.target,
+                std::string("draw it wider than 1 cm and larger than 0.01 m2") +
+                    (has_heights ? std::string("; if it stands upright, ") + kUprightAdvice : ""));
   }
 }
 
@@ -277,14 +306,24 @@ void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progres
   const GroundTarget& wanted = *mission.as_written.ground_target;
   if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
   const bool is_drawn = !wanted.outlines.empty();
+  check_area_of_each(mission, wanted.outlines);
   mission.target.parts.clear();
   if (is_drawn && !wanted.outlines.front().z_m.empty()) {
     put_at_heights(mission, wanted.outlines);
   } else {
-    const std::vector<city::Footprint> areas = is_drawn ? drawn(wanted.outlines)
-                                               : wanted.osm.empty()
-                                                   ? std::vector<city::Footprint>{{rectangle(wanted, *frame), {}}}
-                                                   : outlines(mission, wanted.osm, *frame, progress);
+    std::vector<city::Footprint> areas;
+    if (is_drawn) {
+      areas = drawn(wanted.outlines);
+    } else if (wanted.osm.empty()) {
+      areas = {{rectangle(wanted, *frame), {}}};
+    } else {
+      NamedArea area = area_of_map(mission, wanted.osm, *frame, progress);
+      if (mission.target.name == wanted.osm && !area.name.empty()) {
+        mission.target.name = area.name + " (" + area.id + ")";
+      }
+      mission.as_written.ground_target->osm = std::move(area.id);  // for this target alone: see georeference()
+      areas = std::move(area.outlines);
+    }
     if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
     put_on_plane_of_ground(mission, areas, is_drawn ? city::Outlines::rough : city::Outlines::clean,
                            wanted.above_ground_m);

@@ -165,10 +165,9 @@ void KmlReader::end_polygon() {
 
 ListedRing KmlReader::ring_of(const ListedRing& positions) {
   for (const double altitude_m : positions.z_m) {
-    if (!altitude_m_) altitude_m_ = altitude_m;
-    is_level_ = is_level_ && *altitude_m_ == altitude_m;
+    if (!altitude_m_ && !std::isnan(altitude_m)) altitude_m_ = altitude_m;
+    is_level_ = is_level_ && altitude_m_ && *altitude_m_ == altitude_m;
   }
-  is_level_ = is_level_ && positions.z_m.size() == positions.corners.size();
   return opened_ring(positions, file_, place());
 }
 
@@ -204,7 +203,7 @@ ListedRing KmlReader::positions() const {
            "write numbers with commas between them and no blanks");
     }
     positions.corners.push_back(checked_position(numbers[0], numbers[1], file_, place()));
-    if (count == 3) positions.z_m.push_back(numbers[2]);
+    positions.z_m.push_back(count == 3 ? numbers[2] : std::nan(""));
   }
 }
 
