@@ -13,9 +13,11 @@ namespace {
 
 constexpr std::string_view kFile = "PK\3\4", kEntry = "PK\1\2", kEnd = "PK\5\6";
 constexpr std::size_t kFileBytes = 30, kEntryBytes = 46, kEndBytes = 22, kLongestRemark = 65535;
-constexpr std::uint32_t kIsElsewhere = 0xFFFFFFFF;  // the number is in an extension for archives beyond 4 GB
+// The number is in an extension for archives beyond 4 GB.
+constexpr std::uint32_t kIsElsewhere = 0xFFFFFFFF, kCountIsElsewhere = 0xFFFF;
+constexpr const char* kIsZip64 = "it is in the form of archives beyond 4 GB (zip64), which is not read";
 
-[[noreturn]] void fail(const std::string& text) { throw ZipProblem{text}; }
+[[noreturn]] void fail(const std::string& text) { throw ZipProblem(text); }
 
 struct Entry {
   std::string_view name;
@@ -66,6 +68,7 @@ class Archive {
       if (bytes_.substr(at, 4) != kEnd) continue;
       entries_ = number(at + 10, 2);
       directory_ = number(at + 16, 4);
+      if (entries_ == kCountIsElsewhere || directory_ == kIsElsewhere) fail(kIsZip64);
       return;
     }
     fail("it is cut off: it has no directory at its end");
@@ -139,12 +142,12 @@ std::string unzipped(std::string_view archive, std::string_view name, std::strin
   if (!found) fail("there is no " + std::string(extension) + " in it");
   if (found->flags & 1) fail("what it holds is encrypted");
   if (found->packed_bytes == kIsElsewhere || found->bytes == kIsElsewhere || found->offset == kIsElsewhere) {
-    throw ZipProblem{"what it holds is larger than 4 GB", true};
+    fail(kIsZip64);
   }
   if (found->bytes > most_bytes) {
-    throw ZipProblem{"the " + std::string(extension) + " in it is too large: " + std::to_string(found->bytes) +
+    throw ZipProblem("the " + std::string(extension) + " in it is too large: " + std::to_string(found->bytes) +
                          " bytes, at most " + std::to_string(most_bytes),
-                     true};
+                     true);
   }
   const std::string_view packed = files.packed(*found);
   std::string made;

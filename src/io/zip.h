@@ -2,15 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace vantage::internal::io {
 
 /// Why there is no such file, or why it cannot be read.
-struct ZipProblem {
+struct ZipProblem : std::exception {
+  explicit ZipProblem(std::string why, bool too_large = false) : text(std::move(why)), is_too_large(too_large) {}
+  const char* what() const noexcept override { return text.c_str(); }
+
   std::string text;  ///< ends a sentence about the archive: "it is cut off"
-  bool is_too_large = false;
+  bool is_too_large;
 };
 
 /// Whether it begins as an archive does.
