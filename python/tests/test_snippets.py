@@ -1,5 +1,6 @@
 """Every Python block of the documents is run, on the data that it names."""
 
+import ast
 import os
 import re
 import subprocess
@@ -72,6 +73,31 @@ def test_each_document_with_python_is_run():
     assert documents() == sorted(NEEDS, key=lambda name: (name != "README.md", name))
 
 
+def checked(text):
+    """The block, in which what `EXPRESSION  # "word"` says is asked; lines stay where they are."""
+    lines = []
+    for line in text.splitlines(keepends=True):
+        told = re.fullmatch(r'(\S.*?)\s+# ("[^"]*")\n', line)
+        lines.append(f"assert ({told[1]}) == {told[2]}, {told[1]}\n" if told and is_expression(told[1]) else line)
+    return "".join(lines)
+
+
+def is_expression(text):
+    try:
+        ast.parse(text, mode="eval")
+    except SyntaxError:
+        return False
+    return True
+
+
+def test_words_behind_expressions_are_asked():
+    assert checked('a = 1  # "b"\n2 + 3  # "five"\n"x"  # a word\n') == (
+        'a = 1  # "b"\nassert (2 + 3) == "five", 2 + 3\n"x"  # a word\n')
+    with pytest.raises(AssertionError):
+        exec(checked('"proved"  # "not proved"\n'))
+    assert any('== "proved"' in checked(text) for _, text in blocks_of("docs/python.md"))
+
+
 def said(blocks):
     """What `print(...)  # words` of the blocks say that they print, each with its place."""
     for place, text in blocks:
@@ -93,12 +119,12 @@ def test_the_blocks_of(document, tmp_path):
     if make is not None:
         make(tmp_path)
     (tmp_path / "examples").symlink_to(PROJECT / "examples")
-    blocks = blocks_of(document)
+    blocks = [(place, checked(text)) for place, text in blocks_of(document)]
     environment = {**os.environ, "PYTHONPATH": ":".join(sys.path), "MPLBACKEND": "Agg", "PYVISTA_OFF_SCREEN": "true"}
     driver = tmp_path / "driver.py"
     driver.write_text(DRIVER + "\n" if document != "docs/python-batch.md" else script_of(blocks))
     ran = subprocess.run([sys.executable, driver], input=repr(blocks), capture_output=True, text=True, cwd=tmp_path,
-                         env=environment, timeout=1800)
+                         env=environment, timeout=600)
     assert ran.returncode == 0, ran.stderr[-3000:]
     for place, words in said(blocks):
         assert words in ran.stdout, f"{place}: '{words}' is not in\n{ran.stdout}"
