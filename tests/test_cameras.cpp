@@ -200,13 +200,12 @@ TEST(KnownCameras, SeeAsWideAsTheirMakersSay) {
         Published{"dji_air_3s_medium_tele", kDiagonal, 35}, Published{"dji_air_3s_wide", kDiagonal, 84},
         Published{"dji_mavic_3_pro_medium_tele", kDiagonal, 35}, Published{"dji_mini_3", kDiagonal, 82.1, kOfType13},
         Published{"dji_mini_3_pro", kDiagonal, 82.1, kOfType13},
-        Published{"dji_mini_4_pro", kDiagonal, 82.1, kOfType13}, Published{"dji_zenmuse_h20_wide", kDiagonal, 82.9},
-        Published{"dji_zenmuse_h30_wide", kDiagonal, 82.1, kOfType13}, Published{"skydio_2", kHorizontal, 80},
-        Published{"skydio_2", kVertical, 64}, Published{"skydio_2", kDiagonal, 94},
-        Published{"skydio_x10_narrow", kHorizontal, 40}, Published{"skydio_x10_narrow", kDiagonal, 50},
-        // of Sony's lenses on sensors of these sizes
-        Published{"sony_a6100_16mm", kDiagonal, 83}, Published{"sony_a6100_35mm", kDiagonal, 44},
-        Published{"sony_ilx_lr1_24mm", kDiagonal, 84}, Published{"sony_ilx_lr1_35mm", kDiagonal, 63}}) {
+        Published{"dji_mini_4_pro", kDiagonal, 82.1, kOfType13},
+        Published{"dji_zenmuse_h30_wide", kDiagonal, 82.1, kOfType13},
+        // of Skydio's camera and metadata overviews
+        Published{"skydio_2", kHorizontal, 80}, Published{"skydio_2", kVertical, 64},
+        Published{"skydio_2", kDiagonal, 94}, Published{"skydio_x10_narrow", kHorizontal, 40},
+        Published{"skydio_x10_narrow", kDiagonal, 50}}) {
     const Pinhole pinhole = pinhole_of(find_camera(published.name));
     const double degrees =
         published.direction == kDiagonal ? diagonal_deg(pinhole) : pinhole.fov_deg()[published.direction];
