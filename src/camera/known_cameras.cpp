@@ -31,12 +31,8 @@ constexpr const char* kIxm = "Phase One, iXM-100 specifications: sensor 43.9 x 3
 constexpr double kWidth13 = 9.6768, kHeight13 = 7.2576;
 constexpr const char* kType13 =
     "DJI, metadata of its pictures: 6.72 mm, by lensfun and lists of planners; sensor of type 1/1.3: pixels of 2.4 um";
-// 24 and 70 mm as of 35 mm film, on that sensor.
-constexpr double kFocal24 = 6.71, kFocal70 = 19.57;
-constexpr const char* kAir3 =
-    "DJI, Air 3 specifications, from memory: two sensors of type 1/1.3, 24 and 70 mm as of 35 mm film";
-constexpr const char* kAir3s =
-    "DJI, Air 3S specifications, from memory: sensors of type 1 and 1/1.3, 24 and 70 mm as of 35 mm film";
+// 70 mm as of 35 mm film, on that sensor.
+constexpr double kFocal70 = 19.57;
 constexpr const char* kL2d = "DJI, metadata of its pictures: 12.29 mm, by lensfun; sensor of type 4/3: 17.3 x 13 mm";
 constexpr const char* kThermal =
     "DJI, metadata of its pictures: 9.1 mm, 40 mm as of 35 mm film, by lists of planners; pixels of 12 um";
@@ -59,13 +55,16 @@ constexpr std::array kCameraRows = {
     CameraRow{"dji_air_2s", "DJI", "Air 2S", 5472, 3648, 13.2, 8.8, 8.38,
               "DJI, metadata of its pictures: 8.38 mm, by lensfun; sensor of type 1: 13.2 x 8.8 mm"},
     CameraRow{"dji_air_3_medium_tele", "DJI", "Air 3, medium tele camera, 12 megapixels", 4032, 3024, kWidth13,
-              kHeight13, kFocal70, kAir3},
-    CameraRow{"dji_air_3_wide", "DJI", "Air 3, wide camera, 12 megapixels", 4032, 3024, kWidth13, kHeight13, kFocal24,
-              kAir3},
+              kHeight13, kFocal70,
+              "DJI, Air 3 specifications: type 1/1.3, 70 mm as of 35 mm film, by planners that cite them"},
+    CameraRow{"dji_air_3_wide", "DJI", "Air 3, wide camera, 12 megapixels", 4032, 3024, kWidth13, kHeight13, 6.72,
+              "DJI, Air 3: 6.72 mm, by YMapper's list; sensor of type 1/1.3: pixels of 2.4 um"},
     CameraRow{"dji_air_3s_medium_tele", "DJI", "Air 3S, medium tele camera, 12 megapixels", 4032, 3024, kWidth13,
-              kHeight13, kFocal70, kAir3s},
-    CameraRow{"dji_air_3s_wide", "DJI", "Air 3S, wide camera, 12 megapixels", 4096, 3072, 13.1072, 9.8304, 9.09,
-              kAir3s},
+              kHeight13, kFocal70,
+              "DJI, Air 3S specifications: type 1/1.3, 70 mm as of 35 mm film, by a planner that cites them"},
+    CameraRow{
+        "dji_air_3s_wide", "DJI", "Air 3S, wide camera, 12 megapixels", 4096, 3072, 13.1072, 9.8304, 9.09,
+        "DJI, Air 3S specifications: type 1, 24 mm as of 35 mm film, by programs that cite them; pixels of 3.2 um"},
     CameraRow{"dji_matrice_30_wide", "DJI", "Matrice 30 and 30T, wide camera", 4000, 3000, 6.4, 4.8, 4.5,
               "DJI, Matrice 30 specifications: type 1/2, 4.5 mm, by lists of planners"},
     CameraRow{"dji_matrice_30t_thermal", "DJI", "Matrice 30T, thermal camera", 640, 512, 7.68, 6.144, 9.1, kThermal},
@@ -77,9 +76,11 @@ constexpr std::array kCameraRows = {
               "DJI, metadata of its pictures: 10.26 mm; sensor of type 1: 13.2 x 8.8 mm"},
     CameraRow{"dji_mavic_3_classic", "DJI", "Mavic 3 and Mavic 3 Classic (Hasselblad L2D-20c)", 5280, 3956, 17.3, 13.0,
               12.29, kL2d},
-    CameraRow{"dji_mavic_3_pro_medium_tele", "DJI", "Mavic 3 Pro, medium tele camera, 12 megapixels", 4032, 3024,
-              kWidth13, kHeight13, kFocal70,
-              "DJI, Mavic 3 Pro specifications, from memory: type 1/1.3, 70 mm as of 35 mm film"},
+    CameraRow{
+        "dji_mavic_3_pro_medium_tele", "DJI", "Mavic 3 Pro, medium tele camera, 12 megapixels", 4032, 3024, kWidth13,
+        kHeight13, kFocal70,
+        "DJI, Mavic 3 Pro specifications: type 1/1.3, 70 mm as of 35 mm film, by programs that cite them; pixels by "
+        "OpenAthena's list"},
     CameraRow{"dji_mavic_3_pro_wide", "DJI", "Mavic 3 Pro, wide camera (Hasselblad L2D-20c)", 5280, 3956, 17.3, 13.0,
               12.29, kL2d},
     CameraRow{"dji_mavic_3e_tele", "DJI", "Mavic 3E and 3T, tele camera", 4000, 3000, 6.4, 4.8, 29.85,
@@ -89,8 +90,9 @@ constexpr std::array kCameraRows = {
     CameraRow{"dji_mavic_3t_thermal", "DJI", "Mavic 3T, thermal camera", 640, 512, 7.68, 6.144, 9.1, kThermal},
     CameraRow{"dji_mavic_3t_wide", "DJI", "Mavic 3T, wide camera, 12 megapixels", 4000, 3000, 6.4, 4.8, 4.4,
               "DJI, metadata of its pictures: 4.4 mm, 24 mm as of 35 mm film; type 1/2, by lists of planners"},
-    CameraRow{"dji_mini_3", "DJI", "Mini 3", 4000, 3000, 9.6, 7.2, 6.66,
-              "DJI, Mini 3 specifications, from memory: type 1/1.3, 24 mm as of 35 mm film"},
+    CameraRow{"dji_mini_3", "DJI", "Mini 3", 4000, 3000, 9.6, 7.2, 6.72,
+              "DJI, metadata of its pictures: 6.72 mm, by planners, 6.7 mm by OpenAthena's list; sensor of type 1/1.3: "
+              "pixels of 2.4 um"},
     CameraRow{"dji_mini_3_pro", "DJI", "Mini 3 Pro, 12 megapixels", 4032, 3024, kWidth13, kHeight13, 6.72, kType13},
     CameraRow{"dji_mini_4_pro", "DJI", "Mini 4 Pro, 12 megapixels", 4032, 3024, kWidth13, kHeight13, 6.72, kType13},
     CameraRow{"dji_phantom_4_pro", "DJI", "Phantom 4 Pro", 5472, 3648, 13.2, 8.8, 8.8, kPhantom},
@@ -118,8 +120,6 @@ constexpr std::array kCameraRows = {
               "MicaSense, metadata of its pictures: pixels of 12 um, 1.77 mm"},
     CameraRow{"micasense_rededge_m", "MicaSense", "RedEdge-M", 1280, 960, 4.8, 3.6, 5.4,
               "MicaSense, RedEdge-M Integration Guide, revision 02, section 3"},
-    CameraRow{"parrot_anafi_rectilinear", "Parrot", "ANAFI, rectilinear pictures", 4608, 3456, 5.161, 3.8708, 3.333,
-              "Parrot, ANAFI specifications, from memory: 75.5 degrees horizontal; pixels taken as 1.12 um"},
     CameraRow{"parrot_sequoia_mono", "Parrot", "Sequoia, a monochrome camera", 1280, 960, 4.8, 3.6, 4,
               "Parrot, Sequoia specifications, by QGroundControl's list"},
     CameraRow{"parrot_sequoia_rgb", "Parrot", "Sequoia, RGB camera", 4608, 3456, 6.17, 4.63, 4.9,
