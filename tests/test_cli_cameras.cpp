@@ -82,8 +82,8 @@ TEST_F(CliCameras, ListsThoseWithAllWords) {
     arguments.insert(arguments.begin(), "cameras");
     arguments.emplace_back("--json");
     std::vector<std::string> found;
-    for (const auto& camera : nlohmann::json::parse(output_of(arguments)).at("cameras"))
-      found.push_back(camera.at("name"));
+    const auto json = nlohmann::json::parse(output_of(arguments));
+    for (const auto& camera : json.at("cameras")) found.push_back(camera.at("name"));
     return found;
   };
   const std::vector<std::string> mavics = names({"mavic"});

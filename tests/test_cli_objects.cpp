@@ -57,7 +57,7 @@ TEST_F(CliObjects, WhatAMissionWritesFindsTheObject) {
   for (const auto& [scene, found] : {std::pair{"osm: city.osm", mill}, {"mesh: town.obj", cabin}}) {
     write("mission.yaml", std::string("scene: {") + scene + "}\nsensor: {max_range: 60}\n" +
                               found.at("mission").get<std::string>() + "\n");
-    const json report = json::parse(output_of({"compute", "mission.yaml", "-o", "volume.ply", "--json"}));
+    const json report = json::parse(output_of({"compute", "mission.yaml", "-o", "volume.ply", "--json", "-q"}));
     EXPECT_EQ(report.at("outcome"), "computed") << report.dump(2);
     EXPECT_GT(report.at("volume_m3").get<double>(), 1000);
   }

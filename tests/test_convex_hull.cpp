@@ -57,10 +57,10 @@ std::vector<Vec3> degenerate_points(Random& random) {
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) {
     Vec3 point = random.point(-1, 1);
-    if (kind == 0) point = (3 * point).array().round() / 3;          // a grid
-    if (kind == 1) point[random.integer(0, 2)] = random.chance(0.5); // faces of a box
-    if (kind == 2) point = point.normalized();                       // a ball
-    if (kind == 3 && i % 3) point.z() = 0;                           // most in one plane
+    if (kind == 0) point = (3 * point).array().round() / 3;           // a grid
+    if (kind == 1) point[random.integer(0, 2)] = random.chance(0.5);  // faces of a box
+    if (kind == 2) point = point.normalized();                        // a ball
+    if (kind == 3 && i % 3) point.z() = 0;                            // most in one plane
     points.push_back(turn * (size * point) + middle);
     if (random.chance(0.2)) points.push_back(points[static_cast<std::size_t>(random.integer(0, i))]);
   }

@@ -103,7 +103,8 @@ TEST(ReadObj, CleansNames) {
                                            "e",
                                            "Stra\xc3\x9f"
                                            "e \xe2\x82\xac",
-                                           "\xc3\xad\xc2\xa0\xc2\x80"}));
+                                           "\xc3\xad\xc2\xa0"}))
+      << "U+0080 is a control character";
 }
 
 TEST(ReadObj, CutsPolygonsAndCountsFacesWithoutArea) {

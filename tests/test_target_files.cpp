@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -185,7 +186,9 @@ TEST_F(TargetFiles, APolygonOfGeoJsonLiesOnTheGround) {
   EXPECT_NEAR(plan_area(mission.target), 400, 0.1);
   EXPECT_EQ(heights(mission.target), std::pair(0.0, 0.0));
   ASSERT_EQ(mission.target.parts.size(), 1u);
-  EXPECT_NEAR((mission.target.parts[0][0] - Vec3(30, 0, 0)).norm(), 0, 1e-3);
+  const std::vector<Vec3>& part = mission.target.parts[0];
+  EXPECT_TRUE(std::any_of(part.begin(), part.end(),
+                          [](const Vec3& corner) { return (corner - Vec3(30, 0, 0)).norm() < 1e-3; }));
   EXPECT_EQ(run_mission(mission).volume.outcome, Outcome::computed);
   write("bent.geojson", R"({"type": "Polygon", "coordinates": [)" + json_ring(kBent) + "]}");
   EXPECT_GT(of_file("bent.geojson").parts.size(), 1u);
@@ -257,9 +260,9 @@ TEST_F(TargetFiles, OneOfSeveralFeaturesIsChosen) {
   refuse("file: areas.geojson, feature: East lot", ErrorCode::object_missing, "areas.geojson");
   EXPECT_NEAR(plan_area(of_file("areas.geojson", "North lot")), 400, 0.1);
   EXPECT_NEAR(plan_area(of_file("areas.geojson", "NORTH LOT")), 400, 0.1);
-  EXPECT_NEAR(plan_area(of_file("areas.geojson", "7")), 175, 0.1) << "by the id";
+  EXPECT_NEAR(plan_area(of_file("areas.geojson", "7")), 150, 0.1) << "by the id";
   const Mission south = placed("file: areas.geojson, feature: South lot");
-  EXPECT_NEAR(plan_area(south.target), 175, 0.1);
+  EXPECT_NEAR(plan_area(south.target), 150, 0.1);
   EXPECT_EQ(south.target.name, "South lot");
   const Mission both = placed("file: areas.geojson, feature: 2");
   EXPECT_NEAR(plan_area(both.target), 400 + 45, 0.1) << "of a MultiPolygon all parts must be seen";
@@ -276,7 +279,7 @@ TEST_F(TargetFiles, KmlSaysFromWhereItsHeightsAre) {
   EXPECT_EQ(heights(ground.target), std::pair(0.0, 0.0)) << "clamped to the ground";
   write("two.kml",
         kml("<Placemark><name>a line</name></Placemark>" + placemark("", "", kSquare) + placemark("", "", kBent)));
-  EXPECT_NEAR(plan_area(of_file("two.kml", "2")), 175, 0.1) << "placemarks are counted from 0";
+  EXPECT_NEAR(plan_area(of_file("two.kml", "2")), 150, 0.1) << "placemarks are counted from 0";
   write("above.kml", kml(placemark("deck", mode("relativeToGround"), raised(kSquare, 30))));
   EXPECT_EQ(heights(of_file("above.kml")), std::pair(30.0, 30.0));
   write("uneven.kml", kml(placemark("deck", mode("relativeToGround"), {{30, 0, 9}, {50, 0, 9}, {50, 20, 8}})));
@@ -389,7 +392,7 @@ TEST_F(TargetFiles, TheyAreWrittenIntoMissionsAndKept) {
 
 TEST_F(TargetFiles, OutlinesMayHaveHeights) {
   const Mission deck = placed("outline: [[30, 0, 30], [50, 0, 30], [50, 20, 30], [40, 5, 30]]");
-  EXPECT_NEAR(plan_area(deck.target), 175, 0.01);
+  EXPECT_NEAR(plan_area(deck.target), 150, 0.01);
   EXPECT_EQ(heights(deck.target), std::pair(30.0, 30.0));
   const Mission convex = placed("outline: [[30.00001, 0, 30], [50, 0, 30], [50, 20, 32], [30.00001, 20, 32]]");
   ASSERT_EQ(convex.target.parts.size(), 1u);

@@ -81,8 +81,7 @@ std::string mission_of(const LoadedScene& loaded, const SceneObject& object) {
   }
   const bool is_of_map = loaded.city && !object.source_id.empty();
   const char* const part = object.kind == ObjectKind::wall ? ", part: facade}" : ", part: roof}";
-  return std::string("target: {") + (is_of_map ? "osm: " : "object: ") + internal::app::yaml_text(known_as) +
-         part;
+  return std::string("target: {") + (is_of_map ? "osm: " : "object: ") + internal::app::yaml_text(known_as) + part;
 }
 
 }  // namespace

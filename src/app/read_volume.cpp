@@ -100,7 +100,9 @@ struct Grid {
       }
     }
   }
-  double largest() const { return box.empty() ? 0 : std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()); }
+  double largest() const {
+    return box.empty() ? 0 : std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  }
   double extent() const { return box.empty() ? 0 : (box.max - box.min).maxCoeff(); }
 };
 

@@ -18,8 +18,8 @@ MissionTarget parse_target_section(const YamlNode& node, const ValueReader& read
 /// For a polygon that stands upright, of which an outline says nothing: it is one in plan.
 inline constexpr const char* kUprightAdvice = "write its corners as 'vertices', or take 'part: facade' of an object";
 
-/// What to do about an outline that is no polygon in plan. `z_m`: the heights of its corners, if it has any: then it may
-/// stand upright.
+/// What to do about an outline that is no polygon in plan. `z_m`: the heights of its corners, if it has any: then it
+/// may stand upright.
 std::string advice_for_outline(const core::LimitFault& fault, const std::vector<double>& z_m);
 
 /// "south"; "200 degrees from north".

@@ -9,9 +9,9 @@
 namespace vantage::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kQuietTime{1000};    // what is over sooner needs no progress
-constexpr std::chrono::milliseconds kRefreshTime{100};   // faster than that is only flicker
-constexpr std::chrono::milliseconds kNewStageTime{1000}; // in a file or a pipe every line stays
+constexpr std::chrono::milliseconds kQuietTime{1000};     // what is over sooner needs no progress
+constexpr std::chrono::milliseconds kRefreshTime{100};    // faster than that is only flicker
+constexpr std::chrono::milliseconds kNewStageTime{1000};  // in a file or a pipe every line stays
 constexpr std::chrono::milliseconds kNewPercentTime{5000};
 constexpr std::chrono::milliseconds kNothingNewTime{30000};
 

@@ -21,8 +21,7 @@ Volume united(std::vector<Volume> volumes, const Progress&, double) {
   return std::move(volumes[0]);
 }
 
-Volume within_limits(const Volume&, const PreparedTarget&, const Navigation& navigation, const Progress&,
-                     double) {
+Volume within_limits(const Volume&, const PreparedTarget&, const Navigation& navigation, const Progress&, double) {
   if (!navigation.empty()) throw_missing("solid", "navigation limits", "navigation");
   throw_missing("solid", "limits of the sensor besides its range", "sensor");
 }
