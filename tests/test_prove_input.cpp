@@ -192,11 +192,17 @@ TEST(ProveInput, RangeAndFrontSayWhereTheyAreBroken) {
   const double exactly = Vec3(4, 4, 6).norm();
   yard.sensor.max_range_m = std::nextafter(exactly, 0);
   EXPECT_NE(verdict_on(yard.prove({.shrink = 0}), "range"), ProofVerdict::wrong);
-  // Behind by less than the file's rounding: not proved, as nothing is known of the view from there.
+  // Behind by less than the file's rounding: proved of the volume less a layer; nothing is known of the view from
+  // there.
   Yard rounded;
-  rounded.volume = make_box_mesh({-3, -3, -1e-5}, {3, 3, 6});
-  EXPECT_EQ(verdict_on(rounded.prove({.rounding_m = 1e-4}), "front"), ProofVerdict::not_proved);
+  rounded.volume = make_box_mesh({-3, -3, -5e-7}, {3, 3, 6});
+  EXPECT_EQ(verdict_on(rounded.prove({.rounding_m = 1e-6}), "front"), ProofVerdict::proved);
+  EXPECT_GE(rounded.prove({.rounding_m = 1e-6}).layer_m, 5e-7);
   EXPECT_EQ(verdict_on(rounded.prove(), "front"), ProofVerdict::wrong);
+  // No file's numbers are rounded by more than single precision is, whatever it says.
+  rounded.volume = make_box_mesh({-3, -3, -1e-5}, {3, 3, 6});
+  EXPECT_LT(rounded.prove({.rounding_m = 1}).rounding_m, 2e-6);
+  EXPECT_EQ(verdict_on(rounded.prove({.rounding_m = 1}), "front"), ProofVerdict::wrong);
 }
 
 TEST(ProveInput, FollowsItsCaller) {

@@ -396,6 +396,7 @@ def check_lift(lift_m, reach_m, part, scale, normal, moved, places, scene):
     raised, tops = 0, [top for _, top in over]
     if part["cut_height_m"] is None:  # twice the diameter of what is looked at in its place
         raised = max([0] + [top + clear + 4 * point for top in tops if -clear - 4 * point < top <= own])
+        own = clear  # what is higher is no surface that it lies on
     most = raised + own + 2 * clear
     raised = max([raised] + [top + clear for top in tops if raised - clear < top <= raised + own])
     for height in sorted(heights):  # what all but continues the plane, anywhere

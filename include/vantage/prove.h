@@ -41,9 +41,10 @@ struct ProveOptions {
   double shrink = 1e-6;   ///< the proof is of the volume shrunk by this part of the distance towards the
                           ///< target; at least 0, less than 1
   double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
-                          ///< sight is wrong only where it is hidden deeper below the facet
+                          ///< sight is wrong only where it is hidden deeper below the facet. Not more is believed
+                          ///< than numbers of single precision are rounded by: 2^-22 of the largest coordinate
   /// How far each part of the target was raised (Volume::lift_m), 0 to kMostLift; empty: not at all. Of what is more
-  /// than its surface needs (lift_needed_m) the rest is not believed.
+  /// than its surface needs (lifts_needed_m) the rest is not believed.
   std::vector<double> lift_m = {};
   static constexpr double kMostLift = 0.01;
   bool maximal = false;       ///< whether the volume is as large as it can be, too
@@ -59,9 +60,11 @@ struct ProveOptions {
 
 /// The most that a part of a target may have to be raised by, to clear the surface that it lies on: what of the scene
 /// lies straight over it and reaches no higher than 2 mm, and what hardly rises above its plane beside it
-/// (docs/proof.md). `range_m`: of the sensor; in worlds with less than 20 m it is less. Cost: linear in the triangles.
-/// Throws Error(input) for a target that is wrong in itself.
-VANTAGE_API double lift_needed_m(const Scene& scene, const Target& target, std::size_t part, double range_m);
+/// (docs/proof.md). For a point that is seen from all sides up to 2 mm more. One for each part. `range_m`: of the
+/// sensor; in worlds with less than 20 m it is less. Cost: n log n of the triangles, and for each part what is near its
+/// plane. Throws Error(input) for a target that is wrong in itself; Error(cancelled) when told to stop.
+VANTAGE_API std::vector<double> lifts_needed_m(const Scene& scene, const Target& target, double range_m,
+                                               const Progress& progress = {});
 
 /// A place in the shrunk volume from which a point of the target is hidden.
 struct HiddenView {
@@ -134,12 +137,13 @@ struct ProofReport {
   std::optional<HiddenView> witness;    ///< the deepest that was found; of `wrong` sight
   std::size_t separations = 0;          ///< planes that were found between a part of the view and obstacles
   double shrink = 0;                    ///< what was asked for
-  double margin_m = 0;           ///< a strip of the target along its outline, and what lies lower over its plane,
-                                 ///< is left out: so much
-  double lift_m = 0;             ///< the largest of a part, as far as it is believed
-  double rounding_m = 0;         ///< what was allowed
-  double layer_m = 0;            ///< sight and front are proved of the volume less a layer below its surface, so thick:
-                                 ///< for what numbers are rounded; 0: of all of it
+  double margin_m = 0;                 ///< a strip of the target along its outline, and what lies lower over its plane,
+                                       ///< is left out: so much; with a layer the strip is four times as wide
+  double lift_m = 0;                   ///< the largest of a part, as far as it is believed
+  std::vector<double> lift_of_part_m;  ///< of each part, of all targets, likewise
+  double rounding_m = 0;               ///< what was allowed
+  double layer_m = 0;            ///< sight and front are proved of the volume less what is nearer than this to places
+                                 ///< outside of it: for what numbers are rounded; 0: of all of it
   double limit_tolerance_m = 0;  ///< limits besides altitude and a single box may be broken by so much (docs/proof.md):
                                  ///< rounding_m, `shrink` times the distance of a facet, and rounding; the largest
   double seconds = 0;

@@ -25,7 +25,7 @@ struct VerifyOptions {
                                   ///< wrong side of the surface than this times its distance to the target's centre
   double tolerance_m = 0.01;  ///< of the volume (ExactOptions): what lies within it of the range limit may be unclaimed
   std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all;
-                                    ///< no more is believed than its surface needs (lift_needed_m)
+                                    ///< no more is believed than its surface needs (lifts_needed_m)
   double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
                           ///< this, besides what the depth tolerance allows, does not count
 };

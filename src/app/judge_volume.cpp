@@ -98,7 +98,7 @@ ProofReport with_verify_tolerances(ProofReport proof, const Mission& mission, co
     if (claim.verdict != ProofVerdict::wrong) continue;
     const auto is_forgiven = [&] {
       if (claim.name == "sight") {
-        return proof.witness && is_hidden_by_own_surface(*proof.witness, mission, options.lift_m);
+        return proof.witness && is_hidden_by_own_surface(*proof.witness, mission, proof.lift_of_part_m);
       }
       return claim.place && claim.broken_by_m <= options.depth_tolerance * (*claim.place - centre).norm();
     };

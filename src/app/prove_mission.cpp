@@ -78,16 +78,25 @@ double share_of(const std::vector<std::uint32_t>& facets, const Mesh& volume) {
   return surface_area(some) / surface_area(volume);
 }
 
+/// The worse of two verdicts on one claim, of several targets. All that was said of it is told, the worse first.
+ClaimProof joined(const ClaimProof& a, const ClaimProof& b) {
+  const bool is_b_worse = b.verdict != a.verdict ? b.verdict > a.verdict : b.broken_by_m > a.broken_by_m;
+  ClaimProof worse = is_b_worse ? b : a;
+  const std::string& other = (is_b_worse ? a : b).text;
+  if (worse.text.find(other) == std::string::npos) worse.text += "; of another target: " + other;
+  return worse;
+}
+
 /// What is wrong with the sight of one target is wrong with all.
 void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
-  for (std::size_t i = 0; i < all.claims.size(); ++i) {
-    if (one.claims[i].verdict > all.claims[i].verdict) all.claims[i] = one.claims[i];
-  }
+  for (std::size_t i = 0; i < all.claims.size(); ++i) all.claims[i] = joined(all.claims[i], one.claims[i]);
   all.tested_facets += one.tested_facets;
   all.separations += one.separations;
   all.seconds += one.seconds;
   all.margin_m = std::max(all.margin_m, one.margin_m);
   all.lift_m = std::max(all.lift_m, one.lift_m);
+  all.lift_of_part_m.insert(all.lift_of_part_m.end(), one.lift_of_part_m.begin(), one.lift_of_part_m.end());
+  all.layer_m = std::max(all.layer_m, one.layer_m);
   all.limit_tolerance_m = std::max(all.limit_tolerance_m, one.limit_tolerance_m);
   if (!one.unproved.empty()) {
     std::vector<std::uint32_t>& open = all.unproved;

@@ -6,6 +6,7 @@
 
 #include "app/input_file.h"
 #include "app/navigation_meshes.h"
+#include "core/orientation.h"
 #include "geo/local_frame.h"
 #include "io/output_formats.h"
 #include "io/read_causes.h"
@@ -80,6 +81,15 @@ double step_of(double number) {
   return std::ldexp(1.0, exponent);
 }
 
+/// Whether the three lie on one line, or in one place, exactly: they do where their images on the three planes do.
+bool are_on_one_line(const Vec3& a, const Vec3& b, const Vec3& c) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto image = [axis](const Vec3& at) { return Eigen::Vector2d(at[axis], at[(axis + 1) % 3]); };
+    if (internal::core::turn(image(a), image(b), image(c)) != 0) return false;
+  }
+  return true;
+}
+
 /// The grid that all numbers of triangles with area lie on, and how far these reach: no file says it, it is seen. Any
 /// vertex may be in a file that no triangle with area has.
 struct Grid {
@@ -89,7 +99,7 @@ struct Grid {
   explicit Grid(const Mesh& mesh) {
     for (const auto& [i, j, k] : mesh.triangles) {
       const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-      if (a == b || b == c || c == a || (b - a).cross(c - a).isZero(0)) continue;
+      if (are_on_one_line(a, b, c)) continue;
       for (const Vec3& corner : {a, b, c}) box.extend(corner);
     }
     for (const Triangle& triangle : mesh.triangles) {

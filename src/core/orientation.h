@@ -1,6 +1,7 @@
 // Where points lie, of the numbers as they are: no rounding decides.
 #pragma once
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::core {
@@ -10,6 +11,6 @@ namespace vantage::internal::core {
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// In the plane: 1 where c lies left of the way from a to b, -1 right, 0 on the line.
-int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+VANTAGE_INTERNAL_API int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
 }  // namespace vantage::internal::core

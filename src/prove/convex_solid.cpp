@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -38,8 +39,8 @@ bool is_before(const Vec3& a, const Vec3& b) {
 }
 
 /// On an edge, the same for both of its faces.
-Vec3 crossing(const Vec3& a, double over_a, const Vec3& b, double over_b) {
-  if (is_before(b, a)) return crossing(b, over_b, a, over_a);
+Vec3 cut_edge(const Vec3& a, double over_a, const Vec3& b, double over_b) {
+  if (is_before(b, a)) return cut_edge(b, over_b, a, over_a);
   return a + over_a / (over_a - over_b) * (b - a);
 }
 
@@ -75,7 +76,27 @@ ConvexPolygon span_of(const ConvexPolygon& points, const Vec3& normal) {
 
 }  // namespace
 
+/// What a cut moves a corner by, sideways, and how far numbers tell on which side of a plane it is.
+double ConvexSolid::step_m() const {
+  constexpr double kRoundings = 8;
+  double largest = 0;
+  for (const ConvexPolygon& face : faces_) {
+    for (const Vec3& corner : face) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+  }
+  return kRoundings * std::numeric_limits<double>::epsilon() * largest;
+}
+
+/// Farther out by what was lost: all that it stands for and that lies in the half-space is near to what is left.
 ConvexSolid ConvexSolid::within(const HalfSpace& side) const {
+  return part_in({side.normal, side.offset + lost_m_ + uneven_m_ + step_m()});
+}
+
+/// Of both parts the corners on cut edges are the same. So what the one loses along an edge the other one has.
+std::pair<ConvexSolid, ConvexSolid> ConvexSolid::split(const HalfSpace& side) const {
+  return {part_in(side), part_in({-side.normal, -side.offset})};
+}
+
+ConvexSolid ConvexSolid::part_in(const HalfSpace& side) const {
   ConvexSolid left;
   ConvexPolygon lid;
   bool is_cut = false, has_inside = false;
@@ -89,7 +110,7 @@ ConvexSolid ConvexSolid::within(const HalfSpace& side) const {
       is_cut = is_cut || at_here > 0;
       has_inside = has_inside || at_here < 0;
       if ((at_here < 0 && at_next > 0) || (at_here > 0 && at_next < 0)) {
-        kept.push_back(crossing(here, at_here, next, at_next));
+        kept.push_back(cut_edge(here, at_here, next, at_next));
         lid.push_back(kept.back());
       }
     }
@@ -98,6 +119,9 @@ ConvexSolid ConvexSolid::within(const HalfSpace& side) const {
   if (!is_cut) return *this;
   if (!has_inside) return {};
   if (!lid.empty()) left.faces_.push_back(span_of(lid, side.normal));
+  const double step = step_m();
+  left.lost_m_ = lost_m_ + uneven_m_ + step;
+  left.uneven_m_ = uneven_m_ + step;
   return left;
 }
 

@@ -11,20 +11,70 @@
 namespace vantage::internal::prove {
 namespace {
 
-/// Layers that are tried, in roundings: the volume before it was rounded sees all from what is deeper than one. The
-/// second is the last resort.
-constexpr std::array<double, 5> kDepths = {1, 8, 1.5, 2, 4};
+/// Layers that are tried, in roundings. The volume before it was rounded sees all from what is deeper than one; the
+/// rest is for the pieces of which each must be near to one facet.
+constexpr std::array<double, 3> kDepths = {1, 2, 1.5};
 constexpr std::size_t kBlock = 4096, kMostOpen = 500;  // pairs; where so many stay open the others are not looked at
 
-/// Numbers are rounded whatever the file: a corner where three planes meet by a few units in its last place.
-constexpr double kUnits = 8;
+/// Numbers are rounded whatever the file: a corner where three planes meet by a few units of 2^-53, and the corners of
+/// what is cut here, about the target, a few times each.
+constexpr double kUnits = 8, kUnitsOfCuts = 8192;
+
+/// The depth of a layer that hides what a facet is open for; infinite where there is none.
+class LayerDepth {
+ public:
+  LayerDepth(const OpenVolume& volume, const View& view, const SceneTree& obstacles)
+      : volume_(volume),
+        obstacles_(obstacles),
+        largest_(view.origin.cwiseAbs().maxCoeff()),
+        most_(thickest_layer_m(volume.whole)),
+        shallow_(volume.whole, view) {}
+
+  double of(const Triangle& facet, std::uint32_t piece) const {
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = volume_.vertices[facet[k]];
+    const auto is_shallow = [&](double roundings) {
+      const double depth = depth_of(corners, roundings);
+      return depth <= most_ && shallow_.is_shallow(corners, obstacles_.pieces[piece], depth);
+    };
+    if (is_shallow(kDepths[0])) return depth_of(corners, kDepths[0]);
+    if (!is_shallow(kDepths[1])) return std::numeric_limits<double>::infinity();
+    return depth_of(corners, is_shallow(kDepths[2]) ? kDepths[2] : kDepths[1]);
+  }
+
+ private:
+  double depth_of(const std::array<Vec3, 3>& corners, double roundings) const {
+    constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+    double reach = 0;
+    for (const Vec3& corner : corners) reach = std::max(reach, corner.cwiseAbs().maxCoeff());
+    return roundings * (volume_.rounding_m + kUnits * kUnit * (largest_ + reach)) + kUnitsOfCuts * kUnit * reach;
+  }
+
+  const OpenVolume& volume_;
+  const SceneTree& obstacles_;
+  double largest_, most_;
+  Shallow shallow_;
+};
 
 }  // namespace
+
+double thickest_layer_m(const Mesh& volume) {
+  Box box;
+  for (const Triangle& triangle : volume.triangles) {
+    for (const std::uint32_t v : triangle) box.extend(volume.vertices[v]);
+  }
+  return box.empty() ? 0 : kThickestLayer * (box.max - box.min).minCoeff();
+}
 
 LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Scene& scene, const SceneTree& obstacles,
                             const core::ProgressReporter& progress) {
   LayerProof proof;
   if (volume.open.empty()) return proof;
+  if (volume.rounding_m > thickest_layer_m(volume.whole)) {
+    proof.open = volume.open;
+    proof.is_too_thick = true;
+    return proof;
+  }
   std::vector<std::uint32_t> numbers;
   for (const OpenFacet& one : volume.open) numbers.push_back(one.facet);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -32,24 +82,7 @@ LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Sc
   for (const std::uint32_t number : numbers) facets.push_back(volume.facets[number]);
   const std::vector<OpenFacet> pairs =
       prove_sight(volume.vertices, facets, view, scene, obstacles, {.tells_all = true}, progress.part(0, 0.5)).open;
-  const Shallow shallow(volume.whole, view);
-  const auto depth_of = [&](const OpenFacet& pair) {
-    std::array<Vec3, 3> corners;
-    double reach = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = volume.vertices[facets[pair.facet][k]];
-      reach = std::max(reach, corners[k].cwiseAbs().maxCoeff());
-    }
-    const double unit = std::numeric_limits<double>::epsilon() / 2 * (view.origin.cwiseAbs().maxCoeff() + reach);
-    const double rounding = volume.rounding_m + kUnits * unit;
-    const auto is_shallow = [&](double depth) {
-      return shallow.is_shallow(corners, obstacles.pieces[pair.piece], depth * rounding);
-    };
-    if (is_shallow(kDepths[0])) return kDepths[0] * rounding;
-    if (!is_shallow(kDepths[1])) return std::numeric_limits<double>::infinity();
-    const auto least = std::find_if(kDepths.begin() + 2, kDepths.end(), is_shallow);
-    return rounding * (least == kDepths.end() ? kDepths[1] : *least);
-  };
+  const LayerDepth depth(volume, view, obstacles);
   std::vector<double> depths(pairs.size(), std::numeric_limits<double>::infinity());
   const core::ProgressReporter second_half = progress.part(0.5, 1);
   core::ProgressCounter done(second_half, pairs.size());
@@ -58,7 +91,7 @@ LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Sc
     const std::size_t count = std::min(kBlock, pairs.size() - first);
     parallel::for_ranges(count, 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
-        depths[i] = depth_of(pairs[i]);
+        depths[i] = depth.of(facets[pairs[i].facet], pairs[i].piece);
         done.add(1);
       }
     });

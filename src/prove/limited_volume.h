@@ -57,8 +57,9 @@ class LimitedVolume {
   double unsure_m() const { return unsure_m_; }      ///< what is rounded in a coordinate, with plenty to spare
 
   /// A place on the facet breaks a limit if by more than this: what the file rounded, what is shrunk where the facet is
-  /// nearest to the origin, and what is rounded in its own coordinates. So no other facet, however far it reaches,
-  /// changes what this one may do.
+  /// nearest to the origin, and what is rounded in its own coordinates. So where facets are judged one by one, no other
+  /// facet, however far it reaches, changes what this one may do. Where vertices are judged (tolerance_at), each may do
+  /// what is due at its own distance, and what is between a far vertex and a near one may do what is due between.
   double tolerance_of(const Corners& facet) const;
   /// The same of a vertex, and of what is rounded alone.
   double tolerance_at(const Vec3& vertex) const { return rounded_at(vertex) + shrink_ * vertex.norm(); }

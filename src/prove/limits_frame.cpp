@@ -260,8 +260,8 @@ ClaimProof prove_frame(const LimitedVolume& volume, const Sensor& sensor, const 
   const Picture picture(*sensor.camera, sensor.mount, parts, volume.origin());
   if (sensor.mount.is_fixed()) {
     const CameraAim aim{*sensor.mount.yaw_deg * kDegrees, sensor.mount.min_pitch_deg * kDegrees};
-    return volume.judged_at_vertices(
-        "frame", [&](const Vec3& vertex) { return picture.out_by(aim, std::array{vertex}); });
+    return volume.judged_at_vertices("frame",
+                                     [&](const Vec3& vertex) { return picture.out_by(aim, std::array{vertex}); });
   }
   const std::optional<bool> is_outside = volume.is_outside(picture.middle());
   if (!is_outside || !*is_outside) return not_proved("frame", "the volume reaches the middle of the target");

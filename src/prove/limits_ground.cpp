@@ -108,9 +108,8 @@ class GroundSheet {
     });
     for (const ConvexPolygon& one : bare) {
       const bool is_beside_one = std::any_of(near.begin(), near.end(), [&](std::uint32_t index) {
-        return std::all_of(one.begin(), one.end(), [&](const Vec3& corner) {
-          return pieces_[index].outside_in_plan(corner) <= tolerance;
-        });
+        return std::all_of(one.begin(), one.end(),
+                           [&](const Vec3& corner) { return pieces_[index].outside_in_plan(corner) <= tolerance; });
       });
       if (is_beside_one) continue;
       finding.is_open = true;

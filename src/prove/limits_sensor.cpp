@@ -29,25 +29,21 @@ double largest_of_corners(const std::vector<View>& parts, const Vec3& origin, co
 ClaimProof prove_incidence(const LimitedVolume& volume, double incidence_deg, const std::vector<View>& parts) {
   const double sine = std::sin(incidence_deg * std::numbers::pi / 180);
   const double cosine = std::cos(incidence_deg * std::numbers::pi / 180);
-  return volume.judged_at_vertices(
-      "incidence",
-      [&](const Vec3& vertex) {
-        return largest_of_corners(parts, volume.origin(), vertex, [&](const Vec3& from, const Vec3& normal) {
-          const double height = normal.dot(from);
-          return (from - height * normal).norm() * cosine - height * sine;
-        });
-      });
+  return volume.judged_at_vertices("incidence", [&](const Vec3& vertex) {
+    return largest_of_corners(parts, volume.origin(), vertex, [&](const Vec3& from, const Vec3& normal) {
+      const double height = normal.dot(from);
+      return (from - height * normal).norm() * cosine - height * sine;
+    });
+  });
 }
 
 /// d * d / (f h) <= size: the ball that touches the target's plane in the corner and is size * f high.
 ClaimProof prove_pixel(const LimitedVolume& volume, double height_m, const std::vector<View>& parts) {
-  return volume.judged_at_vertices(
-      "pixel",
-      [&](const Vec3& vertex) {
-        return largest_of_corners(parts, volume.origin(), vertex, [&](const Vec3& from, const Vec3& normal) {
-          return (from - height_m / 2 * normal).norm() - height_m / 2;
-        });
-      });
+  return volume.judged_at_vertices("pixel", [&](const Vec3& vertex) {
+    return largest_of_corners(parts, volume.origin(), vertex, [&](const Vec3& from, const Vec3& normal) {
+      return (from - height_m / 2 * normal).norm() - height_m / 2;
+    });
+  });
 }
 
 }  // namespace

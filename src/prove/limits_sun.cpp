@@ -152,11 +152,10 @@ ClaimProof prove_sun(const LimitedVolume& volume, const SunLimit& sun, const std
   std::optional<ClaimProof> all;
   for (const View& part : parts) {
     const SunCone cone(sun, part, volume.origin());
-    const auto findings = volume.look_at_facets(
-        [&](const LimitedVolume::Corners& facet, FacetFinding& finding) {
-          cone.look(facet, volume.tolerance_of(facet), finding);
-        },
-        progress);
+    const auto findings =
+        volume.look_at_facets([&](const LimitedVolume::Corners& facet,
+                                  FacetFinding& finding) { cone.look(facet, volume.tolerance_of(facet), finding); },
+                              progress);
     const ClaimProof one = volume.judged("sun", findings,
                                          "a plane has the sun's cone on one side, and on the other one "
                                          "all lines of sight from a facet",

@@ -13,6 +13,7 @@
 #include "core/progress_reporter.h"
 #include "prove/convex_polygon.h"
 #include "prove/layer.h"
+#include "prove/lift.h"
 #include "prove/limited_volume.h"
 #include "prove/limits.h"
 #include "prove/maximal.h"
@@ -93,6 +94,20 @@ void check_scene(const Scene& scene) {
   }
 }
 
+/// Numbers of a file are not coarser than single precision: half of a grid's diagonal is 0.87 of its step, and a file
+/// that was rounded before has that twice (src/app/read_volume.cpp). About the scene's origin, or about a middle.
+double most_rounding_m(const Mesh& solid) {
+  Box box;
+  for (const auto& [i, j, k] : solid.triangles) {
+    const Vec3 &a = solid.vertices[i], &b = solid.vertices[j], &c = solid.vertices[k];
+    if (prove::are_on_a_line(a, b, c)) continue;
+    for (const Vec3& corner : {a, b, c}) box.extend(corner);
+  }
+  if (box.empty()) return 0;
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  return std::ldexp(std::max(largest, (box.max - box.min).maxCoeff()), -22);
+}
+
 /// The vertex at which something is largest.
 struct Worst {
   double by = -std::numeric_limits<double>::infinity();
@@ -117,7 +132,10 @@ class Prover {
         range_(range_limit_m(sensor)),
         options_(options),
         solid_(prove::solid_mesh(volume)),
-        other_side_m_(options.other_side_m) {}
+        thickest_layer_m_(prove::thickest_layer_m(solid_.mesh)),
+        other_side_m_(options.other_side_m) {
+    options_.rounding_m = std::min(options.rounding_m, most_rounding_m(solid_.mesh));
+  }
 
   ProofReport run(const internal::core::ProgressReporter& progress);
   MaximalProof run_maximal(const internal::core::ProgressReporter& progress);
@@ -127,11 +145,14 @@ class Prover {
 
   struct Judged;
 
-  void set_lifts();
+  void set_lifts(const internal::core::ProgressReporter& progress);
+  std::string lifts_text() const;
   void look_at(std::size_t part, const internal::core::ProgressReporter& progress);
   void look_at_vertices(const Judged& judged, const prove::View& view);
   /// Whether a file's rounding explains that the volume reaches so far behind the target. Not between two sides of one.
-  bool is_rounded(double behind_m) const { return !other_side_m_ && behind_m <= options_.rounding_m; }
+  bool is_rounded(double behind_m) const {
+    return !other_side_m_ && behind_m <= options_.rounding_m && behind_m + most_unsure_m_ <= thickest_layer_m_;
+  }
   Box reach_of(const Judged& judged, const prove::View& view) const;
   void add_certificate(std::size_t part, const prove::View& view, const std::vector<std::uint32_t>& numbers,
                        const prove::SightProof& proof);
@@ -150,18 +171,21 @@ class Prover {
   const Navigation& navigation_;
   const Mesh& volume_;
   double range_;
-  const ProveOptions& options_;
+  ProveOptions options_;  ///< of the rounding, what is believed
   /// Of a part of the target: as it is stated, and what of it is believed.
   struct Lift {
     double stated_m = 0, used_m = 0;
   };
 
   prove::SolidMesh solid_;
+  double thickest_layer_m_;
+  bool is_layer_too_thick_ = false;
   std::vector<Lift> lifts_;
   std::optional<double> other_side_m_;
   ProofReport report_;
-  Worst farthest_;  ///< from a corner of the target, metres
-  Worst behind_;    ///< its plane, metres
+  Worst farthest_;            ///< from a corner of the target, metres
+  Worst behind_;              ///< its plane, metres
+  double most_unsure_m_ = 0;  ///< so much less than a vertex is behind it, as far as numbers can tell
 };
 
 std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
@@ -233,11 +257,15 @@ void Prover::look_at_vertices(const Judged& judged, const prove::View& view) {
     for (const std::uint32_t v : triangle) {
       const Vec3& at = judged.front.mesh.vertices[v];
       for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
-      if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.unsure_at(at), view.origin + at);
+      if (view.all_sides) continue;
+      behind_.see(-view.normal.dot(at) - view.unsure_at(at), view.origin + at);
+      most_unsure_m_ = std::max(most_unsure_m_, view.unsure_at(at));
     }
   }
-  // All that is deeper below the surface than that is in front.
-  if (behind_.by > 0 && is_rounded(behind_.by)) report_.layer_m = std::max(report_.layer_m, behind_.by + view.margin_m);
+  // No vertex is farther behind than that: so all that is as deep below the surface is in front.
+  if (behind_.by > 0 && is_rounded(behind_.by)) {
+    report_.layer_m = std::max(report_.layer_m, behind_.by + most_unsure_m_);
+  }
 }
 
 /// All that a hull of a facet and the target may reach.
@@ -271,19 +299,22 @@ void Prover::look_at(std::size_t part, const internal::core::ProgressReporter& p
   const double share = options_.maximal ? 0.5 : 1;
   prove::SightProof proof = prove::prove_sight(vertices, seen.facets, view, scene_, obstacles,
                                                {.is_recorded = is_recorded}, progress.part(0, 0.8 * share));
-  const prove::Suspects suspects{whole, vertices, seen.facets, seen.numbers, proof.open, options_.rounding_m};
-  report_.witness = prove::deepest_witness(scene_, view, obstacles, suspects, std::move(report_.witness),
+  const prove::OpenVolume volume{whole, vertices, seen.facets, seen.numbers, proof.open, options_.rounding_m};
+  report_.witness = prove::deepest_witness(scene_, view, obstacles, volume, std::move(report_.witness),
                                            progress.part(0.8 * share, 0.9 * share));
   if (!proof.open.empty() && !report_.witness) {  // nothing is wrong: it may be open for what is rounded
-    const prove::OpenVolume volume{whole, vertices, seen.facets, proof.open, options_.rounding_m};
-    prove::LayerProof less = prove::prove_less_layer(volume, view, scene_, obstacles, progress.part(0.9 * share, share));
+    prove::LayerProof less =
+        prove::prove_less_layer(volume, view, scene_, obstacles, progress.part(0.9 * share, share));
     report_.layer_m = std::max(report_.layer_m, less.depth_m);
+    if (less.depth_m > 0) report_.margin_m = std::max(report_.margin_m, view.inner_margin_m());
+    is_layer_too_thick_ = is_layer_too_thick_ || less.is_too_thick;
     proof.open = std::move(less.open);
   }
   report_.tested_facets += seen.facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
   report_.lift_m = std::max(report_.lift_m, lifts_[part].used_m);
+  report_.lift_of_part_m.push_back(lifts_[part].used_m);
   for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(seen.numbers[open.facet]);
   if (is_recorded) add_certificate(part, view, seen.numbers, proof);
   if (options_.maximal && !other_side_m_) look_beyond(view, obstacles, progress.part(0.5, 1));
@@ -344,13 +375,15 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   report_.facets = solid_.mesh.triangles.size();
   report_.shrink = options_.shrink;
   report_.rounding_m = options_.rounding_m;
-  set_lifts();
+  set_lifts(progress);
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
-    look_at(part,
-            progress.part(kSightPart * static_cast<double>(part) / parts,
-                          kSightPart * static_cast<double>(part + 1) / parts));
+    look_at(part, progress.part(kSightPart * static_cast<double>(part) / parts,
+                                kSightPart * static_cast<double>(part + 1) / parts));
   }
+  // Of a target that is raised by less than its file says the certificate would be one of another target.
+  const auto is_lowered = [](const Lift& lift) { return lift.used_m != lift.stated_m; };
+  if (std::any_of(lifts_.begin(), lifts_.end(), is_lowered)) report_.certificate.reset();
   add_sight();
   std::vector<prove::View> views;
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
@@ -383,13 +416,32 @@ MaximalProof Prover::run_maximal(const internal::core::ProgressReporter& progres
 }
 
 /// A target is raised by no more than its own surface needs, whatever a file says.
-void Prover::set_lifts() {
+void Prover::set_lifts(const internal::core::ProgressReporter& progress) {
+  const bool is_raised = std::any_of(options_.lift_m.begin(), options_.lift_m.end(), [](double m) { return m > 0; });
+  std::vector<double> needed;
+  if (is_raised) needed = prove::lifts_needed_m(scene_, target_, range_, progress);
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
     Lift& lift = lifts_.emplace_back();
     if (!options_.lift_m.empty()) lift.stated_m = lift.used_m = options_.lift_m[part];
-    if (lift.stated_m > 0) lift.used_m = std::min(lift.stated_m, lift_needed_m(scene_, target_, part, range_));
+    if (lift.stated_m > 0) lift.used_m = std::min(lift.stated_m, needed[part]);
     if (other_side_m_) *other_side_m_ = std::max(0.0, *other_side_m_ - (lift.stated_m - lift.used_m));
   }
+}
+
+/// Of the parts that are raised by less than was stated.
+std::string Prover::lifts_text() const {
+  constexpr std::size_t kMostTold = 3;
+  std::string text;
+  std::size_t lowered = 0;
+  for (std::size_t part = 0; part < lifts_.size(); ++part) {
+    const Lift& lift = lifts_[part];
+    if (lift.used_m == lift.stated_m || lowered++ >= kMostTold) continue;
+    const std::string what = lifts_.size() > 1 ? "part " + std::to_string(part) + " of the target" : "the target";
+    text += internal::core::format("; {} is raised by {:.3g} m, which its surface needs, not by {:.3g} m", what,
+                                   lift.used_m, lift.stated_m);
+  }
+  if (lowered > kMostTold) text += "; and so with " + std::to_string(lowered - kMostTold) + " more parts";
+  return text;
 }
 
 void Prover::add_sight() {
@@ -403,14 +455,12 @@ void Prover::add_sight() {
   if (report_.layer_m > 0) {
     text += internal::core::format(", of the volume less a layer of {:.3g} m, for what is rounded", report_.layer_m);
   }
-  for (const Lift& lift : lifts_) {
-    if (lift.used_m == lift.stated_m) continue;
-    text += internal::core::format("; the target is raised by {:.3g} m, which its surface needs, not by {:.3g} m",
-                                   lift.used_m, lift.stated_m);
-    report_.certificate.reset();  // it would be of another target than the file's
-    break;
+  if (is_layer_too_thick_) {
+    text += internal::core::format(
+        "; the file's rounding of {:.3g} m is more than 1 % of the volume's width, {:.3g} m: write PLY",
+        options_.rounding_m, thickest_layer_m_ / prove::kThickestLayer);
   }
-  report_.claims.push_back({"sight", sight, text});
+  report_.claims.push_back({"sight", sight, text + lifts_text()});
 }
 
 /// A file's rounding may have moved vertices out of range, and does not count.

@@ -6,7 +6,9 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "prove/convex_polygon.h"
 #include "prove/convex_solid.h"
 #include "prove/hull.h"
 #include "prove/tree_search.h"
@@ -14,8 +16,6 @@
 
 namespace vantage::internal::prove {
 namespace {
-
-using Corners3 = std::array<Vec3, 3>;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
@@ -30,9 +30,11 @@ class Hidden {
   Hidden(std::span<const Vec3> polygon, const std::vector<Vec3>& outline, const std::vector<Vec3>& target,
          const Vec3& front, double reach_m)
       : polygon_(polygon), outline_(outline), target_(target), front_(front) {
-    double largest = reach_m, nearest = std::numeric_limits<double>::infinity(), radius = 0;
-    for (const Vec3& corner : polygon) largest = std::max(largest, corner.norm());
+    double nearest = std::numeric_limits<double>::infinity(), radius = 0;
+    for (const Vec3& corner : outline) radius = std::max(radius, corner.norm());
     for (const Vec3& corner : target) radius = std::max(radius, corner.norm());
+    double largest = std::max(reach_m, radius);
+    for (const Vec3& corner : polygon) largest = std::max(largest, corner.norm());
     Corners3 fan;
     for (std::size_t k = 2; k < polygon.size(); ++k) {
       fan = {polygon[0], polygon[k - 1], polygon[k]};
@@ -110,8 +112,9 @@ class Hidden {
   std::vector<HalfSpace> sides_;
 };
 
-/// Whether nothing of a volume that is in a convex solid is deeper than a depth: in pieces, each of which is near to one
-/// facet, or meets none and is not in the volume.
+/// Whether all of a volume that is in a convex solid is nearer than a depth to places outside of the volume: in pieces,
+/// each of which is near to a part of a facet that has the outside along all of one of its sides; or meets no facet and
+/// is outside itself.
 class Cover {
  public:
   Cover(const RoundedSurface& surface, double depth_m) : surface_(surface), depth_m_(depth_m) {}
@@ -120,9 +123,11 @@ class Cover {
     if (solid.empty()) return true;
     if (left_-- <= 0) return false;
     const Vec3 middle = solid.middle();
-    const std::vector<Near> near = facets_near(solid, middle);
+    const Box box = solid.box();
+    const std::vector<Near> near = facets_near(box, depth_m_, middle);
+    const double held_m = held_by(solid, box);
     for (const Near& one : near) {
-      if (one.distance <= depth_m_ && holds(one.corners, solid)) return true;
+      if (one.distance <= held_m && holds(one.corners, solid, held_m) && bounds(one.corners, box)) return true;
     }
     if (near.empty() || near[0].distance > depth_m_) {
       if (surface_.turns_round(middle).value_or(1) != 0) return false;  // it is deep, and inside
@@ -139,32 +144,108 @@ class Cover {
     std::uint32_t index = 0;
   };
 
-  bool holds(const Corners3& facet, const ConvexSolid& solid) const {
+  /// So far from a facet the outside begins, where it does.
+  double skin_m() const { return depth_m_ / 16; }
+
+  /// What is as near to a facet is near enough to what lies beyond it, whatever was rounded.
+  double held_by(const ConvexSolid& solid, const Box& box) const {
+    constexpr double kRoundings = 128;
+    const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + depth_m_;
+    return depth_m_ - skin_m() - solid.lost_m() - kRoundings * kEpsilon * largest;
+  }
+
+  /// A distance from a convex set is convex: its corners decide.
+  static bool holds(const Corners3& facet, const ConvexSolid& solid, double held_m) {
     for (const ConvexPolygon& face : solid.faces()) {
       for (const Vec3& corner : face) {
-        if (!(at_most_from(facet, corner) <= depth_m_)) return false;
+        if (!(at_most_from(facet, corner) <= held_m)) return false;
       }
     }
     return true;
   }
 
-  static bool is_apart(const Near& one, const ConvexSolid& solid) {
-    PointHull hull;
-    double largest = 0;
-    for (const ConvexPolygon& face : solid.faces()) {
-      for (const Vec3& corner : face) {
-        hull.add(corner);
-        largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+  /// Whether what a facet has near a box, all of it, has the outside of the volume next to it: moved a little it meets
+  /// no facet, and lies outside.
+  bool bounds(const Corners3& facet, const Box& box) const {
+    std::vector<HalfSpace> around;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Vec3 way = Vec3::Unit(axis);
+      around.push_back({way, box.max[axis] + 2 * depth_m_});
+      around.push_back({-way, 2 * depth_m_ - box.min[axis]});
+    }
+    const ConvexPolygon part = part_within({facet.begin(), facet.end()}, around);
+    if (part.empty()) return false;
+    const Vec3 normal = normal_of(facet), middle = middle_of(part);
+    if (!(normal.norm() > 0)) return false;
+    const std::vector<Vec3> ways = ways_out(part, normal, middle);
+    for (const double side : {1.0, -1.0}) {
+      for (const Vec3& way : ways) {
+        if (is_outside(part, side * skin_m() * way)) return true;
       }
     }
-    for (const Vec3& corner : one.corners) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
-    return separate(hull, Obstacle(std::span<const Vec3>(one.corners)), largest).has_value();
+    return false;
   }
 
-  /// What is over and under the facet, what is beside it, and what is near to it, which it holds.
+  /// Along the normal; where other facets stand on this one at a sharp angle, between it and one or two of them.
+  std::vector<Vec3> ways_out(const ConvexPolygon& part, const Vec3& normal, const Vec3& middle) const {
+    constexpr std::size_t kMostOthers = 4;
+    constexpr double kAlike = 0.99, kFlat = 0.5, kShort = 1e-3;
+    std::vector<Vec3> others;
+    for (const Near& one : facets_near(box_of(part), 2 * skin_m(), middle)) {
+      const Vec3 other = normal_of(one.corners);
+      const auto is_alike = [&](const Vec3& known) { return known.dot(other) > kAlike; };
+      if (others.size() == kMostOthers) break;
+      if (normal.dot(other) < kFlat && std::none_of(others.begin(), others.end(), is_alike)) others.push_back(other);
+    }
+    std::vector<Vec3> ways = {normal};
+    const auto add = [&](const Vec3& way) {
+      if (way.norm() > kShort) ways.push_back(way.normalized());
+    };
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      add(normal + others[i]);
+      for (std::size_t j = 0; j < i; ++j) add(normal + others[i] + others[j]);
+    }
+    return ways;
+  }
+
+  bool is_outside(const ConvexPolygon& polygon, const Vec3& shift) const {
+    if (surface_.turns_round(middle_of(polygon) + shift) != 0) return false;
+    PointHull hull;
+    Box box;
+    for (const Vec3& corner : polygon) {
+      hull.add(corner + shift);
+      box.extend(corner + shift);
+    }
+    bool is_apart = true;
+    search_tree(
+        surface_.facets(), [&](const Box& other) { return !is_apart || distance_of_boxes(box, other) > 0; },
+        [&](std::uint32_t i) {
+          const Corners3 corners = surface_.facets().pieces[i].first_three();
+          if (is_apart && distance_of_boxes(box, box_of(corners)) == 0) is_apart = are_apart(hull, box, corners);
+        });
+    return is_apart;
+  }
+
+  static Vec3 normal_of(const Corners3& facet) {
+    return (facet[1] - facet[0]).cross(facet[2] - facet[0]).stableNormalized();
+  }
+  static bool are_apart(const PointHull& hull, const Box& box, const Corners3& facet) {
+    double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+    for (const Vec3& corner : facet) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+    return separate(hull, Obstacle(std::span<const Vec3>(facet)), largest).has_value();
+  }
+  static bool is_apart(const Near& one, const ConvexSolid& solid) {
+    PointHull hull;
+    for (const ConvexPolygon& face : solid.faces()) {
+      for (const Vec3& corner : face) hull.add(corner);
+    }
+    return are_apart(hull, solid.box(), one.corners);
+  }
+
+  /// What is over and under the facet, what is beside it, and what is near to it; if that is all of it, in halves.
   bool covers_in_parts(const ConvexSolid& solid, const Corners3& facet) {
     constexpr double kOver = 0.7, kBeside = 0.5;  // of the depth: together less than all of it
-    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]).stableNormalized();
+    const Vec3 normal = normal_of(facet);
     std::vector<HalfSpace> sides;
     for (const Vec3& way : {normal, Vec3(-normal)}) sides.push_back({way, way.dot(facet[0]) + kOver * depth_m_});
     for (std::size_t k = 0; k < 3; ++k) {
@@ -174,25 +255,24 @@ class Cover {
     ConvexSolid rest = solid;
     bool is_cut = false;
     for (const HalfSpace& side : sides) {
-      const ConvexSolid beyond = rest.within({-side.normal, -side.offset}), within = rest.within(side);
+      auto [within, beyond] = rest.split(side);
       if (beyond.empty() || within.empty()) continue;
       is_cut = true;
       if (!covers(beyond)) return false;
-      rest = within;
+      rest = std::move(within);
     }
     if (is_cut) return covers(rest);
     const Box box = solid.box();
     Eigen::Index axis = 0;
-    (box.max - box.min).maxCoeff(&axis);
-    const HalfSpace half{Vec3::Unit(axis), (box.min[axis] + box.max[axis]) / 2};
-    return covers(solid.within(half)) && covers(solid.within({-half.normal, -half.offset}));
+    if ((box.max - box.min).maxCoeff(&axis) < skin_m()) return false;
+    const auto [low, high] = solid.split({Vec3::Unit(axis), (box.min[axis] + box.max[axis]) / 2});
+    return covers(low) && covers(high);
   }
 
-  /// The nearest to the middle first.
-  std::vector<Near> facets_near(const ConvexSolid& solid, const Vec3& middle) const {
+  /// The nearest to `middle` first.
+  std::vector<Near> facets_near(const Box& box, double within_m, const Vec3& middle) const {
     const SceneTree& facets = surface_.facets();
-    const Box box = solid.box();
-    const auto is_far = [&](const Box& other) { return distance_of_boxes(box, other) > depth_m_; };
+    const auto is_far = [&](const Box& other) { return distance_of_boxes(box, other) > within_m; };
     std::vector<Near> near;
     search_tree(facets, is_far, [&](std::uint32_t i) {
       const Corners3 corners = facets.pieces[i].first_three();
@@ -212,23 +292,14 @@ class Cover {
 }  // namespace
 
 Shallow::Shallow(const Mesh& mesh, const View& view)
-    : surface_(mesh, 0), front_(view.all_sides ? Vec3(Vec3::Zero()) : view.normal) {
-  double radius = 0;
-  for (const Vec3& corner : view.corners) radius = std::max(radius, corner.norm());
-  constexpr double kStrip = 4;  // in margins
-  const double kept = std::max(0.0, 1 - kStrip * view.margin_m / radius);
-  for (const Vec3& corner : view.corners) {
-    outline_.push_back(corner);
-    target_.push_back(radius > 0 ? Vec3(kept * corner) : corner);
-  }
-}
+    : view_(view), surface_(mesh, 0), front_(view.all_sides ? Vec3(Vec3::Zero()) : view.normal) {}
 
 bool Shallow::is_shallow(const std::array<Vec3, 3>& facet, const Piece& obstacle, double depth_m) const {
   if (obstacle.count < 3) return true;
   double reach = 0;
   for (const Vec3& corner : facet) reach = std::max(reach, corner.norm());
   ConvexSolid solid = ConvexSolid::tetrahedron({facet[0], facet[1], facet[2], Vec3::Zero()});
-  const Hidden behind(obstacle.polygon(), outline_, target_, front_, reach);
+  const Hidden behind(obstacle.polygon(), view_.corners, view_.inner, front_, reach);
   for (const HalfSpace& side : behind.sides()) {
     solid = solid.within(side);
     if (solid.empty()) return true;

@@ -30,9 +30,9 @@ struct SightTelling {
   bool tells_all = false;  ///< all of the pieces that a facet is open for
 };
 
-/// `vertices`, `facets`: of the shrunk volume, about View::origin; the facets whose plane does not hold that. The hull of
-/// a facet and the target is free where a plane is found between it and each obstacle; hulls of many facets at once are
-/// tried first.
+/// `vertices`, `facets`: of the shrunk volume, about View::origin; the facets whose plane does not hold that. The hull
+/// of a facet and the target is free where a plane is found between it and each obstacle; hulls of many facets at once
+/// are tried first.
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
                        const Scene& scene, const SceneTree& obstacles, const SightTelling& telling,
                        const core::ProgressReporter& progress);

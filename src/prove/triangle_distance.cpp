@@ -10,8 +10,6 @@
 namespace vantage::internal::prove {
 namespace {
 
-using Corners3 = std::array<Vec3, 3>;
-
 Vec3 nearest_of_edge(const Vec3& from, const Vec3& to, const Vec3& point) {
   const Vec3 along = to - from;
   const double length = along.squaredNorm();
@@ -50,7 +48,7 @@ std::optional<Vec3> below_on(const Corners3& triangle, const Vec3& point) {
   return Vec3(point - normal.dot(point - a) / length * normal);
 }
 
-std::optional<Vec3> crossing(const Corners3& triangle, const Vec3& from, const Vec3& to) {
+std::optional<Vec3> place_in(const Corners3& triangle, const Vec3& from, const Vec3& to) {
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   const double at_from = normal.dot(from - triangle[0]), at_to = normal.dot(to - triangle[0]);
   if ((at_from > 0) == (at_to > 0) || at_from == at_to) return std::nullopt;
@@ -71,8 +69,8 @@ NearestPoints nearest_points(const Corners3& a, const Corners3& b) {
     if (const auto below = below_on(a, b[i]); below && (*below - b[i]).norm() < best.distance) {
       best = {*below, b[i], (*below - b[i]).norm()};
     }
-    if (const auto place = crossing(b, a[i], a[after_i])) return {*place, *place, 0};
-    if (const auto place = crossing(a, b[i], b[after_i])) return {*place, *place, 0};
+    if (const auto place = place_in(b, a[i], a[after_i])) return {*place, *place, 0};
+    if (const auto place = place_in(a, b[i], b[after_i])) return {*place, *place, 0};
   }
   return best;
 }

@@ -50,7 +50,7 @@ View make_view(const Target& target, std::size_t part, double lift_m) {
     }
     return corners;
   };
-  view.corners = view.whole = view.surely = placed(frame.polygon);
+  view.corners = view.whole = view.surely = view.inner = placed(frame.polygon);
   if (view.all_sides) return view;
   // vantage/volume.h says what numbers cannot tell.
   constexpr double kPart = 1e-9, kMost = 1e-9, kRoundings = 8;
@@ -62,6 +62,8 @@ View make_view(const Target& target, std::size_t part, double lift_m) {
   if (view.surely.size() < 3) view.surely = {Vec3::Zero()};
   view.corners = placed(less_strip(frame.polygon, view.margin_m));
   if (view.corners.size() < 3) view.corners = {Vec3::Zero()};
+  view.inner = placed(less_strip(frame.polygon, view.inner_margin_m()));
+  if (view.inner.size() < 3) view.inner = {Vec3::Zero()};
   return view;
 }
 

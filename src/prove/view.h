@@ -17,9 +17,11 @@ struct View {
   bool all_sides = false;
   std::vector<Vec3> whole;    ///< the part's corners
   std::vector<Vec3> corners;  ///< less the strip along its outline
+  std::vector<Vec3> inner;    ///< less a strip of inner_margin_m: numbers tell it from planes that touch `corners`
   std::vector<Vec3> surely;   ///< less so much only that what is left is in the target, whatever was rounded
   double margin_m = 0;        ///< the strip's width, and the height under which obstacles do not count
 
+  double inner_margin_m() const { return 4 * margin_m; }
   /// What a position in front may lie behind the plane by, as far as numbers can tell.
   double unsure_at(const Vec3& position) const;
 };

@@ -26,19 +26,19 @@ bool is_hidden(const Blocked& blocked, const View& view, const std::array<Vec3, 
 }  // namespace
 
 std::optional<HiddenView> deepest_witness(const Scene& scene, const View& view, const SceneTree& obstacles,
-                                          const Suspects& suspects, std::optional<HiddenView> known,
+                                          const OpenVolume& volume, std::optional<HiddenView> known,
                                           const core::ProgressReporter& progress) {
-  if (suspects.open.empty()) return known;
+  if (volume.open.empty()) return known;
   constexpr std::size_t kMostFacets = 2000;  // looked at: evenly among those that are open
-  const std::size_t step = 1 + suspects.open.size() / kMostFacets;
-  const RoundedSurface surface(suspects.whole, suspects.rounding_m);
-  for (std::size_t i = 0; i < suspects.open.size(); i += step) {
-    progress.report(i, suspects.open.size());
-    const OpenFacet& open = suspects.open[i];
+  const std::size_t step = 1 + volume.open.size() / kMostFacets;
+  const RoundedSurface surface(volume.whole, volume.rounding_m);
+  for (std::size_t i = 0; i < volume.open.size(); i += step) {
+    progress.report(i, volume.open.size());
+    const OpenFacet& open = volume.open[i];
     const Piece& obstacle = obstacles.pieces[open.piece];
     std::array<Vec3, 3> facet, corners;
     for (std::size_t k = 0; k < 3; ++k) {
-      facet[k] = suspects.vertices[suspects.facets[open.facet][k]];
+      facet[k] = volume.vertices[volume.facets[open.facet][k]];
       corners[k] = scene.mesh.vertices[scene.mesh.triangles[obstacle.of][k]];
     }
     // At a corner the volume may lie beside the line to the target. Behind or before a place inside of the facet it
@@ -55,7 +55,7 @@ std::optional<HiddenView> deepest_witness(const Scene& scene, const View& view, 
                          .target_point = view.origin + blocked->target_point,
                          .triangle = obstacle.of,
                          .object = object < scene.objects.size() ? display_name(scene.objects[object]) : "",
-                         .facet = suspects.numbers[open.facet],
+                         .facet = volume.numbers[open.facet],
                          .depth_m = blocked->depth_m};
       break;
     }

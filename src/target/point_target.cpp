@@ -52,7 +52,7 @@ PointSides make_point_sides(const PreparedScene::Data& scene, const Target& targ
     sides.front.origin = origin + sides.lift * frame.normal;
     refuse_steep_nearby(scene, target, sides.front, max_range);
   }
-  Clearance clearance = clear_target(scene, target, sides.front, max_range);
+  Clearance clearance = clear_target(scene, target, sides.front, max_range, sides.lift > 0);
   sides.lift += clearance.lift_m;
   sides.notes = std::move(clearance.notes);
   sides.front.origin = origin + sides.lift * frame.normal;

@@ -108,18 +108,20 @@ double clear_low_surfaces(double lift, const std::vector<double>& tops, const Le
 }  // namespace
 
 Clearance clear_target(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                       double max_range) {
+                       double max_range, bool is_off_surface) {
   const Lengths lengths = lengths_of(scene, frame, max_range);
+  Lengths own = lengths;
+  if (is_off_surface) own.lift = own.clear;
   Column column(scene, frame, lengths, lengths.slack);
-  const std::vector<Crossing> low = column.crossings(2 * lengths.lift);
-  const Lift lift = lift_at(low, 0, lengths);
+  const std::vector<Crossing> low = column.crossings(2 * own.lift);
+  const Lift lift = lift_at(low, 0, own);
   if (lift.pierced_by) {
     const double clear = clear_height(column.crossings(INFINITY), lengths);
     refuse_pierced(scene, target, frame, lengths, *lift.pierced_by, clear);
   }
   Clearance result;
   if (auto note = buried_note(scene, target, frame, lengths)) result.notes.push_back(std::move(*note));
-  const double raised = clear_low_surfaces(lift.lift, LowSurfaces(scene, frame, lengths, max_range).tops(), lengths);
+  const double raised = clear_low_surfaces(lift.lift, LowSurfaces(scene, frame, own, max_range).tops(), lengths);
   const bool pierced =
       std::any_of(low.begin(), low.end(), [&](const Crossing& c) { return crosses(c, raised, lengths); });
   result.lift_m = pierced ? lift.lift : raised;

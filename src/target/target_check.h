@@ -16,11 +16,12 @@ struct Clearance {
 };
 
 /// How far the target must be raised to clear the surface that it lies on, and polygons within range that rise less
-/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. Throws
-/// ErrorCode::target_pierced when scene geometry stands on the target or passes through it (names the object, the place
-/// and the smallest offset that clears it).
+/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. `is_off_surface`: it was
+/// raised off the surface that it lies on before, and what is higher is another one: 0 to four times Lengths::clear.
+/// Throws ErrorCode::target_pierced when scene geometry stands on the target or passes through it (names the object,
+/// the place and the smallest offset that clears it).
 Clearance clear_target(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                       double max_range);
+                       double max_range, bool is_off_surface = false);
 
 /// How far a point that is seen from all sides must be raised for all that passes within Lengths::lift straight below
 /// or above it to lie Lengths::clear and the polygon's diameter twice below: 0 where nothing does. The frame holds a

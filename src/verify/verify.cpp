@@ -328,8 +328,8 @@ void check_arguments(const VerifyOptions& options) {
 
 /// The parts, each raised as it was for the volume, but by no more than its surface needs: what lies higher hides it.
 /// `lift_m` is what was stated, and then what is believed.
-std::vector<Target> raised_parts(const Scene& scene, const Target& target, double range_m,
-                                 std::vector<double>& lift_m) {
+std::vector<Target> raised_parts(const Scene& scene, const Target& target, double range_m, std::vector<double>& lift_m,
+                                 const Progress& progress) {
   if (target.parts.empty())
     throw Error(ErrorCode::target_parts_invalid, "the target has no parts", "verify", "give one or more");
   if (!lift_m.empty() && lift_m.size() != target.parts.size()) {
@@ -339,10 +339,13 @@ std::vector<Target> raised_parts(const Scene& scene, const Target& target, doubl
                 "verify lift", "give one for each part, or none");
   }
   std::vector<Target> parts;
+  const bool is_raised = std::any_of(lift_m.begin(), lift_m.end(), [](double lift) { return lift > 0; });
+  std::vector<double> needed;
+  if (is_raised) needed = lifts_needed_m(scene, target, range_m, progress);
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
     parts.push_back(target.part(i));
     if (lift_m.empty() || !(lift_m[i] > 0)) continue;
-    lift_m[i] = std::min(lift_m[i], lift_needed_m(scene, target, i, range_m));
+    lift_m[i] = std::min(lift_m[i], needed[i]);
     parts.back().offset_m += lift_m[i];
   }
   return parts;
@@ -352,7 +355,7 @@ std::vector<Target> raised_parts(const Scene& scene, const Target& target, doubl
 using PartViews = std::vector<std::vector<std::vector<Target>>>;
 
 PartViews raised_views(const Scene& scene, const std::vector<std::vector<Target>>& views, double range_m,
-                       std::vector<double>& lift_m) {
+                       std::vector<double>& lift_m, const Progress& progress) {
   std::size_t parts = 0, next = 0;
   for (const std::vector<Target>& list : views) {
     if (list.empty())
@@ -374,7 +377,7 @@ PartViews raised_views(const Scene& scene, const std::vector<std::vector<Target>
       std::vector<double> own;
       const auto first = lift_m.begin() + static_cast<std::ptrdiff_t>(lift_m.empty() ? 0 : next);
       if (!lift_m.empty()) own.assign(first, first + static_cast<std::ptrdiff_t>(target.parts.size()));
-      result.back().push_back(raised_parts(scene, target, range_m, own));
+      result.back().push_back(raised_parts(scene, target, range_m, own, progress));
       std::copy(own.begin(), own.end(), first);
       next += target.parts.size();
     }
@@ -542,7 +545,7 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
   check_navigation(navigation, callback);
   check_arguments(asked);
   VerifyOptions options = asked;
-  const std::vector<Target> parts = raised_parts(scene, target, range_limit_m(sensor), options.lift_m);
+  const std::vector<Target> parts = raised_parts(scene, target, range_limit_m(sensor), options.lift_m, callback);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
@@ -566,7 +569,7 @@ VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Tar
   check_navigation(navigation, progress);
   check_arguments(asked);
   VerifyOptions options = asked;
-  PartViews parts = raised_views(scene, views, range_limit_m(sensor), options.lift_m);
+  PartViews parts = raised_views(scene, views, range_limit_m(sensor), options.lift_m, progress);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);
   return ManyChecks(scene, std::move(parts), sensor, navigation, volume, options, progress).run();

@@ -1,0 +1,249 @@
+// What the proof is made of, each part against plain arithmetic: windings, distances of needles, cut polyhedra.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "prove/convex_solid.h"
+#include "prove/hull.h"
+#include "prove/orientation.h"
+#include "prove/rounded_surface.h"
+#include "prove/triangle_distance.h"
+#include "prove/winding.h"
+#include "support/random.h"
+#include "support/solids.h"
+
+namespace vantage {
+namespace {
+
+using internal::prove::ConvexPolygon;
+using internal::prove::ConvexSolid;
+using internal::prove::HalfSpace;
+using internal::prove::nearest_points;
+using internal::prove::NearestPoints;
+using internal::prove::passage;
+using internal::prove::RoundedSurface;
+using internal::prove::surely_apart_by;
+using internal::prove::Winding;
+using testing::Random;
+using Corners = std::array<Vec3, 3>;
+using FinePoint = Eigen::Matrix<long double, 3, 1>;
+
+/// Whole numbers small enough that every determinant is exact in doubles.
+Vec3 on_grid(Random& random, int most) {
+  return {static_cast<double>(random.integer(-most, most)), static_cast<double>(random.integer(-most, most)),
+          static_cast<double>(random.integer(-most, most))};
+}
+
+double volume_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (a - d).dot((b - d).cross(c - d));
+}
+
+/// The same answers after all is moved so far that sums in doubles would lose the last digits: only exact ones agree.
+TEST(ProveParts, APassageIsDecidedExactly) {
+  Random random(2101);
+  std::size_t through = 0, beside = 0, unknown = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 from = on_grid(random, 3), to = on_grid(random, 3);
+    const Corners t = {on_grid(random, 3), on_grid(random, 3), on_grid(random, 3)};
+    const double at_from = volume_of(t[0], t[1], t[2], from), at_to = volume_of(t[0], t[1], t[2], to);
+    std::array<double, 3> sides;
+    for (std::size_t k = 0; k < 3; ++k) sides[k] = volume_of(from, to, t[k], t[(k + 1) % 3]);
+    const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+    const bool is_flat = (t[1] - t[0]).cross(t[2] - t[0]).isZero(0);
+    const std::optional<int> found = passage(from, to, t);
+    if (is_flat) {
+      EXPECT_TRUE(!found || *found == 0);
+    } else if (at_from * at_to < 0 && *least * *most > 0) {
+      ++through;
+      EXPECT_EQ(found, at_from > 0 ? 1 : -1);
+    } else if (at_from * at_to > 0 || (*least < 0 && *most > 0)) {
+      ++beside;
+      EXPECT_EQ(found, 0);
+    } else {
+      ++unknown;
+      EXPECT_EQ(found, std::nullopt);
+    }
+    const double step = std::ldexp(1, -30);  // exact about 2^20, and far below what determinants there are rounded by
+    const Vec3 far(std::ldexp(1, 20), std::ldexp(1, 20) + 1, -std::ldexp(1, 20));
+    Corners moved;
+    for (std::size_t k = 0; k < 3; ++k) moved[k] = far + step * t[k];
+    EXPECT_EQ(passage(far + step * from, far + step * to, moved), found);
+  }
+  EXPECT_GT(through, 500U);
+  EXPECT_GT(beside, 5000U);
+  EXPECT_GT(unknown, 500U);
+}
+
+/// Boxes in each other, some inside out, at a place where their sides are a few units of the last digit apart.
+TEST(ProveParts, WindingsAreCountedExactly) {
+  Random random(2102);
+  const Vec3 far(4e6, -3e6, 200);
+  const double unit = std::ldexp(1, -29);  // two steps between the largest numbers
+  for (int round = 0; round < 200; ++round) {
+    Mesh mesh;
+    std::vector<std::pair<Box, int>> boxes;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 low = on_grid(random, 6),
+                 high = low + Vec3(random.integer(1, 6), random.integer(1, 6), random.integer(1, 6));
+      Mesh one = testing::make_box_mesh(far + 4 * unit * low, far + 4 * unit * high);
+      const int way = random.chance(0.3) ? -1 : 1;
+      for (Triangle& t : one.triangles) {
+        if (way < 0) std::swap(t[0], t[1]);
+      }
+      testing::append(mesh, one);
+      boxes.push_back({Box{low, high}, way});
+    }
+    Box all;
+    for (const Vec3& vertex : mesh.vertices) all.extend(vertex);
+    const RoundedSurface surface(mesh, 0);
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 place = on_grid(random, 9) + Vec3::Constant(0.5);
+      int expected = 0;
+      for (const auto& [box, way] : boxes) {
+        if ((place.array() > box.min.array()).all() && (place.array() < box.max.array()).all()) expected += way;
+      }
+      const Vec3 at = far + 4 * unit * place;
+      Winding winding(at, all);
+      for (const auto& [a, b, c] : mesh.triangles) winding.add({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+      EXPECT_EQ(winding.turns(0), expected);
+      EXPECT_EQ(surface.turns_round(at), expected);
+    }
+  }
+}
+
+/// The least distance of two triangles that is found among many places on them, in extended precision: not less than
+/// the true one.
+long double sampled_distance(const Corners& a, const Corners& b, Random& random) {
+  const auto at = [](const Corners& t, long double u, long double v) {
+    return FinePoint(t[0].cast<long double>() + u * (t[1] - t[0]).cast<long double>() +
+                     v * (t[2] - t[0]).cast<long double>());
+  };
+  long double best = std::numeric_limits<long double>::infinity();
+  std::array<long double, 4> where = {0, 0, 0, 0};
+  const auto see = [&](std::array<long double, 4> w) {
+    for (const std::size_t k : {0U, 2U}) {
+      w[k] = std::clamp<long double>(w[k], 0, 1);
+      w[k + 1] = std::clamp<long double>(w[k + 1], 0, 1 - w[k]);
+    }
+    const long double distance = (at(a, w[0], w[1]) - at(b, w[2], w[3])).norm();
+    if (distance < best) best = distance, where = w;
+  };
+  for (int i = 0; i < 200; ++i) {
+    std::array<long double, 4> w;
+    for (long double& x : w) x = random.uniform(0, 1);
+    see(w);
+  }
+  long double reach = 0.5L;
+  for (int i = 0; i < 1500; ++i, reach *= 0.985L) {
+    std::array<long double, 4> w = where;
+    for (long double& x : w) x += reach * random.uniform(-1, 1);
+    see(w);
+  }
+  return best;
+}
+
+/// Needles and slivers, down to widths that rounding makes: what is said to be apart is not nearer.
+TEST(ProveParts, NeedlesAreNotSaidToBeFartherApartThanTheyAre) {
+  Random random(2103);
+  std::size_t apart = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto needle = [&](const Vec3& centre) {
+      const Vec3 along = random.direction(), across = random.direction();
+      const double width = std::pow(10.0, random.uniform(-16, 0));
+      const double length = std::pow(10.0, random.uniform(-1, 2));
+      return Corners{Vec3(centre - length * along), Vec3(centre + length * along),
+                     Vec3(centre + random.uniform(-1, 1) * length * along + width * across)};
+    };
+    const Corners a = needle(Vec3::Zero()), b = needle(std::pow(10.0, random.uniform(-3, 1)) * random.direction());
+    const NearestPoints found = nearest_points(a, b);
+    const double claimed = surely_apart_by(found, a, b);
+    const long double sampled = sampled_distance(a, b, random);
+    EXPECT_LE(claimed, sampled) << "pair " << i;
+    if (claimed > 0) ++apart;
+  }
+  EXPECT_GT(apart, 2000U);
+  // Two places over the inside of a narrow triangle: its normal is turned by rounding, its outline is not.
+  const Corners thin = {Vec3(-50, 0, 0), Vec3(50, 1e-13, 0), Vec3(0, 3e-14, 5e-14)};
+  const Corners dot = {Vec3(1, 0, 2), Vec3(1, 0, 2), Vec3(1, 0, 2)};
+  EXPECT_LE(surely_apart_by(nearest_points(thin, dot), thin, dot), 2.0);
+  EXPECT_GT(surely_apart_by(nearest_points(thin, dot), thin, dot), 1.99);
+}
+
+/// How far a point is outside of a solid along some direction, at least.
+double outside_by(const ConvexSolid& solid, const Vec3& point) {
+  internal::prove::PointHull hull;
+  double largest = point.cwiseAbs().maxCoeff();
+  for (const ConvexPolygon& face : solid.faces()) {
+    for (const Vec3& corner : face) {
+      hull.add(corner);
+      largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+    }
+  }
+  const Corners dot = {point, point, point};
+  const auto way = internal::prove::separate(hull, internal::prove::Obstacle(std::span<const Vec3>(dot)), largest);
+  return way ? way->dot(hull.lowest(*way) - point) / way->norm() : 0;
+}
+
+/// All of a tetrahedron that is in the half-spaces is as near to what is left as is said. Some planes pass through
+/// corners, along edges and faces, or a few roundings beside them.
+TEST(ProveParts, ACutSolidLosesNoMoreThanItSays) {
+  Random random(2104);
+  std::size_t inside = 0, empty = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const double size = std::pow(10.0, random.uniform(-3, 3));
+    std::array<Vec3, 4> corners;
+    for (Vec3& corner : corners) corner = random.point(-size, size);
+    if (random.chance(0.3)) corners[3] = (corners[0] + corners[1] + corners[2]) / 3 + 1e-12 * random.point(-size, size);
+    std::vector<HalfSpace> sides;
+    ConvexSolid solid = ConvexSolid::tetrahedron(corners);
+    std::vector<ConvexSolid> beyond;
+    for (int k = random.integer(1, 12); k > 0; --k) {
+      const Vec3 &a = corners[random.integer(0, 3)], &b = corners[random.integer(0, 3)],
+                 &c = corners[random.integer(0, 3)];
+      Vec3 way = random.direction();
+      if (random.chance(0.3)) way = (b - a).cross(way);
+      if (random.chance(0.3)) way = (b - a).cross(c - a);
+      if (!(way.norm() > 0)) continue;
+      way.normalize();
+      double at = way.dot(random.chance(0.5) ? a : Vec3((a + b + c) / 3));
+      if (random.chance(0.5)) at += size * std::pow(10.0, random.uniform(-16, 0)) * random.uniform(-1, 1);
+      if (random.chance(0.7)) {
+        sides.push_back({way, at});
+        solid = solid.within(sides.back());
+      } else {
+        auto [low, high] = solid.split({way, at});
+        beyond.push_back(high);
+        solid = low;
+      }
+    }
+    ASSERT_LT(solid.lost_m(), 1e-11 * size);
+    if (solid.empty()) ++empty;
+    for (int k = 0; k < 40; ++k) {
+      std::array<double, 4> parts;
+      double sum = 0;
+      for (double& part : parts) sum += part = random.chance(0.2) ? 0 : std::pow(random.uniform(0, 1), 3);
+      if (!(sum > 0)) continue;
+      Vec3 point = Vec3::Zero();
+      for (std::size_t i = 0; i < 4; ++i) point += parts[i] / sum * corners[i];
+      const auto is_beyond = [&](const HalfSpace& side) { return side.over(point) > 0; };
+      if (std::any_of(sides.begin(), sides.end(), is_beyond)) continue;
+      ++inside;
+      double nearest = std::numeric_limits<double>::infinity();
+      if (!solid.empty()) nearest = outside_by(solid, point) - solid.lost_m();
+      for (const ConvexSolid& part : beyond) {
+        if (!part.empty()) nearest = std::min(nearest, outside_by(part, point) - part.lost_m());
+      }
+      EXPECT_LE(nearest, 4e-15 * size) << "round " << round;  // as the point itself is rounded
+    }
+  }
+  EXPECT_GT(inside, 20000U);
+  EXPECT_GT(empty, 20U);
+}
+
+}  // namespace
+}  // namespace vantage
