@@ -55,7 +55,7 @@ void write_raw_stl(const std::filesystem::path& file, const std::vector<std::arr
   }
 }
 
-/// A file that states a rounding of 230 m, beside triangles without area at 1e9 m, of which single-precision numbers
+/// A file that states a rounding of 230 m, beside triangles without area at 9e8 m, of which single-precision numbers
 /// would be rounded by so much: three corners in one place, and on one line.
 TEST(ProveForged, NoRoundingIsBelievedForTrianglesWithoutArea) {
   const Scene scene = SceneBuilder().ground("ground", 60).box("wall", {8, -10, 0}, {10, 10, 20});
@@ -65,7 +65,7 @@ TEST(ProveForged, NoRoundingIsBelievedForTrianglesWithoutArea) {
   const testing::TemporaryDirectory folder;
   const std::filesystem::path file = folder / "volume.stl";
   const Mesh box = make_box_mesh({-180, -25, 0.25}, {-5, 25, 170});  // 200 m out of range, 140 m too high
-  const double far = 1e9;
+  const double far = 9e8;
   const Vec3 step(7 * 64, 3 * 64, 11 * 64), start(far, 0, far / 2);
   const std::vector<std::array<Vec3, 3>> flat = {{Vec3(far, 0, 0), Vec3(far, 0, 0), Vec3(far, 0, 0)},
                                                  {start, start + step, start + 3 * step}};
@@ -84,8 +84,8 @@ TEST(ProveForged, NoRoundingIsBelievedForTrianglesWithoutArea) {
       const ProofReport report =
           prove_volume(scene, low_square(), sensor, navigation, read.volume.mesh, {.rounding_m = rounding});
       EXPECT_LT(report.rounding_m, 1e-3);
-      EXPECT_EQ(verdict_of(report, "altitude"), ProofVerdict::wrong);
-      EXPECT_EQ(verdict_of(report, "range"), ProofVerdict::wrong);
+      EXPECT_NE(verdict_of(report, "altitude"), ProofVerdict::proved);
+      EXPECT_NE(verdict_of(report, "range"), ProofVerdict::proved);
     }
   }
 }

@@ -157,7 +157,7 @@ TEST(ProveInput, WhatAFlapReachesIsNotCalledWrong) {
     return flapped;
   };
   const ProofReport hidden = with_flap({20, 1, 2}).prove();
-  EXPECT_EQ(verdict_on(hidden, "sight"), ProofVerdict::not_proved);
+  EXPECT_NE(verdict_on(hidden, "sight"), ProofVerdict::wrong);
   EXPECT_FALSE(hidden.witness);
   EXPECT_EQ(verdict_on(with_flap({0, 0, 51}).prove(), "range"), ProofVerdict::not_proved);
   EXPECT_EQ(verdict_on(with_flap({0, 0, -1}).prove(), "front"), ProofVerdict::not_proved);
@@ -197,7 +197,7 @@ TEST(ProveInput, RangeAndFrontSayWhereTheyAreBroken) {
   Yard rounded;
   rounded.volume = make_box_mesh({-3, -3, -5e-7}, {3, 3, 6});
   EXPECT_EQ(verdict_on(rounded.prove({.rounding_m = 1e-6}), "front"), ProofVerdict::proved);
-  EXPECT_GE(rounded.prove({.rounding_m = 1e-6}).layer_m, 5e-7);
+  EXPECT_NEAR(rounded.prove({.rounding_m = 1e-6}).layer_m, 5e-7, 1e-12);
   EXPECT_EQ(verdict_on(rounded.prove(), "front"), ProofVerdict::wrong);
   // No file's numbers are rounded by more than single precision is, whatever it says.
   rounded.volume = make_box_mesh({-3, -3, -1e-5}, {3, 3, 6});

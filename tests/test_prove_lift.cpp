@@ -11,6 +11,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/volume.h"
@@ -46,7 +47,7 @@ Scene cluttered(Random& random, const Vec3& shift, double scale) {
 TEST(ProveLift, IsNotLessThanTheEngineRaises) {
   Random random(2201);
   std::size_t raised = 0, computed = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 400; ++i) {
     const Vec3 shift = random.chance(0.3) ? Vec3(5e5, 5e6, 100) : Vec3(0, 0, 0);
     const double scale = random.chance(0.3) ? 0.05 : 1;
     const Scene scene = cluttered(random, shift, scale);
@@ -73,8 +74,8 @@ TEST(ProveLift, IsNotLessThanTheEngineRaises) {
       EXPECT_EQ(error.code(), ErrorCode::target_pierced);
     }
   }
-  EXPECT_GT(computed, 500U);
-  EXPECT_GT(raised, 200U);
+  EXPECT_GT(computed, 100U);
+  EXPECT_GT(raised, 50U);
 }
 
 /// A point on a ridge of 2 mm, and a cover 5.9 mm above it, which is no surface that the point lies on.
@@ -121,7 +122,7 @@ TEST(ProveLift, VerticesThatNoTriangleHasAndTrianglesWithoutAreaAreNotThere) {
 
 TEST(ProveLift, AllPartsAtOnceAndAsOneByOne) {
   Random random(2202);
-  const Scene scene = cluttered(random, Vec3(0, 0, 0), 1);
+  const Scene scene = testing::random_city(random, 30, 12);
   Target all;
   all.parts.clear();
   for (int k = 0; k < 20; ++k) {

@@ -7,8 +7,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <optional>
+#include <iostream>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,7 @@ struct FiledCity {
 
 TEST(ProveRounded, RightFilesAreProvedLessALayer) {
   std::size_t layers = 0;
-  for (std::uint64_t seed = 61; seed < 67; ++seed) {
+  for (std::uint64_t seed = 61; seed < 65; ++seed) {
     const FiledCity city(seed);
     for (const char* name : {"volume.stl", "volume.glb"}) {
       const VolumeFile read = city.as(name);
@@ -85,12 +86,17 @@ TEST(ProveRounded, RightFilesAreProvedLessALayer) {
 
 /// The same vertices, moved by some roundings of the file: by one it may be right, by twenty it is not.
 TEST(ProveRounded, FilesThatWereMovedByMoreAreNotProved) {
-  for (std::uint64_t seed = 61; seed < 65; ++seed) {
+  for (std::uint64_t seed = 61; seed < 63; ++seed) {
     FiledCity city(seed);
     for (const char* name : {"volume.stl", "volume.glb"}) {
       const VolumeFile read = city.as(name);
       Mesh moved = read.volume.mesh;
-      for (Vec3& vertex : moved.vertices) vertex += 20 * read.rounding_m * city.random.direction();
+      std::map<std::array<double, 3>, Vec3> places;  // in an STL file each triangle has vertices of its own
+      for (Vec3& vertex : moved.vertices) {
+        const auto at = places.try_emplace({vertex.x(), vertex.y(), vertex.z()}, Vec3::Zero()).first;
+        if (at->second.isZero(0)) at->second = vertex + 20 * read.rounding_m * city.random.direction();
+        vertex = at->second;
+      }
       EXPECT_NE(city.prove(moved, read.rounding_m).verdict(), ProofVerdict::proved) << name << " of seed " << seed;
       for (Vec3& vertex : moved.vertices) vertex.x() += 0.01;
       EXPECT_EQ(city.prove(moved, read.rounding_m).verdict(), ProofVerdict::wrong) << name << " of seed " << seed;
@@ -118,16 +124,16 @@ TEST(ProveRounded, ARegionThatIsFilledWithFacetsIsNotALayer) {
     return make_box_mesh(middle - Vec3::Constant(half), middle + Vec3::Constant(half));
   };
   Walled thin;
-  testing::append(thin.volume, cube(0.4 * kRounding));
+  thin.volume = make_box_mesh({-3, -3, 1}, {10 + 0.5 * kRounding, 3, 6});  // ends in the wall
   const ProofReport whole = thin.prove(kRounding);
-  EXPECT_EQ(whole.verdict(), ProofVerdict::proved) << whole.claims[0].text;  // all of it is in the layer
-  EXPECT_GT(whole.layer_m, 0.4 * kRounding);
+  EXPECT_EQ(whole.verdict(), ProofVerdict::proved) << whole.claims[0].text;
+  EXPECT_NEAR(whole.layer_m, kRounding, 0.01 * kRounding);
   Walled filled;
-  for (int k = 1; k <= 40; ++k) testing::append(filled.volume, cube(0.8 * kRounding * k));
+  for (int k = 1; k <= 8; ++k) testing::append(filled.volume, cube(0.8 * kRounding * k));
   EXPECT_NE(filled.prove(kRounding).verdict(), ProofVerdict::proved);
   // Likewise with the two sides of flaps, which hang on one of its corners.
   Walled flaps;
-  constexpr int kFlaps = 40;
+  constexpr int kFlaps = 8;
   const double half = 0.4 * kRounding * kFlaps;
   const auto first = static_cast<std::uint32_t>(flaps.volume.vertices.size());
   testing::append(flaps.volume, cube(half));
@@ -223,20 +229,19 @@ TEST(ProveRounded, WhatIsBehindTheTargetIsALayerToo) {
   yard.volume = make_box_mesh({-3, -3, -5e-7}, {3, 3, 6});
   const ProofReport rounded = yard.prove(1e-6);
   EXPECT_EQ(rounded.claims[2].verdict, ProofVerdict::proved);
-  EXPECT_GE(rounded.layer_m, 5e-7);
-  EXPECT_LT(rounded.layer_m, 6e-7);
+  EXPECT_NEAR(rounded.layer_m, 5e-7, 1e-12);
   EXPECT_EQ(yard.prove(1e-7).claims[2].verdict, ProofVerdict::wrong);
 }
 
-/// Of two targets the second one alone has a layer, and a lift that is not believed: both are told.
+/// Of two targets one has the thicker layer, the other a lift that is not believed: both are told, in either order.
 TEST(ProveRounded, SeveralTargetsTellTheirLayersAndLifts) {
   Walled yard;
-  testing::append(yard.volume, make_box_mesh({19.9999996, -4e-7, 2}, {20.0000004, 4e-7, 2.0000008}));
+  yard.volume = make_box_mesh({-3, -3, 1}, {10 + 5e-7, 3, 6});  // ends in the wall
   Mission mission;
   auto loaded = std::make_shared<LoadedScene>();
   loaded->scene = yard.scene;
   mission.loaded = loaded;
-  Target other = testing::target_of({{20, -1, 0}, {21, -1, 0}, {21, 1, 0}, {20, 1, 0}});
+  Target other = testing::target_of({{-21, -1, 0}, {-19, -1, 0}, {-19, 1, 0}, {-21, 1, 0}});
   mission.target = other;
   mission.sensor.max_range_m = 90;
   for (const bool is_first : {true, false}) {
@@ -246,9 +251,12 @@ TEST(ProveRounded, SeveralTargetsTellTheirLayersAndLifts) {
     const ProofReport report = prove_volume(mission, yard.volume, options);
     const ProofReport one =
         prove_volume(yard.scene, yard.target, mission.sensor, {}, yard.volume, {.rounding_m = 1e-6, .lift_m = {0.005}});
+    const ProofReport more =
+        prove_volume(yard.scene, other, mission.sensor, {}, yard.volume, {.rounding_m = 1e-6, .lift_m = {0.0}});
     ASSERT_GT(one.layer_m, 0);
-    EXPECT_EQ(report.layer_m, one.layer_m);
-    EXPECT_EQ(report.margin_m, one.margin_m);
+    ASSERT_GT(more.layer_m, one.layer_m);  // it is farther away
+    EXPECT_EQ(report.verdict(), ProofVerdict::proved);
+    EXPECT_EQ(report.layer_m, more.layer_m);
     EXPECT_NE(report.claims[0].text.find(one.claims[0].text), std::string::npos) << report.claims[0].text;
     EXPECT_EQ(report.lift_of_part_m.size(), 2U);
     EXPECT_EQ(report.lift_m, one.lift_m);

@@ -11,10 +11,10 @@
 namespace vantage::internal::prove {
 namespace {
 
-/// Layers that are tried, in roundings. The volume before it was rounded sees all from what is deeper than one; the
-/// rest is for the pieces of which each must be near to one facet.
-constexpr std::array<double, 3> kDepths = {1, 2, 1.5};
-constexpr std::size_t kBlock = 4096, kMostOpen = 500;  // pairs; where so many stay open the others are not looked at
+/// Layers that are tried, in roundings. The volume before it was rounded sees all from what is deeper than one, and
+/// that is nearly always enough; the second is for the ways out of sharp corners.
+constexpr std::array<double, 2> kDepths = {1, 2};
+constexpr std::size_t kBlock = 64, kMostOpen = 20;  // pairs; where so many stay open the others are not looked at
 
 /// Numbers are rounded whatever the file: a corner where three planes meet by a few units of 2^-53, and the corners of
 /// what is cut here, about the target, a few times each.
@@ -37,9 +37,10 @@ class LayerDepth {
       const double depth = depth_of(corners, roundings);
       return depth <= most_ && shallow_.is_shallow(corners, obstacles_.pieces[piece], depth);
     };
-    if (is_shallow(kDepths[0])) return depth_of(corners, kDepths[0]);
-    if (!is_shallow(kDepths[1])) return std::numeric_limits<double>::infinity();
-    return depth_of(corners, is_shallow(kDepths[2]) ? kDepths[2] : kDepths[1]);
+    for (const double roundings : kDepths) {
+      if (is_shallow(roundings)) return depth_of(corners, roundings);
+    }
+    return std::numeric_limits<double>::infinity();
   }
 
  private:
@@ -89,7 +90,7 @@ LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Sc
   std::size_t open = 0;
   for (std::size_t first = 0; first < pairs.size() && open < kMostOpen; first += kBlock) {
     const std::size_t count = std::min(kBlock, pairs.size() - first);
-    parallel::for_ranges(count, 16, [&](std::size_t begin, std::size_t end) {
+    parallel::for_ranges(count, 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
         depths[i] = depth.of(facets[pairs[i].facet], pairs[i].piece);
         done.add(1);

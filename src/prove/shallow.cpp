@@ -113,8 +113,8 @@ class Hidden {
 };
 
 /// Whether all of a volume that is in a convex solid is nearer than a depth to places outside of the volume: in pieces,
-/// each of which is near to a part of a facet that has the outside along all of one of its sides; or meets no facet and
-/// is outside itself.
+/// each of which is outside when it is moved by no more than the depth; or is near to a part of a facet that has the
+/// outside along all of one of its sides; or is outside itself.
 class Cover {
  public:
   Cover(const RoundedSurface& surface, double depth_m) : surface_(surface), depth_m_(depth_m) {}
@@ -126,6 +126,8 @@ class Cover {
     const Box box = solid.box();
     const std::vector<Near> near = facets_near(box, depth_m_, middle);
     const double held_m = held_by(solid, box);
+    if (!(held_m > 0)) return false;
+    if (!near.empty() && moves_out(solid, near, held_m)) return true;
     for (const Near& one : near) {
       if (one.distance <= held_m && holds(one.corners, solid, held_m) && bounds(one.corners, box)) return true;
     }
@@ -133,8 +135,9 @@ class Cover {
       if (surface_.turns_round(middle).value_or(1) != 0) return false;  // it is deep, and inside
     }
     const auto meets = std::find_if(near.begin(), near.end(), [&](const Near& one) { return !is_apart(one, solid); });
-    if (meets == near.end()) return surface_.turns_round(middle) == 0;
-    return covers_in_parts(solid, meets->corners);
+    if (meets != near.end()) return covers_in_parts(solid, meets->corners);
+    if (surface_.turns_round(middle) == 0) return true;
+    return !near.empty() && covers_in_parts(solid, near[0].corners);
   }
 
  private:
@@ -164,6 +167,24 @@ class Cover {
     return true;
   }
 
+  /// Whether all of a solid is outside once it is moved: over the surface, however many facets that has there.
+  bool moves_out(const ConvexSolid& solid, const std::vector<Near>& near, double by_m) const {
+    std::vector<Vec3> corners;
+    for (const ConvexPolygon& face : solid.faces()) corners.insert(corners.end(), face.begin(), face.end());
+    std::vector<Vec3> normals;
+    add_normals(near, -1, normals);
+    std::vector<Vec3> ways = normals;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) add_way(normals[i] + normals[j], ways);
+    }
+    for (const double side : {1.0, -1.0}) {
+      for (const Vec3& way : ways) {
+        if (is_outside(corners, side * by_m * way)) return true;
+      }
+    }
+    return false;
+  }
+
   /// Whether what a facet has near a box, all of it, has the outside of the volume next to it: moved a little it meets
   /// no facet, and lies outside.
   bool bounds(const Corners3& facet, const Box& box) const {
@@ -188,31 +209,40 @@ class Cover {
 
   /// Along the normal; where other facets stand on this one at a sharp angle, between it and one or two of them.
   std::vector<Vec3> ways_out(const ConvexPolygon& part, const Vec3& normal, const Vec3& middle) const {
-    constexpr std::size_t kMostOthers = 4;
-    constexpr double kAlike = 0.99, kFlat = 0.5, kShort = 1e-3;
-    std::vector<Vec3> others;
-    for (const Near& one : facets_near(box_of(part), 2 * skin_m(), middle)) {
-      const Vec3 other = normal_of(one.corners);
-      const auto is_alike = [&](const Vec3& known) { return known.dot(other) > kAlike; };
-      if (others.size() == kMostOthers) break;
-      if (normal.dot(other) < kFlat && std::none_of(others.begin(), others.end(), is_alike)) others.push_back(other);
-    }
+    constexpr double kFlat = 0.5;
+    std::vector<Vec3> others = {normal};
+    add_normals(facets_near(box_of(part), 2 * skin_m(), middle), kFlat, others);
+    others.erase(others.begin());
     std::vector<Vec3> ways = {normal};
-    const auto add = [&](const Vec3& way) {
-      if (way.norm() > kShort) ways.push_back(way.normalized());
-    };
     for (std::size_t i = 0; i < others.size(); ++i) {
-      add(normal + others[i]);
-      for (std::size_t j = 0; j < i; ++j) add(normal + others[i] + others[j]);
+      add_way(normal + others[i], ways);
+      for (std::size_t j = 0; j < i; ++j) add_way(normal + others[i] + others[j], ways);
     }
     return ways;
   }
 
-  bool is_outside(const ConvexPolygon& polygon, const Vec3& shift) const {
-    if (surface_.turns_round(middle_of(polygon) + shift) != 0) return false;
+  static void add_way(const Vec3& way, std::vector<Vec3>& ways) {
+    constexpr double kShort = 1e-3;
+    if (way.norm() > kShort) ways.push_back(way.normalized());
+  }
+  /// A few, no two alike. `turned`: the most that the cosine to the first one of `normals` may be; -1: any.
+  static void add_normals(const std::vector<Near>& near, double turned, std::vector<Vec3>& normals) {
+    constexpr std::size_t kMost = 5;
+    constexpr double kAlike = 0.99;
+    for (const Near& one : near) {
+      if (normals.size() == kMost) return;
+      const Vec3 other = normal_of(one.corners);
+      if (turned > -1 && normals[0].dot(other) > turned) continue;
+      const auto is_alike = [&](const Vec3& known) { return known.dot(other) > kAlike; };
+      if (std::none_of(normals.begin(), normals.end(), is_alike)) normals.push_back(other);
+    }
+  }
+
+  bool is_outside(const std::vector<Vec3>& corners, const Vec3& shift) const {
+    if (surface_.turns_round(middle_of(corners) + shift) != 0) return false;
     PointHull hull;
     Box box;
-    for (const Vec3& corner : polygon) {
+    for (const Vec3& corner : corners) {
       hull.add(corner + shift);
       box.extend(corner + shift);
     }
@@ -220,8 +250,8 @@ class Cover {
     search_tree(
         surface_.facets(), [&](const Box& other) { return !is_apart || distance_of_boxes(box, other) > 0; },
         [&](std::uint32_t i) {
-          const Corners3 corners = surface_.facets().pieces[i].first_three();
-          if (is_apart && distance_of_boxes(box, box_of(corners)) == 0) is_apart = are_apart(hull, box, corners);
+          const Corners3 facet = surface_.facets().pieces[i].first_three();
+          if (is_apart && distance_of_boxes(box, box_of(facet)) == 0) is_apart = are_apart(hull, box, facet);
         });
     return is_apart;
   }
@@ -286,7 +316,7 @@ class Cover {
 
   const RoundedSurface& surface_;
   double depth_m_;
-  int left_ = 1000;  ///< solids that are looked at
+  int left_ = 200;  ///< solids that are looked at
 };
 
 }  // namespace
