@@ -111,7 +111,7 @@ struct Walled {
   Mesh volume = make_box_mesh({-3, -3, 1}, {3, 3, 6});
 
   ProofReport prove(double rounding_m) const {
-    return prove_volume(scene, target, {.max_range_m = 90}, {}, volume, {.rounding_m = rounding_m});
+    return prove_volume(scene, target, {.max_range_m = 90}, {}, volume, {.shrink = 0, .rounding_m = rounding_m});
   }
 };
 
@@ -247,12 +247,13 @@ TEST(ProveRounded, SeveralTargetsTellTheirLayersAndLifts) {
   for (const bool is_first : {true, false}) {
     mission.views = {{yard.target}, {other}};
     if (is_first) std::swap(mission.views[0], mission.views[1]);
-    const ProveOptions options{.rounding_m = 1e-6, .lift_m = {is_first ? 0.0 : 0.005, is_first ? 0.005 : 0.0}};
+    const ProveOptions options{
+        .shrink = 0, .rounding_m = 1e-6, .lift_m = {is_first ? 0.0 : 0.005, is_first ? 0.005 : 0.0}};
     const ProofReport report = prove_volume(mission, yard.volume, options);
-    const ProofReport one =
-        prove_volume(yard.scene, yard.target, mission.sensor, {}, yard.volume, {.rounding_m = 1e-6, .lift_m = {0.005}});
-    const ProofReport more =
-        prove_volume(yard.scene, other, mission.sensor, {}, yard.volume, {.rounding_m = 1e-6, .lift_m = {0.0}});
+    const ProofReport one = prove_volume(yard.scene, yard.target, mission.sensor, {}, yard.volume,
+                                         {.shrink = 0, .rounding_m = 1e-6, .lift_m = {0.005}});
+    const ProofReport more = prove_volume(yard.scene, other, mission.sensor, {}, yard.volume,
+                                          {.shrink = 0, .rounding_m = 1e-6, .lift_m = {0.0}});
     ASSERT_GT(one.layer_m, 0);
     ASSERT_GT(more.layer_m, one.layer_m);  // it is farther away
     EXPECT_EQ(report.verdict(), ProofVerdict::proved);

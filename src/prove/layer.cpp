@@ -14,7 +14,8 @@ namespace {
 /// Layers that are tried, in roundings. The volume before it was rounded sees all from what is deeper than one, and
 /// that is nearly always enough; the second is for the ways out of sharp corners.
 constexpr std::array<double, 2> kDepths = {1, 2};
-constexpr std::size_t kBlock = 64, kMostOpen = 20;  // pairs; where so many stay open the others are not looked at
+constexpr std::size_t kMostPairs = 4000;            // of facets and obstacles: a second or a few
+constexpr std::size_t kBlock = 16, kMostOpen = 20;  // pairs; where so many stay open the others are not looked at
 
 /// Numbers are rounded whatever the file: a corner where three planes meet by a few units of 2^-53, and the corners of
 /// what is cut here, about the target, a few times each.
@@ -79,10 +80,17 @@ LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Sc
   std::vector<std::uint32_t> numbers;
   for (const OpenFacet& one : volume.open) numbers.push_back(one.facet);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  const auto all_open = [&] {
+    proof.open = volume.open;
+    proof.has_too_many = true;
+    return proof;
+  };
+  if (numbers.size() > kMostPairs) return all_open();
   std::vector<Triangle> facets;
   for (const std::uint32_t number : numbers) facets.push_back(volume.facets[number]);
   const std::vector<OpenFacet> pairs =
       prove_sight(volume.vertices, facets, view, scene, obstacles, {.tells_all = true}, progress.part(0, 0.5)).open;
+  if (pairs.size() > kMostPairs) return all_open();
   const LayerDepth depth(volume, view, obstacles);
   std::vector<double> depths(pairs.size(), std::numeric_limits<double>::infinity());
   const core::ProgressReporter second_half = progress.part(0.5, 1);
@@ -90,7 +98,7 @@ LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Sc
   std::size_t open = 0;
   for (std::size_t first = 0; first < pairs.size() && open < kMostOpen; first += kBlock) {
     const std::size_t count = std::min(kBlock, pairs.size() - first);
-    parallel::for_ranges(count, 4, [&](std::size_t begin, std::size_t end) {
+    parallel::for_ranges(count, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {
         depths[i] = depth.of(facets[pairs[i].facet], pairs[i].piece);
         done.add(1);

@@ -20,6 +20,7 @@ struct LayerProof {
   std::vector<OpenFacet> open;  ///< those that stay so
   double depth_m = 0;           ///< of what hides something on the way to a facet that does not; of View::inner
   bool is_too_thick = false;    ///< what would be the thinnest layer, so that none was tried
+  bool has_too_many = false;    ///< open facets, and obstacles of each: none was tried
 };
 
 /// Which of the open facets are so for what is hidden only of a layer that is as thick as one rounding, or two.

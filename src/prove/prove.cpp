@@ -179,7 +179,7 @@ class Prover {
 
   prove::SolidMesh solid_;
   double thickest_layer_m_;
-  bool is_layer_too_thick_ = false;
+  bool is_layer_too_thick_ = false, has_too_many_open_ = false;
   std::vector<Lift> lifts_;
   std::optional<double> other_side_m_;
   ProofReport report_;
@@ -308,6 +308,7 @@ void Prover::look_at(std::size_t part, const internal::core::ProgressReporter& p
     report_.layer_m = std::max(report_.layer_m, less.depth_m);
     if (less.depth_m > 0) report_.margin_m = std::max(report_.margin_m, view.inner_margin_m());
     is_layer_too_thick_ = is_layer_too_thick_ || less.is_too_thick;
+    has_too_many_open_ = has_too_many_open_ || less.has_too_many;
     proof.open = std::move(less.open);
   }
   report_.tested_facets += seen.facets.size();
@@ -460,6 +461,7 @@ void Prover::add_sight() {
         "; the file's rounding of {:.3g} m is more than 1 % of the volume's width, {:.3g} m: write PLY",
         options_.rounding_m, thickest_layer_m_ / prove::kThickestLayer);
   }
+  if (has_too_many_open_) text += "; they are too many to look whether what is hidden is less than was rounded";
   report_.claims.push_back({"sight", sight, text + lifts_text()});
 }
 

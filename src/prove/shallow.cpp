@@ -121,10 +121,11 @@ class Cover {
 
   bool covers(const ConvexSolid& solid) {
     if (solid.empty()) return true;
-    if (left_-- <= 0) return false;
+    if (left_ <= 0) return false;
     const Vec3 middle = solid.middle();
     const Box box = solid.box();
     const std::vector<Near> near = facets_near(box, depth_m_, middle);
+    left_ -= 10 + static_cast<int>(near.size());
     const double held_m = held_by(solid, box);
     if (!(held_m > 0)) return false;
     if (!near.empty() && moves_out(solid, near, held_m)) return true;
@@ -316,7 +317,7 @@ class Cover {
 
   const RoundedSurface& surface_;
   double depth_m_;
-  int left_ = 200;  ///< solids that are looked at
+  int left_ = 3000;  ///< facets that are looked at, solid by solid
 };
 
 }  // namespace
