@@ -137,12 +137,14 @@ int list_objects_of(const InspectArguments& options, const SceneSource& source) 
   return kSuccess;
 }
 
-int run_inspect(const InspectArguments& given) {
-  InspectArguments options = given;
-  if (options.scene.input.empty()) {  // of `inspect --objects city.osm` the option takes the scene as its text
-    if (!options.objects || options.objects->empty()) throw CLI::RequiredError("scene");
-    options.scene.input = std::exchange(*options.objects, "");
-  }
+/// "--objects city.osm": the option takes the scene as its text.
+void settle_scene(InspectArguments& options) {
+  if (!options.scene.input.empty()) return;
+  if (!options.objects || options.objects->empty()) throw CLI::RequiredError("scene");
+  options.scene.input = std::exchange(*options.objects, "");
+}
+
+int run_inspect(const InspectArguments& options) {
   const SceneSource source = scene_source(options.scene, "the scene file");
   if (options.objects) return list_objects_of(options, source);
   if (!options.areas.empty() || options.named) return list_areas(options, source);
@@ -163,7 +165,7 @@ void add_inspect(CLI::App& app, Command& chosen) {
       ->add_option(
           "scene", options->scene.input,
           "OBJ, PLY, STL, glTF, GLB or CityJSON, also compressed with gzip; OpenStreetMap; a raster of heights")
-      ->option_text("FILE");
+      ->option_text("FILE (required)");
   add_scene_options(*command, options->scene);
   command
       ->add_option("--areas", options->areas,
@@ -180,7 +182,12 @@ void add_inspect(CLI::App& app, Command& chosen) {
       ->option_text("PATTERN");
   command->add_flag("--named", options->named, "List only areas with a name");
   command->add_flag("--json", options->json, "Print JSON instead of a table; of areas GeoJSON");
-  finish<InspectArguments>(*command, options, kInspectExamples, chosen, run_inspect);
+  add_common_options(*command, options->common);
+  command->footer(kInspectExamples + exit_code_table());
+  command->callback([options, &chosen] {
+    settle_scene(*options);
+    chosen = [options] { return with_threads(options->common, [&] { return run_inspect(*options); }); };
+  });
 }
 
 }  // namespace vantage::cli
