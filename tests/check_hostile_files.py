@@ -65,7 +65,7 @@ def try_reader(program: str, reader: readers.Reader, base: pathlib.Path, argumen
             content = reader.pack(mutate.mutated(original, reader.originals, numbers) if i >= len(reader.originals)
                                   else original)  # first as it is
             (folder / reader.file).write_bytes(content)
-            run = runs.run(runs_it, command, folder)
+            run = runs.run(runs_it, command, folder, is_checker=bool(reader.program))
             fault = run.fault()
             if not fault and i < len(reader.originals) and run.was_refused:
                 fault = f"refuses what is right: {run.err[:300]!r}"

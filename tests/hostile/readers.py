@@ -23,7 +23,7 @@ class Reader(NamedTuple):
     arguments: list[str]
     originals: list[bytes]
     pack: Callable[[bytes], bytes] = bytes  # after a change: what is compressed is changed inside
-    program: str = ""  # where it is another one
+    program: str = ""  # where it is another one: that of the checker of certificates
 
 
 # ---- files by hand ----

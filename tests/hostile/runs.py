@@ -26,10 +26,11 @@ class Run(NamedTuple):
     out: bytes
     err: bytes
     passes_data: bool = False  # to standard output, as they are: those of the user
+    is_checker: bool = False  # of certificates: 1 is a certificate that is wrong
 
     @property
     def was_refused(self) -> bool:
-        return self.code == 2
+        return self.code == 2 or (self.is_checker and self.code == 1)
 
     def fault(self) -> str:
         """What is wrong with it; empty when nothing is."""
@@ -47,7 +48,7 @@ class Run(NamedTuple):
                     return f"prints what a terminal obeys: {line[:200]!r}"
         if b"Traceback (most recent call last)" in self.err:
             return f"prints a traceback: {self.err[-200:]!r}"
-        if self.was_refused and not self.err.startswith((b"vantage: ", b"error: ")):
+        if self.was_refused and not self.err.startswith((b"REFUSED: ", b"error: ") if self.is_checker else b"vantage: "):
             return f"refuses without a message: {self.err[:200]!r}"
         return ""
 
@@ -60,7 +61,7 @@ def limited() -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))
 
 
-def run(program: str, arguments: list[str], folder: pathlib.Path) -> Run:
+def run(program: str, arguments: list[str], folder: pathlib.Path, is_checker: bool = False) -> Run:
     """Runs the program in the folder, on one thread: so that processor time is time."""
     passes_data = arguments[:1] == ["query"]
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
@@ -79,4 +80,4 @@ def run(program: str, arguments: list[str], folder: pathlib.Path) -> Run:
         out.seek(0)
         err.seek(0)
         return Run(process.returncode, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, out.read(1 << 20),
-                   err.read(1 << 20), passes_data)
+                   err.read(1 << 20), passes_data, is_checker)
