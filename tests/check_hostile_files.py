@@ -30,7 +30,7 @@ class Tally:
         self.faults: list[str] = []
 
     def add(self, run: runs.Run, fault: str) -> None:
-        self.read += run.code in (0, 1, 4)
+        self.read += run.code in (0, 1, 4) and not run.was_refused
         self.refused += run.was_refused
         self.seconds = max(self.seconds, run.seconds)
         self.megabytes = max(self.megabytes, run.megabytes)
