@@ -33,8 +33,8 @@ Mesh scaled_about(Mesh mesh, const Vec3& centre, double by) {
 }
 
 /// A city with a target in a clearing, and its volume.
-struct City {
-  explicit City(std::uint64_t seed, int blocks = 30) : random(seed), scene(random_city(random, blocks, 12)) {
+struct CityVolume {
+  explicit CityVolume(std::uint64_t seed, int blocks = 30) : random(seed), scene(random_city(random, blocks, 12)) {
     target = random_target(random, 5, 2, Vec3(0, 0, 0.5), Vec3(0, 0, 1));
     const PreparedTarget prepared(PreparedScene(scene), target, sensor);
     volume = compute_volume(prepared);
@@ -62,7 +62,7 @@ bool crosses(const Scene& scene, const HiddenView& view) {
 
 TEST(Prove, VolumesOfRandomCitiesAreProved) {
   for (std::uint64_t seed = 81; seed < 89; ++seed) {
-    const City city(seed);
+    const CityVolume city(seed);
     ASSERT_FALSE(city.volume.empty()) << city.volume.reason;
     const ProofReport report = city.prove(city.volume.mesh);
     EXPECT_EQ(report.verdict(), ProofVerdict::proved) << "seed " << seed << ": " << report.unproved.size() << " facets";
@@ -76,7 +76,7 @@ TEST(Prove, VolumesOfRandomCitiesAreProved) {
 /// Twice the part that the proof leaves out: refuted, by a place from which a point of the target is hidden.
 TEST(Prove, AVolumeThatIsAMillionthTooLargeIsRefuted) {
   for (std::uint64_t seed = 81; seed < 85; ++seed) {
-    const City city(seed);
+    const CityVolume city(seed);
     const ProofReport report = city.prove(scaled_about(city.volume.mesh, city.volume.frame.origin, 1.000002));
     EXPECT_EQ(report.claims[0].verdict, ProofVerdict::wrong) << "seed " << seed;
     ASSERT_TRUE(report.witness);
@@ -89,7 +89,7 @@ TEST(Prove, AVolumeThatIsAMillionthTooLargeIsRefuted) {
 
 /// The volume that is computed without an obstacle which bounds it claims what that one hides.
 TEST(Prove, AVolumeThatForgotAnObstacleIsRefuted) {
-  const City city(90);
+  const CityVolume city(90);
   std::uint32_t dropped = 0;
   double most = 0;
   for (const Cause& cause : city.volume.causes) {
@@ -117,7 +117,7 @@ TEST(Prove, AVolumeThatForgotAnObstacleIsRefuted) {
 }
 
 TEST(Prove, CutVolumesAreProvedWithTheirLimits) {
-  const City city(91);
+  const CityVolume city(91);
   Navigation navigation;
   navigation.altitude = Navigation::Altitude{10, 40};
   navigation.keep_out = {Box{{-5, -5, 15}, {5, 5, 20}}};
@@ -132,7 +132,7 @@ TEST(Prove, CutVolumesAreProvedWithTheirLimits) {
 }
 
 TEST(Prove, RangeAndFrontAreClaimsToo) {
-  City city(92, 0);
+  CityVolume city(92, 0);
   EXPECT_EQ(city.prove(city.volume.mesh).verdict(), ProofVerdict::proved);
   city.sensor.max_range_m = 79.9;
   EXPECT_EQ(city.prove(city.volume.mesh).claims[1].verdict, ProofVerdict::wrong);
@@ -144,7 +144,7 @@ TEST(Prove, RangeAndFrontAreClaimsToo) {
 
 /// As a file of single-precision numbers has it: what it says that these moved is allowed, and no more.
 TEST(Prove, AllowsWhatAFileSaysItRounded) {
-  const City city(91);
+  const CityVolume city(91);
   Navigation navigation;
   navigation.altitude = Navigation::Altitude{10.2, 40.2};
   Mesh rounded = cut_to_navigation(city.volume, navigation).mesh;
@@ -166,7 +166,7 @@ TEST(Prove, AllowsWhatAFileSaysItRounded) {
 /// What rounding moved along the view hides far more of it than that: still nothing is wrong for sure.
 TEST(Prove, CallsNothingWrongForWhatAFileRounded) {
   for (std::uint64_t seed = 110; seed < 112; ++seed) {
-    const City city(seed);
+    const CityVolume city(seed);
     Random random(seed);
     const auto verdict = [&](double moved_m) {
       Mesh moved = city.volume.mesh;
@@ -180,7 +180,7 @@ TEST(Prove, CallsNothingWrongForWhatAFileRounded) {
 }
 
 TEST(Prove, AllPartsMustBeSeen) {
-  City city(93);
+  CityVolume city(93);
   const Target first = city.target;
   city.target.parts.push_back({{6, 0, 0.5}, {8, 0, 0.5}, {7, 2, 0.5}});
   EXPECT_EQ(city.prove(city.volume.mesh).verdict(), ProofVerdict::wrong);
@@ -189,7 +189,7 @@ TEST(Prove, AllPartsMustBeSeen) {
 }
 
 TEST(Prove, APointThatIsSeenFromAllSides) {
-  City city(94);
+  CityVolume city(94);
   city.target = Target::point({0, 0, 6});
   const Volume round = compute_volume(PreparedTarget(PreparedScene(city.scene), city.target, city.sensor));
   EXPECT_EQ(city.prove(round.mesh).verdict(), ProofVerdict::proved);
@@ -197,7 +197,7 @@ TEST(Prove, APointThatIsSeenFromAllSides) {
 }
 
 TEST(Prove, TheSameOnOneThreadAndWithVerticesApart) {
-  const City city(95);
+  const CityVolume city(95);
   Mesh soup;
   for (const Triangle& t : city.volume.mesh.triangles) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
@@ -215,7 +215,7 @@ TEST(Prove, TheSameOnOneThreadAndWithVerticesApart) {
 TEST(Prove, ViewsAlongAFaceThatIsNearlyInThePlaneOfTheTarget) {
   Random random(98);
   for (int i = 0; i < 4; ++i) {
-    City city(98, 0);
+    CityVolume city(98, 0);
     city.sensor.max_range_m = 110;
     const double rise = std::pow(10.0, random.uniform(-4.6, -4.3));
     const Vec3 at(random.uniform(100, 600), random.uniform(-600, -100), 21.47289);
@@ -279,7 +279,7 @@ TEST(Prove, ATriangleWithoutAreaHidesNothing) {
 TEST(Prove, AWitnessHoldsExactly) {
   int found = 0;
   for (std::uint64_t seed = 120; seed < 126; ++seed) {
-    City city(seed, 12);
+    CityVolume city(seed, 12);
     const Vec3 far(5e5, 5e6, 100);
     for (Vec3& vertex : city.scene.mesh.vertices) vertex += far;
     for (Vec3& vertex : city.target.parts[0]) vertex += far;
@@ -303,7 +303,7 @@ TEST(Prove, AWitnessHoldsExactly) {
 }
 
 TEST(Prove, RefusesWhatIsNoSolid) {
-  const City city(96, 4);
+  const CityVolume city(96, 4);
   const auto expect = [&](const Mesh& mesh, ErrorCode code) {
     expect_code([&] { city.prove(mesh); }, code, "volume");  // which edge it is differs from compiler to compiler
   };
@@ -328,7 +328,7 @@ TEST(Prove, RefusesWhatIsNoSolid) {
 }
 
 TEST(Prove, RefusesOptionsAndSharesAndLinks) {
-  City city(97, 4);
+  CityVolume city(97, 4);
   EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh, {.shrink = -1}); }), ErrorCode::value_out_of_range);
   EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh, {.shrink = 1}); }), ErrorCode::value_out_of_range);
   EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh, {.lift_m = {0, 0}}); }), ErrorCode::array_sizes_differ);
