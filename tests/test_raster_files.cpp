@@ -234,8 +234,18 @@ TEST(RasterFiles, ArchivesHaveOneRasterAndNothingBesideIt) {
   const fs::path archive = folder / "dem.zip";
   write_bytes(archive, stored_zip({{"readme.txt", "heights"}, {"dem.tif", tif}}));
   EXPECT_EQ(read_height_grid(archive).heights_m, read_height_grid(file).heights_m);
-  for (const std::string name : {"dem.tif.aux.xml", "DEM.TIF.MSK"}) {
-    write_bytes(archive, stored_zip({{"dem.tif", tif}, {name, "<PAMDataset/>"}}));
+  // Tiles of SRTM have statistics with them.
+  const std::string statistics = "<PAMDataset>\n  <MDI key=\"STATISTICS_MEAN\">95</MDI>\n</PAMDataset>\n";
+  write_bytes(archive, stored_zip({{"dem.tif", tif}, {"dem.tif.aux.xml", statistics}}));
+  EXPECT_EQ(read_height_grid(archive).heights_m, read_height_grid(file).heights_m);
+  const std::string place = "<PAMDataset>\n<SRS>EPSG:32633</SRS></PAMDataset>";
+  for (const auto& [name, content] : std::vector<std::pair<std::string, std::string>>{
+           {"dem.tif.aux.xml", place},
+           {"DEM.tif.AUX.XML", place},
+           {"dem.tif.aux.xml", std::string(5000, '\n') + place},  // behind what is looked through
+           {"dem.tif.aux.xml", std::string(20000, ' ') + place},
+           {"DEM.TIF.MSK", ""}}) {
+    write_bytes(archive, stored_zip({{"dem.tif", tif}, {name, content}}));
     testing::expect_error([&] { read_height_grid(archive); }, ErrorCode::raster_unreadable, "dem.zip");
   }
   write_bytes(archive, stored_zip({{"dem.tif", tif}, {"other.tif", tif}}));

@@ -39,6 +39,7 @@ namespace vantage::internal::terrain {
   X(const char*, CPLGetThreadLocalConfigOption, (const char*, const char*))                                 \
   X(void, CPLSetThreadLocalConfigOption, (const char*, const char*))                                        \
   X(char**, VSIReadDir, (const char*))                                                                      \
+  X(char**, CSLLoad2, (const char*, int, int, const char* const*))                                          \
   X(void, VSIFree, (void*))                                                                                 \
   X(void, CSLDestroy, (char**))
 

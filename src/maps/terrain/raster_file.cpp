@@ -55,20 +55,38 @@ constexpr std::size_t kMostMetadata = std::size_t{1} << 20U;
                   " new.tif --config GDAL_TIFF_INTERNAL_MASK YES");
 }
 
-/// Refuses a .aux.xml that says what counts.
+/// Refuses a .aux.xml that says what counts. `name`: how messages call it.
+void check_metadata_text(const fs::path& file, const std::string& text, const std::string& name) {
+  if (text.size() > kMostMetadata) refuse_for_beside(file, "more than 1 MiB of metadata", name);
+  const std::string lower = in_lower_case(text);
+  for (const std::string_view element : kThatCount) {
+    const std::size_t at = lower.find("<" + std::string(element));
+    if (at != std::string::npos) refuse_for_beside(file, text.substr(at + 1, element.size()), name);
+  }
+}
+
 void check_metadata(const fs::path& file, const fs::path& metadata) {
   std::string text(kMostMetadata + 1, '\0');
   std::ifstream stream(metadata, std::ios::binary);
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
-  if (text.size() > kMostMetadata) refuse_for_beside(file, "more than 1 MiB of metadata", metadata.filename().string());
-  const std::string lower = in_lower_case(text);
-  for (const std::string_view element : kThatCount) {
-    const std::size_t at = lower.find("<" + std::string(element));
-    if (at != std::string::npos) {
-      refuse_for_beside(file, text.substr(at + 1, element.size()), metadata.filename().string());
-    }
+  check_metadata_text(file, text, metadata.filename().string());
+}
+
+/// The same of one in an archive, by GDAL.
+void check_metadata_in_archive(const GdalLibrary& library, const fs::path& file, const std::string& archive,
+                               const std::string& name) {
+  constexpr int kMostLines = 4096, kLongestLine = 1 << 14;
+  const GdalCalls calls(library);
+  const std::unique_ptr<char*, void (*)(char**)> lines(
+      library.CSLLoad2((archive + "/" + name).c_str(), kMostLines, kLongestLine, nullptr), library.CSLDestroy);
+  std::string text;
+  int count = 0;
+  for (char* const* line = lines.get(); line && *line; ++line, ++count) text.append(*line).append("\n");
+  if (count == kMostLines || !calls.first_error().empty()) {
+    refuse_for_beside(file, "metadata that cannot be looked through", name);
   }
+  check_metadata_text(file, text, name);
 }
 
 /// Masks, overviews and metadata in files of their own are not read: GDAL opens them by any driver that knows them.
@@ -87,7 +105,7 @@ void check_beside(const fs::path& file) {
   check_metadata(file, file.string() + ".aux.xml");
 }
 
-/// The only file in an archive that may be a raster, by its extension. What lies beside it there is not looked into.
+/// The only file in an archive that may be a raster, by its extension.
 std::string raster_in_archive(const GdalLibrary& library, const fs::path& file, const std::string& archive) {
   const std::unique_ptr<char*, void (*)(char**)> names(library.VSIReadDir(archive.c_str()), library.CSLDestroy);
   std::vector<std::string> rasters;
@@ -107,10 +125,8 @@ std::string raster_in_archive(const GdalLibrary& library, const fs::path& file, 
   const std::string own = in_lower_case(rasters[0]);
   for (char* const* name = names.get(); *name; ++name) {
     const std::string lower = in_lower_case(*name);
-    if (lower != own + ".msk" && lower != own + ".aux.xml") continue;
-    throw Error(ErrorCode::raster_unreadable,
-                "the archive has a file beside the raster, which is not read: " + std::string(*name), file.string(),
-                "unpack it, and give the raster");
+    if (lower == own + ".msk") refuse_for_beside(file, "its mask", *name);
+    if (lower == own + ".aux.xml") check_metadata_in_archive(library, file, archive, *name);
   }
   return archive + "/" + rasters[0];
 }
