@@ -244,6 +244,27 @@ TEST_F(MissionWarnings, ATargetInsideAHouseIsTold) {
   EXPECT_TRUE(notes(obj, "point: [0, 0, 2]", 40).empty());
 }
 
+/// Ground and all that stands on it may be one object.
+TEST_F(MissionWarnings, ClosedPartsOfAnObjectAreTold) {
+  Boxes boxes;
+  boxes.ground(60);
+  boxes.box({20, 0, 5}, {6, 6, 5});
+  boxes.box({22, 2, 3}, {6, 6, 3});  // overlaps the other one
+  boxes.box({-20, 0, 12}, {6, 6, 1});
+  for (const Vec3& place : {Vec3(15, -5, 4), Vec3(20, 0, 4), Vec3(27, 7, 4)}) {
+    const std::string list = text_of({place});
+    const std::vector<Warning> inside = notes(boxes.text(), "point: " + list.substr(1, list.size() - 2), 40);
+    ASSERT_EQ(inside.size(), 1u) << place.transpose();
+    EXPECT_EQ(inside[0].code, WarningCode::target_inside);
+  }
+  EXPECT_TRUE(notes(boxes.text(), "point: [-20, 0, 4]", 40).empty());  // under the slab
+  Boxes open;                                                          // a roof without floor
+  open.ground(60);
+  open.box({20, 0, 5}, {6, 6, 5});
+  open.faces.erase(open.faces.begin() + 1);
+  EXPECT_TRUE(notes(open.text(), "point: [20, 0, 4]", 40).empty());
+}
+
 /// What the note says to write is run, whatever the object is called.
 TEST_F(MissionWarnings, TheAdviceForARoofCanBeFollowed) {
   Boxes boxes;

@@ -48,7 +48,7 @@ std::string how_to_take_roof(const LoadedScene& loaded, std::uint32_t object, co
   if (const auto& place = loaded.scene.georeference) {
     const geo::LonLat position = geo::LocalFrame({place->longitude_deg, place->latitude_deg}).to_lonlat(at.head<2>());
     target = core::format("at: [{:.6f}, {:.6f}]", position.latitude_deg, position.longitude_deg);
-  } else if (name.empty() || objects_named(loaded.scene, name).size() > 1) {
+  } else if (name.empty() || loaded.scene.objects.size() == 1 || objects_named(loaded.scene, name).size() > 1) {
     return "for its roof give the vertices of that: no name tells it from other objects";
   }
   return "for its roof write 'target: {" + target + ", part: roof}'";

@@ -205,14 +205,20 @@ struct Turned {
   std::optional<Warning> warning;
 };
 
+/// The facets of one object on a vertical line through a point, each counted by the side that it shows: a roof is 1
+/// above, a floor is 1 below. So inside of a closed object both are more than 0.
+struct Crossed {
+  int above = 0, below = 0;
+  double floor_z = -std::numeric_limits<double>::infinity();   ///< of the highest facet below that faces down
+  double ground_z = -std::numeric_limits<double>::infinity();  ///< of the highest one that faces up
+};
+
 }  // namespace
 
 std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at) {
+  constexpr double kOnGround = 1e-3;  // metres: so far apart may a floor and the ground below it be
   const Scene& scene = loaded.scene;
-  struct Count {
-    std::size_t above = 0, all = 0;
-  };
-  std::map<std::uint32_t, Count> counts;
+  std::map<std::uint32_t, Crossed> objects;
   const auto is_in_plan = [&](const Box& box) {
     return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
   };
@@ -221,13 +227,22 @@ std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3&
     for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
     if (!holds(facet, at)) return true;
     const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
-    Count& count = counts[scene.object_of[i]];
-    ++count.all;
-    count.above += normal.dot(at - facet[0]) * normal.z() < 0;
+    if (normal.z() == 0) return true;
+    const double z = at.z() - normal.dot(at - facet[0]) / normal.z();
+    const int up = normal.z() > 0 ? 1 : -1;
+    Crossed& crossed = objects[scene.object_of[i]];
+    if (z > at.z()) {
+      crossed.above += up;
+    } else {
+      crossed.below -= up;
+      double& nearest = up > 0 ? crossed.ground_z : crossed.floor_z;
+      nearest = std::max(nearest, z);
+    }
     return true;
   });
-  for (const auto& [object, count] : counts) {
-    if (count.all % 2 == 0 && count.above % 2 == 1) return object;
+  for (const auto& [object, crossed] : objects) {
+    const bool has_floor = crossed.below > 0 || crossed.floor_z > crossed.ground_z - kOnGround;
+    if (crossed.above > 0 && has_floor) return object;
   }
   return std::nullopt;
 }

@@ -15,9 +15,9 @@ namespace vantage::internal::app {
 /// triangles.
 std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume);
 
-/// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
-/// and an even number in all, or else it is not closed there. Nothing where the point is in the open; nor, mostly,
-/// where houses and their ground are one object, which as a whole is not closed.
+/// The first object that a point lies in: one that has, straight above the point, a facet more that faces up than that
+/// faces down, and a floor below, which faces down, also if it is one object with the ground. Nothing where the point
+/// is in the open, under a roof without a floor, or in an object whose facets face inward.
 std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at);
 
 /// Of these the one that tells that the scene seems to lie on its side, with what to do. Looked for once.
