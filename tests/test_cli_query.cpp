@@ -366,7 +366,7 @@ TEST_F(CliQuery, SaysThatLongitudeAndLatitudeSeemSwapped) {
   testing::expect_wording(lines(answered.err).back());
   EXPECT_EQ(run({"query", "mission.yaml", "-", "-q"}).err, "");
   options_.input = "lon,lat,z\n48.21,48.2,5\n";
-  EXPECT_EQ(run({"query", "mission.yaml", "-"}).err.find("of the points"), std::string::npos);
+  EXPECT_EQ(run({"query", "mission.yaml", "-"}).err.find("1 of the points"), std::string::npos);
 }
 
 TEST_F(CliQuery, RefusesPlacesThatAreNone) {

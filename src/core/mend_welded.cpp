@@ -280,6 +280,7 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
     moved = std::max(moved, (place - vertex).norm());
     vertex = place;
   }
+  mend_welded(labelled, 0);
   return moved + split_on_grid(labelled, [](const Vec3& middle) { return middle; });
 }
 
