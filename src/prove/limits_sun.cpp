@@ -104,7 +104,7 @@ class SunCone {
     for (const Vec3& corner : sights.facet) sum -= corner / 3;
     if (separates(slanted(turn_of(sum)), sights)) return true;
     if (const auto normal = from_top(sights); normal && separates(*normal, sights)) return true;
-    return is_clear_beside(sights);
+    return is_clear_beside(sights) || is_clear_along_a_side(sights);
   }
 
   /// From the cone's top to the nearest line of sight.
@@ -135,6 +135,29 @@ class SunCone {
         for (const double sign : {-1.0, 1.0}) {
           if (separates(slanted(turn_of(sight) + sign * std::acos(needed)), sights)) return true;
         }
+      }
+    }
+    return false;
+  }
+
+  /// The lines of sight from a facet that touches the target, or all but does, begin at the cone's top. Where numbers
+  /// do not tell the way to the nearest one, one of the sides of what all of them are may do: normals of the facet, of
+  /// the target, and of two edges.
+  bool is_clear_along_a_side(const Sights& sights) const {
+    const LimitedVolume::Corners& facet = sights.facet;
+    const std::size_t n = target_.size();
+    const auto is_clear_along = [&](const Vec3& normal) {
+      const Vec3 way = normal.stableNormalized();
+      return way.norm() > 0 && (separates(way, sights) || separates(-way, sights));
+    };
+    if (is_clear_along((facet[1] - facet[0]).cross(facet[2] - facet[0]))) return true;
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 2; i < n; ++i) area += (target_[i - 1] - target_[0]).cross(target_[i] - target_[0]);
+    if (is_clear_along(area)) return true;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 edge = target_[(i + 1) % n] - target_[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (is_clear_along(edge.cross(facet[(k + 1) % 3] - facet[k]))) return true;
       }
     }
     return false;
