@@ -114,13 +114,13 @@ std::vector<std::uint32_t> piece_of(const Mesh& mesh) {
 void check_pieces(const Mesh& mesh, const std::string& where) {
   const std::vector<std::uint32_t> pieces = piece_of(mesh);
   std::vector<double> volume(mesh.vertices.size(), 0.0);
-  const Vec3 origin = mesh.vertices[mesh.triangles[0][0]];
   Box box;
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) box.extend(mesh.vertices[v]);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3& origin = mesh.vertices[pieces[t]];  // of its own: a small piece may lie far from the others
     volume[pieces[t]] +=
         (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin)) / 6;
   }
