@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "prove/convex_solid.h"
@@ -114,6 +117,21 @@ TEST(ProveParts, WindingsAreCountedExactly) {
       EXPECT_EQ(surface.turns_round(at), expected);
     }
   }
+}
+
+/// A place of a facet that bounds nothing, as of a flap, is no place of the volume: the one in front of it is told.
+TEST(ProveParts, AVolumeIsHeldWhereItIs) {
+  const Mesh box = testing::make_box_mesh({1, -1, -1}, {4, 1, 1});
+  const RoundedSurface surface(box, 1e-6);
+  EXPECT_EQ(surface.surely_held({4, 0.2, 0.1}, 0.5), 0.0);    // its far side
+  EXPECT_EQ(surface.surely_held({1, 0.05, 0.02}, 0.5), 0.0);  // its near side: behind it
+  const Vec3 tip(10, 0.2, 0.1);
+  const std::optional<double> nearer_m = surface.surely_held(tip, 8);
+  ASSERT_TRUE(nearer_m);
+  EXPECT_GT(*nearer_m, 5.9);
+  EXPECT_LE(*nearer_m, 8);
+  EXPECT_EQ(surface.turns_round(tip * (1 - *nearer_m / tip.norm())), 1);
+  EXPECT_FALSE(surface.surely_held(tip, 5));
 }
 
 /// The distance of two triangles with the digits of long double: of each edge from each edge, and of each corner from

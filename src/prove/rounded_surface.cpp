@@ -26,19 +26,19 @@ RoundedSurface::RoundedSurface(const Mesh& volume, double rounding_m) : rounding
   tree_ = make_tree(std::move(pieces));
 }
 
-bool RoundedSurface::surely_held(const Vec3& on_surface, double depth_m) const {
+std::optional<double> RoundedSurface::surely_held(const Vec3& on_surface, double depth_m) const {
   const double distance = on_surface.norm();
-  if (!(distance > 0)) return false;
+  if (!(distance > 0)) return std::nullopt;
   constexpr int kTried = 8, kHalvings = 24;
-  for (int i = 1; i <= kTried; ++i) {
-    if (surely_holds(on_surface * (1 - depth_m / distance * i / kTried))) return true;
-  }
   double part = 1.0 / kTried;
   for (int i = 0; i < kHalvings; ++i, part /= 2) {
-    if (surely_holds(on_surface * (1 - part * depth_m / distance)) || surely_holds(on_surface * (1 + part)))
-      return true;
+    if (surely_holds(on_surface * (1 - part * depth_m / distance)) || surely_holds(on_surface * (1 + part))) return 0;
   }
-  return false;
+  for (int i = 2; i <= kTried; ++i) {
+    const double nearer_m = depth_m * i / kTried;
+    if (surely_holds(on_surface * (1 - nearer_m / distance))) return nearer_m;
+  }
+  return std::nullopt;
 }
 
 bool RoundedSurface::surely_holds(const Vec3& position) const {

@@ -18,7 +18,10 @@ class RoundedSurface {
   /// surface: one up to `depth_m` nearer to the origin, or any behind. It did where it winds round one that no facet is
   /// as near to as it can have been moved, or as numbers can tell. Facets that lie on each other, as the two sides of a
   /// flap, bound nothing. Not all positions are tried.
-  bool surely_held(const Vec3& on_surface, double depth_m) const;
+  ///
+  /// The result: how much nearer to the origin it is, if no place next to the surface is held, on either side; 0 where
+  /// one is.
+  std::optional<double> surely_held(const Vec3& on_surface, double depth_m) const;
 
   /// How often it winds round a position, exactly. Nothing where rays meet edges.
   std::optional<int> turns_round(const Vec3& position) const;

@@ -46,10 +46,16 @@ std::optional<HiddenView> deepest_witness(const Scene& scene, const View& view, 
     const Vec3 middle = (facet[0] + facet[1] + facet[2]) / 3;
     for (const double inward : {0.0, 0.1}) {
       for (Vec3& corner : facet) corner += inward * (middle - corner);
-      const auto blocked = find_blocked(facet, view, obstacle);
+      auto blocked = find_blocked(facet, view, obstacle);
       if (!blocked || (known && blocked->depth_m <= known->depth_m)) break;
       if (!is_hidden(*blocked, view, corners)) continue;
-      if (!surface.surely_held(blocked->viewpoint, blocked->depth_m)) continue;
+      const std::optional<double> nearer_m = surface.surely_held(blocked->viewpoint, blocked->depth_m);
+      if (!nearer_m) continue;
+      if (*nearer_m > 0) {  // the facet bounds nothing here: the volume is in front of it
+        blocked->viewpoint *= 1 - *nearer_m / blocked->viewpoint.norm();
+        blocked->depth_m -= *nearer_m;
+        if ((known && blocked->depth_m <= known->depth_m) || !is_hidden(*blocked, view, corners)) continue;
+      }
       const std::uint32_t object = scene.object_of.empty() ? 0 : scene.object_of[obstacle.of];
       known = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
                          .target_point = view.origin + blocked->target_point,
