@@ -90,7 +90,7 @@ def check_page() -> None:
 
 
 def check_binaries() -> None:
-    """No library is looked for in a folder of somebody else."""
+    """No library is looked for in a folder of somebody else, and what is compiled in is hardened, all of it."""
     found = []
     count = 0
     for file in sorted(pathlib.Path(vt.__file__).parent.rglob("*")):
@@ -98,8 +98,9 @@ def check_binaries() -> None:
         if elf is None:
             continue
         count += 1
-        found += [f"{file.name} {fault}" for fault in read_elf.search_path_faults(elf)]
-    expect(count > 0 and not found, "; ".join(found) or f"{count} binary: where it looks for libraries")
+        faults = read_elf.search_path_faults(elf) + read_elf.hardening_faults(elf, is_fortified=True)
+        found += [f"{file.name} {fault}" for fault in faults]
+    expect(count > 0 and not found, "; ".join(found) or f"{count} binary: where it looks for libraries, and how it is hardened")
 
 
 def main() -> int:
