@@ -429,13 +429,14 @@ TEST_P(MovedLimits, AskForTheSameVolume) {
     expect_same(base, of_split, {"split"}, random);
     const Eigen::Matrix3d turn = draw_turn(limit().turns, random);
     const Vec3 map(-3e6, 4.7e6, 0), other_map(5.8e5 + 0.1, 4.785e6 + 0.2, 1000.3);
-    const std::vector<Motion> motions = {{"map", 1, Eigen::Matrix3d::Identity(), map},
-                                         {"turned, map", 1, turn, other_map},
-                                         {"turned", 1, turn, Vec3::Zero()},
-                                         {"small", 1e-3, turn, Vec3::Zero()},
-                                         {"small, map", 0.1, turn, map},  // smaller: see what volume.h says of roundings
-                                         {"large", 1e2, Eigen::Matrix3d::Identity(), other_map},
-                                         {"huge", 1e4, turn, Vec3::Zero()}};
+    const std::vector<Motion> motions = {
+        {"map", 1, Eigen::Matrix3d::Identity(), map},
+        {"turned, map", 1, turn, other_map},
+        {"turned", 1, turn, Vec3::Zero()},
+        {"small", 1e-3, turn, Vec3::Zero()},
+        {"small, map", 0.1, turn, map},  // smaller: see what volume.h says of roundings
+        {"large", 1e2, Eigen::Matrix3d::Identity(), other_map},
+        {"huge", 1e4, turn, Vec3::Zero()}};
     for (const Motion& motion : motions) {
       SCOPED_TRACE(motion.name);
       const World there = moved(world, motion);
