@@ -17,7 +17,8 @@ from conftest import SQUARE, yard
 
 def slow(progress=None):
     """Takes seconds, unless it is stopped."""
-    return vt.compute(yard(), SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256), progress=progress)
+    return vt.compute(yard(), SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256), work_limit=1e12,
+                      progress=progress)
 
 
 def test_progress_is_told_in_the_calling_thread():

@@ -74,7 +74,7 @@ def test_ctrl_c_while_the_main_thread_waits_for_one_in_vantage():
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
         def work():
-            vt.compute(scene, SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256))
+            vt.compute(scene, SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256), work_limit=1e12)
 
         thread = threading.Thread(target=work)
         thread.start()

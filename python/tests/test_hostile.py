@@ -331,7 +331,8 @@ def test_generators_and_exceptions_that_are_odd(scene):
         raise Odd
 
     with pytest.raises(Odd):
-        vt.compute(scene, SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256), progress=progress)
+        vt.compute(scene, SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256), work_limit=1e12,
+                   progress=progress)
     with pytest.raises(vt.Error) as raised:
         vt.compute_many(scene, (corners for corners in (SQUARE, SQUARE[:2])), max_range=60)
     assert raised.value.code == "target-vertex-count" and raised.value.where.startswith("targets[1]")

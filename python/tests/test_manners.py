@@ -74,7 +74,8 @@ class Recorder:
 
 
 def slow(progress, cells=16):
-    return vt.compute(yard(), SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=cells), progress=progress)
+    return vt.compute(yard(), SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=cells), work_limit=1e12,
+                      progress=progress)
 
 
 def test_a_bar(monkeypatch):

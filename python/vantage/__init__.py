@@ -54,7 +54,7 @@ def cameras() -> list[dict[str, _Any]]:
 
     Example:
         >>> vt.cameras()[0]["name"]
-        'canon_eos_m_22mm'
+        'autel_evo_ii'
     """
     cameras: list[dict[str, _Any]] = _json.loads(_core.cameras())["cameras"]
     return cameras
