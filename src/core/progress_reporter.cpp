@@ -42,12 +42,6 @@ struct ProgressReporter::State {
   std::atomic<double> fraction = 0;
 };
 
-struct ProgressReporter::Limit {
-  double most;
-  std::string advice;
-  std::atomic<double> done = 0;
-};
-
 ProgressReporter::ProgressReporter(const Progress& progress, std::string where) : asks_always_(g_asks_always > 0) {
   if (progress) state_ = std::make_shared<State>(progress, std::move(where));
 }
@@ -116,13 +110,6 @@ void ProgressReporter::check_work(double more) const {
   throw Error(ErrorCode::work_too_large,
               "the work would be too much: more than " + most + " facets would have to go through boolean operations",
               state_ ? state_->where : "", limit_->advice + "; or raise 'work_limit' and be patient");
-}
-
-double ProgressReporter::counted_work() const { return limit_->done; }
-
-void ProgressReporter::add_work(double work) const {
-  check_work(work);
-  limit_->done += work;
 }
 
 ProgressReporter::AskAlways::AskAlways() { ++g_asks_always; }

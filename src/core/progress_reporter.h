@@ -66,10 +66,12 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   /// Counts work that is about to be done. Throws Error(work_too_large) where it is more than the limit leaves; the
   /// same every time, on any machine, if the callers count the same. Without a limit it does nothing.
   void spend(double work) const {
-    if (limit_) add_work(work);
+    if (!limit_) return;
+    check_work(work);
+    limit_->done += work;
   }
   /// What was counted so far; 0 without a limit.
-  double spent() const { return limit_ ? counted_work() : 0; }
+  double spent() const { return limit_ ? limit_->done.load() : 0; }
   /// Throws likewise where so much more work, which spend() will count later, is too much: to stop before it is begun.
   void expect(double work) const {
     if (limit_) check_work(work);
@@ -86,11 +88,13 @@ class VANTAGE_INTERNAL_API ProgressReporter {
 
  private:
   struct State;
-  struct Limit;
+  struct Limit {
+    double most;
+    std::string advice;
+    std::atomic<double> done = 0;
+  };
 
-  void add_work(double work) const;
   void check_work(double more) const;
-  double counted_work() const;
   bool is_turn() const {
     thread_local unsigned calls = 0;
     return (++calls & 63U) == 0 || asks_always_;
