@@ -48,10 +48,15 @@ const GdalLibrary& library_for(const fs::path& file) {
 constexpr std::string_view kThatCount[] = {"nodatavalue", "offset", "scale", "unittype", "srs", "geotransform"};
 constexpr std::size_t kMostMetadata = std::size_t{1} << 20U;
 
+/// `file` may be an archive; `beside`: the file's name is that of the raster with an ending more.
 [[noreturn]] void refuse_for_beside(const fs::path& file, const std::string& what, const std::string& beside) {
+  const bool is_packed = lower_extension(file) == ".zip";
+  const bool is_mask = in_lower_case(beside).ends_with(".msk");
+  const std::size_t length = beside.size() - std::string_view(is_mask ? ".msk" : ".aux.xml").size();
   throw Error(ErrorCode::raster_unreadable,
               "the raster has " + what + " in a file of its own, which is not read: " + beside, file.string(),
-              "write it into the raster, as gdal_translate does: gdal_translate " + file.filename().string() +
+              (is_packed ? "unpack it, and write that into the raster" : "write it into the raster") +
+                  std::string(", as gdal_translate does: gdal_translate ").append(beside, 0, length) +
                   " new.tif --config GDAL_TIFF_INTERNAL_MASK YES");
 }
 
@@ -133,7 +138,7 @@ std::string raster_in_archive(const GdalLibrary& library, const fs::path& file, 
 
 /// GDAL's name of a file: absolute, so that none is taken for something else (a subdataset, a database).
 std::string gdal_name(const GdalLibrary& library, const fs::path& file) {
-  const std::string path = path_on_disk(fs::absolute(file).string());
+  std::string path = path_on_disk(fs::absolute(file).string());
   const std::string extension = lower_extension(file);
   if (extension == ".zip") return raster_in_archive(library, file, "/vsizip/" + path);
   if (extension == ".gz") return "/vsigzip/" + path;
