@@ -75,11 +75,11 @@ struct MapObjects {
 /// (osm::parse_object_id) is in a library that a build may lack.
 bool is_map_id(const std::string& text) {
   const std::size_t begin = text.find_first_of("-0123456789");
-  const std::string_view head = std::string_view(text).substr(0, begin);
+  const std::string_view all = text, head = all.substr(0, begin);
   const bool is_type =
       head == "way/" || head == "relation/" || head == "node/" || head == "w" || head == "r" || head == "n";
   if (!is_type || begin == std::string::npos) return false;
-  const std::string_view digits = std::string_view(text).substr(text[begin] == '-' ? begin + 1 : begin);
+  const std::string_view digits = all.substr(text[begin] == '-' ? begin + 1 : begin);
   return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
 }
 

@@ -1,5 +1,7 @@
 #include "vantage/error.h"
 
+#include <utility>
+
 #include "vantage/input.h"
 
 namespace vantage {
@@ -17,11 +19,11 @@ std::string joined(const std::string& problem, const std::string& where, const s
 
 Error::Error(ErrorCode code, std::string problem, std::string where, std::string fix,
              std::optional<std::uint32_t> object)
-    : std::runtime_error(joined(printable(problem), printable(where), printable(fix))),
+    : std::runtime_error(joined(problem = printable(problem), where = printable(where), fix = printable(fix))),
       code_(code),
-      problem_(printable(problem)),
-      where_(printable(where)),
-      fix_(printable(fix)),
+      problem_(std::move(problem)),
+      where_(std::move(where)),
+      fix_(std::move(fix)),
       object_(object) {}
 
 std::string message_of(const Error& error) {

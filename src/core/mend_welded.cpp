@@ -237,7 +237,8 @@ bool mend_welded(LabelledMesh& labelled, double flat_m) { return Mender(labelled
 
 void split_shared_edges(LabelledMesh& labelled) {
   for (const std::uint32_t whole : split_shared_edges(labelled.mesh)) {
-    labelled.labels.push_back(std::uint32_t(labelled.labels[whole]));
+    const std::uint32_t label = labelled.labels[whole];
+    labelled.labels.push_back(label);
   }
 }
 

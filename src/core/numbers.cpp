@@ -128,7 +128,7 @@ std::string number_advice(std::string_view text, NumberFault fault) {
   if (fault == NumberFault::not_finite) return "write a finite number";
   if (fault == NumberFault::out_of_range) return "write a number that fits a double, or 0";
   const std::string lower = lower_case(text);
-  if (const std::string digits = advice_for_digits(lower); !digits.empty()) return digits;
+  if (std::string digits = advice_for_digits(lower); !digits.empty()) return digits;
   const ParsedNumber number = parse_number(split_quantity(text).number);
   if (number.fault == NumberFault::none) return "write the number alone, without a unit: " + shortest(number.value);
   return "write a plain decimal number, such as 12.5";

@@ -33,8 +33,9 @@ void* load_library(const std::vector<std::string>& names, const std::string& wha
     // In the words of the C library: the file cannot be mapped, or the loader has no memory for it.
     if (said.find("failed to map segment") != std::string::npos ||
         said.find("annot allocate memory") != std::string::npos || said.find("annot create") != std::string::npos) {
-      throw Error(ErrorCode::out_of_memory, "there is not enough memory to load " + what + " (" + said + ")", "",
-                  "free some memory, or raise its limit (ulimit -v)");
+      throw Error(ErrorCode::out_of_memory,
+                  std::string("there is not enough memory to load ").append(what).append(" (").append(said).append(")"),
+                  "", "free some memory, or raise its limit (ulimit -v)");
     }
     check_open_files();
   }

@@ -90,7 +90,7 @@ bool TemporaryFolder::move_to(const fs::path& place) {
   // What a killed process left beside is older than what is in place now.
   const std::string name = path_.filename().string();
   remove_abandoned(path_.has_parent_path() ? path_.parent_path() : fs::path("."),
-                   std::string_view(name).substr(0, name.size() - kRandomCharacters), "-old");
+                   name.substr(0, name.size() - kRandomCharacters), "-old");
   return true;  // where a folder is at path_ now, it was at `place`, and goes with this object
 }
 

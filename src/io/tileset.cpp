@@ -61,7 +61,7 @@ std::string advice_of(const MeshSource& source) {
   for (const TileKind& kind : kTileKinds) {
     if (source.bytes().starts_with(kind.magic)) return kind.advice;
   }
-  const std::string convert = std::string("give one of its tiles, as GLB; of b3dm: ") + kTileKinds[0].advice;
+  std::string convert = std::string("give one of its tiles, as GLB; of b3dm: ") + kTileKinds[0].advice;
   try {
     const nlohmann::json tileset = parse_json(source.bytes(), {}, {});
     const auto root = tileset.find("root");

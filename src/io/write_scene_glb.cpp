@@ -137,8 +137,9 @@ class SceneGlb {
           .append(std::to_string(target));
     };
     std::string text(R"({"asset":{"version":"2.0","generator":"vantage )" VANTAGE_VERSION R"(")");
-    if (const std::string credit = attribution_of(scene_); !credit.empty()) {
-      text.append(R"(,"copyright":)").append(json_text(std::string_view(credit)));
+    const std::string credit = attribution_of(scene_);
+    if (const std::string_view shown = credit; !shown.empty()) {
+      text.append(R"(,"copyright":)").append(json_text(shown));
     }
     text += R"(},"scene":0,)";
     text.append(R"("scenes":[{"nodes":[)").append(roots_).append("]");

@@ -55,7 +55,8 @@ double product_difference(const Double& p, const Double& q, const Double& r, con
 }  // namespace
 
 Vec3 sure_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a, normal = u.cross(v);
+  const Vec3 u = b - a, v = c - a;
+  Vec3 normal = u.cross(v);
   constexpr double kWide = 1e-4;  // of the product of the sides: up to there rounding turns the normal by 1e-11
   if (normal.squaredNorm() > kWide * kWide * u.squaredNorm() * v.squaredNorm()) return normal;
   std::array<Double, 3> along_u, along_v;

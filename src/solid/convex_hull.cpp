@@ -139,8 +139,8 @@ void HullBuilder::deal_out(std::span<const std::uint32_t> points, std::uint32_t 
 std::uint32_t HullBuilder::take_farthest(std::uint32_t facet) {
   std::vector<std::uint32_t>& outside = facets_[facet].outside;
   const auto& [a, b, c] = facets_[facet].corners;
-  const Vec3 normal = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
-  const auto height = [&](std::uint32_t p) { return normal.dot(points_[p] - points_[a]); };
+  const Vec3 at = points_[a], normal = (points_[b] - at).cross(points_[c] - at);
+  const auto height = [&](std::uint32_t p) { return normal.dot(points_[p] - at); };
   const auto best = std::max_element(outside.begin(), outside.end(),
                                      [&](std::uint32_t p, std::uint32_t q) { return height(p) < height(q); });
   std::iter_swap(best, outside.end() - 1);

@@ -57,9 +57,8 @@ class Cutting {
     is_cut_ = true;
   }
   core::ProgressReporter next_part() {
-    const core::ProgressReporter part = progress_.part(done_ / count_, (done_ + 1) / count_);
     ++done_;
-    return part;
+    return progress_.part((done_ - 1) / count_, done_ / count_);
   }
   const Mesh& left() const { return result_.mesh.mesh; }
   bool is_cut() const { return is_cut_; }

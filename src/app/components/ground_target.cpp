@@ -183,7 +183,7 @@ Incline plane_of_corners(const TargetOutline& outline, const std::string& place)
   for (const Zone::Ring& hole : outline.holes) corners.insert(corners.end(), hole.begin(), hole.end());
   const bool is_level =
       std::adjacent_find(outline.z_m.begin(), outline.z_m.end(), std::not_equal_to<>()) == outline.z_m.end();
-  const Incline plane =
+  Incline plane =
       is_level ? Incline{Vec2::Zero(), outline.z_m.front()} : nearest_plane(corners, outline.z_m);  // level to the bit
   const double steepness = std::hypot(1, plane.slope.norm());
   for (std::size_t i = 0; i < corners.size(); ++i) {
