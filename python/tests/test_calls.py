@@ -100,10 +100,12 @@ def test_the_interpreter_goes_on_meanwhile():
     thread = threading.Thread(target=count)
     thread.start()
     told = iter(range(20))
-    with pytest.raises(vt.CancelledError):
-        slow(lambda stage, fraction: next(told) < 10)
-    stop.set()
-    thread.join()
+    try:
+        with pytest.raises(vt.CancelledError):
+            slow(lambda stage, fraction: next(told) < 10)
+    finally:  # else the interpreter would wait for the thread for ever
+        stop.set()
+        thread.join()
     assert len(counts) > 20
 
 
