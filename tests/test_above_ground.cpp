@@ -166,6 +166,72 @@ TEST(AboveGround, AnEndThatLimitsNothingRoundsNothing) {
   }
 }
 
+/// Each triangle in two, at a corner on one of its sides that its neighbour there may not have.
+Mesh split_in_two(const Mesh& mesh, Random& random) {
+  Mesh result = mesh;
+  for (Triangle& t : result.triangles) std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());
+  for (std::size_t i = 0, count = mesh.triangles.size(); i < count; ++i) {
+    const auto [a, b, c] = result.triangles[i];
+    const auto corner = static_cast<std::uint32_t>(result.vertices.size());
+    const double share = random.uniform(0.1, 0.9);
+    result.vertices.emplace_back(result.vertices[a] + share * (result.vertices[b] - result.vertices[a]));
+    result.triangles[i] = {a, corner, c};
+    result.triangles.push_back({corner, b, c});
+  }
+  return result;
+}
+
+/// Of the facets that bound the volume where the ground ends, but are not at the border of [-extent, extent]^2.
+int walls_inside(const Volume& cut, const Vec3& origin, double extent) {
+  int count = 0;
+  for (std::size_t t = 0; t < cut.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = cut.mesh.triangles[t];
+    const Vec3 middle = (cut.mesh.vertices[a] + cut.mesh.vertices[b] + cut.mesh.vertices[c]) / 3 - origin;
+    count +=
+        cut.causes[cut.cause_of[t]].name == "ground edge" && middle.head<2>().cwiseAbs().maxCoeff() < 0.999 * extent;
+  }
+  return count;
+}
+
+TEST(AboveGround, NoWallsStandWhereTheGroundGoesOn) {
+  Random random(47);
+  for (const Case& at : kCases) {
+    SCOPED_TRACE(at.scale);
+    const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
+    Mesh ground = make_hills(random, 50 * at.scale, 6 * at.scale, 6, at.origin);
+    const Volume whole = cut_to_navigation(dome, above(ground, 4 * at.scale, 25 * at.scale));
+    for (int times = 1; times <= 3; ++times) {
+      ground = split_in_two(ground, random);
+      const Volume cut = cut_to_navigation(dome, above(ground, 4 * at.scale, 25 * at.scale));
+      ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+      EXPECT_EQ(first_open_edge(cut.mesh), "");
+      EXPECT_EQ(walls_inside(cut, at.origin, 50 * at.scale), 0) << "of " << cut.mesh.triangles.size() << " facets";
+      const double rounding = 1e-9 + 1e-15 * at.origin.cwiseAbs().maxCoeff() / at.scale;
+      EXPECT_NEAR(enclosed_volume(cut.mesh) / enclosed_volume(whole.mesh), 1, rounding);
+      EXPECT_NEAR(surface_area(cut.mesh) / surface_area(whole.mesh), 1, 1e-6 + rounding);
+    }
+  }
+}
+
+TEST(AboveGround, AStepOfTheGroundIsNoWallAboveIt) {
+  Mesh ground;  // two halves, at x = 0 one 2 m over the other, with corners of their own
+  ground.vertices = {{-50, -50, 0}, {0, -50, 0},  {0, 50, 0},  {-50, 50, 0},
+                     {0, -50, 2},   {50, -50, 2}, {50, 50, 2}, {0, 50, 2}};
+  ground.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const Volume cut = cut_to_navigation(make_hemisphere(Vec3::Zero(), 60), above(ground, 4, 25));
+  ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+  EXPECT_EQ(walls_inside(cut, Vec3::Zero(), 50), 0) << "of " << cut.mesh.triangles.size() << " facets";
+  // The upper half of the dome has no hole: the step alone is upright.
+  double upright_m2 = 0;
+  for (const Triangle& t : cut.mesh.triangles) {
+    const Vec3 &a = cut.mesh.vertices[t[0]], &b = cut.mesh.vertices[t[1]], &c = cut.mesh.vertices[t[2]];
+    if (std::max({std::abs(a.x()), std::abs(b.x()), std::abs(c.x())}) < 1e-9)
+      upright_m2 += (b - a).cross(c - a).norm() / 2;
+  }
+  EXPECT_GT(upright_m2, 2 * 90);
+  EXPECT_LT(upright_m2, 2 * 2 * 100 + 1);  // at the bottom and at the top of the band
+}
+
 TEST(AboveGround, OfPiecesOverEachOtherAllCount) {
   Random random(5);
   Mesh ground = make_hills(random, 50, 3, 6, Vec3::Zero());
@@ -188,6 +254,7 @@ TEST(AboveGround, OfPiecesOverEachOtherAllCount) {
   }
   EXPECT_GT(inside, 100);
   EXPECT_GT(between, 20);
+  EXPECT_EQ(walls_inside(cut, Vec3::Zero(), 50), 0);
 }
 
 /// The same for a zone with the plan [-30, 30] by [-20, 20]: how far from its border a point is, positive inside of a

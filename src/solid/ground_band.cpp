@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -44,6 +46,81 @@ Mesh triangles_near(const Mesh& surface, const Box& near, const Vec3& origin) {
   return core::welded(mesh);
 }
 
+/// A side of a triangle that no other triangle runs the other way, in plan.
+struct OpenSide {
+  std::uint32_t from, to, triangle;
+};
+
+std::vector<OpenSide> open_sides(const Mesh& mesh) {
+  std::vector<OpenSide> sides;
+  const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
+  core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
+    if (edge.size() > 1) return;
+    const auto& [low, high, triangle, forward] = edge[0];
+    sides.push_back(forward ? OpenSide{low, high, triangle} : OpenSide{high, low, triangle});
+  });
+  return sides;
+}
+
+/// Calls `visit(one, other)` for open sides of two triangles that run along each other in plan, to rounding, for more
+/// than a point. Twice for two, in either order.
+template <typename Visit>
+void for_each_touching(const Mesh& mesh, const std::vector<OpenSide>& sides, double rounding, const Visit& visit) {
+  Mesh plan;
+  for (const Vec3& vertex : mesh.vertices) plan.vertices.emplace_back(vertex.x(), vertex.y(), 0);
+  for (const OpenSide& side : sides) plan.triangles.push_back({side.from, side.to, side.to});
+  const core::TriangleTree tree(plan);
+  for (std::uint32_t i = 0; i < sides.size(); ++i) {
+    const Vec3 a = plan.vertices[sides[i].from], along = plan.vertices[sides[i].to] - a;
+    const double length = along.norm();
+    tree.for_each_near(core::triangle_box(plan, i), rounding, [&](std::uint32_t k) {
+      if (k == i || sides[k].triangle == sides[i].triangle) return;
+      const Vec3 p = plan.vertices[sides[k].from] - a, q = plan.vertices[sides[k].to] - a;
+      const auto off = [&](const Vec3& v) { return std::abs(along.x() * v.y() - along.y() * v.x()) / length; };
+      if (off(p) > rounding || off(q) > rounding) return;
+      const double s = p.dot(along) / length, t = q.dot(along) / length;
+      if (std::min(std::max(s, t), length) - std::max(std::min(s, t), 0.0) > rounding) visit(sides[i], sides[k]);
+    });
+  }
+}
+
+/// Where a corner of one triangle lies on the side of another one, to rounding, that one is split there: grounds are
+/// often made so. A triangle is moved by no more than the rounding.
+void split_at_corners(Mesh& mesh, double rounding) {
+  for (bool is_split = true; is_split;) {
+    is_split = false;
+    struct Split {
+      std::uint32_t from, to, corner;
+      double from_middle;  ///< as a part of the side
+    };
+    std::vector<std::optional<Split>> splits(mesh.triangles.size());
+    for_each_touching(mesh, open_sides(mesh), rounding, [&](const OpenSide& side, const OpenSide& other) {
+      const Vec3 a = mesh.vertices[side.from], along = mesh.vertices[side.to] - a;
+      const double length = along.head<2>().norm();
+      for (const std::uint32_t corner : {other.from, other.to}) {
+        const Vec3 at = mesh.vertices[corner] - a;
+        const double share = at.head<2>().dot(along.head<2>()) / (length * length);
+        const double off = std::abs(at.z() - share * along.z());
+        if (!(share > 0 && share < 1) || off > rounding * (1 + std::abs(along.z()) / length)) continue;
+        const Triangle& corners = mesh.triangles[side.triangle];
+        if (std::find(corners.begin(), corners.end(), corner) != corners.end()) continue;
+        std::optional<Split>& known = splits[side.triangle];
+        const double from_middle = std::abs(share - 0.5);
+        if (!known || from_middle < known->from_middle) known = {side.from, side.to, corner, from_middle};
+      }
+    });
+    for (std::uint32_t t = 0; t < splits.size(); ++t) {
+      if (!splits[t]) continue;
+      const auto& [from, to, corner, unused] = *splits[t];
+      Triangle second = mesh.triangles[t];
+      std::replace(second.begin(), second.end(), from, corner);
+      std::replace(mesh.triangles[t].begin(), mesh.triangles[t].end(), to, corner);
+      mesh.triangles.push_back(second);
+      is_split = true;
+    }
+  }
+}
+
 /// Whether all of `other` lies to the right of a side of `one`, or on it.
 bool is_beside(const Mesh& mesh, const Triangle& one, const Triangle& other) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -56,13 +133,14 @@ bool is_beside(const Mesh& mesh, const Triangle& one, const Triangle& other) {
   return false;
 }
 
-/// No two triangles overlap in plan, and at each edge no more than two meet, at both its ends in the same places.
-bool is_height_field(const Mesh& mesh) {
+/// No two triangles overlap in plan, and where two touch along a side they have its ends in common, in space.
+bool is_height_field(const Mesh& mesh, double rounding) {
   bool paired = true;
   const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
   core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
     paired = paired && (edge.size() == 1 || (edge.size() == 2 && edge[0].forward != edge[1].forward));
   });
+  for_each_touching(mesh, open_sides(mesh), rounding, [&](const OpenSide&, const OpenSide&) { paired = false; });
   if (!paired) return false;
   Mesh plan = mesh;
   for (Vec3& vertex : plan.vertices) vertex.z() = 0;
@@ -145,9 +223,14 @@ Solid between_all(const Mesh& mesh, double min_m, double max_m, const GroundBand
 
 Solid make_ground_band(const Mesh& surface, double min_m, double max_m, const Box& near, const Vec3& origin,
                        const GroundBandLabels& labels, const core::ProgressReporter& progress) {
-  const Mesh mesh = triangles_near(surface, near, origin);
+  Mesh mesh = triangles_near(surface, near, origin);
   if (mesh.empty()) return Solid();
-  if (!is_height_field(mesh)) return between_all(mesh, min_m, max_m, labels, progress);
+  // Before the origin was subtracted, and where a corner was computed to lie on a side.
+  constexpr double kRoundings = 8 * std::numeric_limits<double>::epsilon();
+  const Box bounds = bounding_box(surface);
+  const double rounding = kRoundings * std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
+  split_at_corners(mesh, rounding);
+  if (!is_height_field(mesh, rounding)) return between_all(mesh, min_m, max_m, labels, progress);
   return between(mesh, shifted(min_m), shifted(max_m), labels);
 }
 
