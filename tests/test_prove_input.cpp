@@ -203,6 +203,14 @@ TEST(ProveInput, RangeAndFrontSayWhereTheyAreBroken) {
   rounded.volume = make_box_mesh({-3, -3, -1e-5}, {3, 3, 6});
   EXPECT_LT(rounded.prove({.rounding_m = 1}).rounding_m, 2e-6);
   EXPECT_EQ(verdict_on(rounded.prove({.rounding_m = 1}), "front"), ProofVerdict::wrong);
+  // Cuts of large volumes leave corners within some 1e-12 of their size of the plane.
+  Yard large;
+  large.sensor.max_range_m = 3e4;
+  large.volume = make_box_mesh({-3, -3, -3e-8}, {3, 3, 2e4});
+  EXPECT_EQ(verdict_on(large.prove(), "front"), ProofVerdict::proved);
+  EXPECT_NEAR(large.prove().layer_m, 3e-8, 1e-12);
+  large.volume = make_box_mesh({-3, -3, -3e-7}, {3, 3, 2e4});
+  EXPECT_EQ(verdict_on(large.prove(), "front"), ProofVerdict::wrong);
 }
 
 TEST(ProveInput, FollowsItsCaller) {

@@ -68,7 +68,9 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   void spend(double work) const {
     if (!limit_) return;
     check_work(work);
-    limit_->done += work;
+    // Not all libraries have += of an atomic double.
+    for (double done = limit_->done; !limit_->done.compare_exchange_weak(done, done + work);) {
+    }
   }
   /// What was counted so far; 0 without a limit.
   double spent() const { return limit_ ? limit_->done.load() : 0; }

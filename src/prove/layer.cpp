@@ -17,9 +17,8 @@ constexpr std::array<double, 2> kDepths = {1, 2};
 constexpr std::size_t kMostPairs = 4000;            // of facets and obstacles: a second or a few
 constexpr std::size_t kBlock = 16, kMostOpen = 20;  // pairs; where so many stay open the others are not looked at
 
-/// Numbers are rounded whatever the file: a corner where three planes meet by a few units of 2^-53, and the corners of
-/// what is cut here, about the target, a few times each.
-constexpr double kUnits = 8, kUnitsOfCuts = 8192;
+/// The corners of what is cut here, about the target, are rounded a few times each.
+constexpr double kUnitsOfCuts = 8192;
 
 /// The depth of a layer that hides what a facet is open for; infinite where there is none.
 class LayerDepth {
@@ -49,7 +48,7 @@ class LayerDepth {
     constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
     double reach = 0;
     for (const Vec3& corner : corners) reach = std::max(reach, corner.cwiseAbs().maxCoeff());
-    return roundings * (volume_.rounding_m + kUnits * kUnit * (largest_ + reach)) + kUnitsOfCuts * kUnit * reach;
+    return roundings * (volume_.rounding_m + rounding_of_numbers_m(largest_ + reach)) + kUnitsOfCuts * kUnit * reach;
   }
 
   const OpenVolume& volume_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "prove/sight.h"
@@ -16,5 +17,12 @@ struct OpenVolume {
   const std::vector<OpenFacet>& open;
   double rounding_m = 0;  ///< how far a file's numbers may have moved the surface
 };
+
+/// How far the surface lies beside what was meant because its numbers are doubles, whatever the file: a corner where
+/// three planes meet by a few units of 2^-53 of the largest coordinate.
+inline double rounding_of_numbers_m(double largest) {
+  constexpr double kUnits = 8;
+  return kUnits * std::numeric_limits<double>::epsilon() / 2 * largest;
+}
 
 }  // namespace vantage::internal::prove

@@ -149,9 +149,15 @@ class Prover {
   std::string lifts_text() const;
   void look_at(std::size_t part, const internal::core::ProgressReporter& progress);
   void look_at_vertices(const Judged& judged, const prove::View& view);
-  /// Whether a file's rounding explains that the volume reaches so far behind the target. Not between two sides of one.
+  /// How far rounding may have moved what lies in the target's plane: that of a file, and that of booleans, which leave
+  /// a corner within 1e-12 of the largest coordinate (Manifold's precision), a few times.
+  double most_rounded_m() const {
+    constexpr double kOfBooleans = 0x1p-38;
+    return options_.rounding_m + kOfBooleans * reach_m_;
+  }
+  /// Whether it explains that the volume reaches so far behind the target. Not between two sides of one.
   bool is_rounded(double behind_m) const {
-    return !other_side_m_ && behind_m <= options_.rounding_m && behind_m + most_unsure_m_ <= thickest_layer_m_;
+    return !other_side_m_ && behind_m <= most_rounded_m() && behind_m + most_unsure_m_ <= thickest_layer_m_;
   }
   Box reach_of(const Judged& judged, const prove::View& view) const;
   void add_certificate(std::size_t part, const prove::View& view, const std::vector<std::uint32_t>& numbers,
@@ -186,6 +192,7 @@ class Prover {
   Worst farthest_;            ///< from a corner of the target, metres
   Worst behind_;              ///< its plane, metres
   double most_unsure_m_ = 0;  ///< so much less than a vertex is behind it, as far as numbers can tell
+  double reach_m_ = 0;        ///< of the volume: from the target to its farthest vertex
 };
 
 std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
@@ -258,6 +265,7 @@ void Prover::look_at_vertices(const Judged& judged, const prove::View& view) {
       const Vec3& at = judged.front.mesh.vertices[v];
       for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
       if (view.all_sides) continue;
+      reach_m_ = std::max(reach_m_, at.norm());
       behind_.see(-view.normal.dot(at) - view.unsure_at(at), view.origin + at);
       most_unsure_m_ = std::max(most_unsure_m_, view.unsure_at(at));
     }
@@ -479,10 +487,10 @@ void Prover::add_range(const prove::LimitedVolume& volume) {
   }
 }
 
-/// From what lies behind the target nothing is known, as its view is not looked at. What a file's rounding moved there
-/// is moved back for that; but not between the two sides of a target.
+/// From what lies behind the target nothing is known, as its view is not looked at. What rounding moved there is moved
+/// back for that; but not between the two sides of a target.
 void Prover::add_front(const prove::LimitedVolume& volume) {
-  if (behind_.by > options_.rounding_m + volume.unsure_m()) {
+  if (behind_.by > most_rounded_m() + volume.unsure_m()) {
     report_.claims.push_back(volume.wrong("front", {behind_.by, behind_.at - volume.origin()}, "the target's plane"));
   } else if (behind_.by > 0 && !is_rounded(behind_.by)) {
     report_.claims.push_back(prove::not_proved(
@@ -491,7 +499,7 @@ void Prover::add_front(const prove::LimitedVolume& volume) {
                                         behind_.by)));
   } else {
     std::string how = "every vertex is in front of the target";
-    if (behind_.by > 0) how += internal::core::format(", but for {:.3g} m that the file's numbers explain", behind_.by);
+    if (behind_.by > 0) how += internal::core::format(", but for {:.3g} m that roundings explain", behind_.by);
     report_.claims.push_back(prove::proved("front", how));
   }
 }

@@ -31,7 +31,8 @@ std::optional<HiddenView> deepest_witness(const Scene& scene, const View& view, 
   if (volume.open.empty()) return known;
   constexpr std::size_t kMostFacets = 2000;  // looked at: evenly among those that are open
   const std::size_t step = 1 + volume.open.size() / kMostFacets;
-  const RoundedSurface surface(volume.whole, volume.rounding_m);
+  const double of_numbers_m = rounding_of_numbers_m(view.origin.cwiseAbs().maxCoeff());
+  const RoundedSurface surface(volume.whole, volume.rounding_m + of_numbers_m);
   for (std::size_t i = 0; i < volume.open.size(); i += step) {
     progress.report(i, volume.open.size());
     const OpenFacet& open = volume.open[i];
