@@ -557,6 +557,13 @@ TEST(MissionUnits, AreUnderstood) {
   EXPECT_EQ(mission.navigation.clearance->distance_m, 3.048);
   EXPECT_EQ(mission.navigation.keep_out_zones[0].max_z_m, 121.92);
   EXPECT_EQ(mission.exact.tolerance_m, 0.005);
+  // In JSON a number with a unit has to be in quotes.
+  const MissionFile json =
+      parse(R"({"scene": {"mesh": "city.obj"}, "target": {"vertices": [[0, 0, 0], [10, 0, 0], [10, 10, 0]]},)"
+            R"("sensor": {"max_range": "400 ft", "incidence": "60 deg"}, "navigation": {"clearance": "10 ft"}})");
+  EXPECT_EQ(json.sensor.max_range_m, 121.92);
+  EXPECT_EQ(json.sensor.incidence_deg, 60);
+  EXPECT_EQ(json.navigation.clearance->distance_m, 3.048);
 }
 
 // Nothing that has a unit is taken for metres, or for anything else, without a word.
@@ -566,7 +573,9 @@ TEST(MissionUnits, OthersAreRefused) {
   expect_refusal(with_sensor("max_range: 1,000 ft"), ErrorCode::not_a_number, ":6:14");
   expect_refusal(with_sensor("max_range: 60 deg"), ErrorCode::value_syntax, ":6:14");
   expect_refusal(with_sensor("max_range: ft"), ErrorCode::not_a_number, ":6:14");
-  expect_refusal(with_sensor("max_range: '400 ft'"), ErrorCode::wrong_type, ":6:14");
+  expect_refusal(with_sensor("max_range: '400'"), ErrorCode::wrong_type, ":6:14");
+  expect_refusal(with_sensor("max_range: '400 yd'"), ErrorCode::wrong_type, ":6:14");
+  expect_refusal(with_sensor("max_range: nano"), ErrorCode::not_a_number, ":6:14");
   expect_refusal(with_sensor("max_range: 100\n  incidence: 60 m"), ErrorCode::value_syntax, ":7:14");
   expect_refusal(with_sensor("max_range: 100\n  visible: 80 %"), ErrorCode::not_a_number, ":7:12");
   expect_refusal(

@@ -6,7 +6,10 @@
 namespace vantage::internal::app {
 
 double ValueReader::parsed(const YamlNode& node, const std::string& what, Parse parse, Advice advice) const {
-  if (node.kind != YamlNode::Kind::scalar || node.is_quoted) {
+  // A number in quotes is a text. With a unit it must be in quotes in JSON, so there it is one.
+  const bool has_unit = node.kind == YamlNode::Kind::scalar && parse(node.text).fault == NumberFault::none &&
+                        parse_number(node.text).fault != NumberFault::none;
+  if (node.kind != YamlNode::Kind::scalar || (node.is_quoted && !has_unit)) {
     fail(ErrorCode::wrong_type, node, what + " must be a number, not " + describe(node),
          advice("", NumberFault::not_a_number));
   }

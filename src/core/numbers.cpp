@@ -51,6 +51,8 @@ Quantity split_quantity(std::string_view text) {
 
 ParsedNumber parse_quantity(std::string_view text, std::span<const Unit> units) {
   const auto [number, unit] = split_quantity(text);
+  // Words that begin as those for what is not finite do: nano, info.
+  if (!unit.empty() && spells_not_finite(number)) return parse_number(text);
   const ParsedNumber parsed = parse_number(number);
   if (parsed.fault != NumberFault::none) return parsed.fault == NumberFault::not_a_number ? parse_number(text) : parsed;
   if (unit.empty()) return number.size() == text.size() ? parsed : ParsedNumber{};  // blanks after a number
