@@ -134,6 +134,13 @@ TEST(Verify, CatchesAShadowThatWasNotCut) {
   EXPECT_LT(report.over_claim_bound, 2 * share);
 }
 
+TEST(Verify, BelievesNoRoundingThatNumbersCannotHave) {
+  const Example example = plate_example();
+  const VerifyReport report = example.verify(make_box_mesh({-10, -10, 1}, {10, 10, 10}), {.rounding_m = 230});
+  EXPECT_GT(report.over_claimed, 100u);
+  EXPECT_LT(report.rounding_m, 1e-5);
+}
+
 TEST(Verify, CatchesAShadowCutAHairTooSmall) {
   Example example = plate_example();
   Mesh volume = example.truth;

@@ -27,7 +27,8 @@ struct VerifyOptions {
   std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all;
                                     ///< no more is believed than its surface needs (lifts_needed_m)
   double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
-                          ///< this, besides what the depth tolerance allows, does not count
+                          ///< this, besides what the depth tolerance allows, does not count. Not more is believed than
+                          ///< numbers of single precision are rounded by: 2^-22 of the largest coordinate
 };
 
 struct VerifyReport {

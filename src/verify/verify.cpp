@@ -256,6 +256,19 @@ void Check::look_at_share(const Vec3& position, Verdict& verdict) const {
   verdict.good = verdict.claimed ? is_enough : verdict.is_whole;
 }
 
+/// A file's numbers are not coarser than single precision: what is stated beyond that is not believed.
+double most_rounding_m(const Mesh& mesh) {
+  Box box;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+    if (!((b - a).cross(c - a).squaredNorm() > 0)) continue;
+    for (const Vec3& corner : {a, b, c}) box.extend(corner);
+  }
+  if (box.empty()) return 0;
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  return std::ldexp(std::max(largest, (box.max - box.min).maxCoeff()), -22);
+}
+
 void Check::settle(Verdict& verdict) const {
   if (!verdict.good) verdict.undecided = false;
   if (verdict.on_surface || verdict.undecided) return;
@@ -547,6 +560,7 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
   VerifyOptions options = asked;
   const std::vector<Target> parts = raised_parts(scene, target, range_limit_m(sensor), options.lift_m, callback);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
+  options.rounding_m = std::min(options.rounding_m, most_rounding_m(volume));
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
@@ -571,6 +585,7 @@ VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Tar
   VerifyOptions options = asked;
   PartViews parts = raised_views(scene, views, range_limit_m(sensor), options.lift_m, progress);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
+  options.rounding_m = std::min(options.rounding_m, most_rounding_m(volume));
   if (!topology.closed) return report_of_mesh(topology, options);
   return ManyChecks(scene, std::move(parts), sensor, navigation, volume, options, progress).run();
 }
