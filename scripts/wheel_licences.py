@@ -115,7 +115,7 @@ def own_folders(build: pathlib.Path, libraries: dict, places: dict[str, str]) ->
         folders |= {pathlib.Path(header.format(**places)).resolve(): entry["name"] for header in entry["headers"]}
     # Headers of the libraries that were built: the linker's map tells which of these are used.
     python = pathlib.Path(sysconfig.get_paths()["include"]).resolve()
-    ours = [build, PROJECT / "src", PROJECT / "include", PROJECT / "python"]
+    ours = [build, *(PROJECT / folder for folder in ("src", "include", "python", "cmake"))]
     return folders | {path: "" for path in (pathlib.Path(places["prefix"]), python, *ours)}
 
 
