@@ -65,7 +65,7 @@ void check_metadata_text(const fs::path& file, const std::string& text, const st
   if (text.size() > kMostMetadata) refuse_for_beside(file, "more than 1 MiB of metadata", name);
   const std::string lower = in_lower_case(text);
   for (const std::string_view element : kThatCount) {
-    const std::size_t at = lower.find("<" + std::string(element));
+    const std::size_t at = lower.find(std::string("<").append(element));
     if (at != std::string::npos) refuse_for_beside(file, text.substr(at + 1, element.size()), name);
   }
 }
