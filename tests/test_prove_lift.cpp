@@ -110,12 +110,12 @@ TEST(ProveLift, VerticesThatNoTriangleHasAndTrianglesWithoutAreaAreNotThere) {
   const double needed = lifts_needed_m(scene, target, 50).at(0);
   EXPECT_LT(needed, 1e-5);
   const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
-  for (const double x : {1.0, 2.0, 3.0}) scene.mesh.vertices.emplace_back(1e12 * x, 1e12 * x, 0);
+  for (const double x : {1.0, 2.0, 3.0}) scene.mesh.vertices.emplace_back(3e8 * x, 3e8 * x, 0);
   EXPECT_EQ(lifts_needed_m(scene, target, 50).at(0), needed);
   scene.mesh.triangles.push_back({first, first + 1, first + 2});
   scene.object_of.push_back(0);
   EXPECT_EQ(lifts_needed_m(scene, target, 50).at(0), needed);
-  scene.mesh.vertices[first].y() = -1e12;  // one with area: numbers there are rounded by millimetres
+  scene.mesh.vertices[first].y() = -3e8;  // one with area: numbers there are rounded by a micrometre
   EXPECT_GT(lifts_needed_m(scene, target, 50).at(0), needed);
   EXPECT_LT(lifts_needed_m(scene, target, 50).at(0), 0.005);
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/limit_check.h"
+#include "core/read_limits.h"
 #include "core/solid_check.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
@@ -26,9 +27,14 @@ void refuse(const std::optional<LimitFault>& fault, const std::string& name, con
 
 void check_triangles(const Mesh& mesh, const std::string& where) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (mesh.vertices[v].allFinite()) continue;
-    throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite", where + ", vertex " + std::to_string(v),
-                "give numbers");
+    if (!mesh.vertices[v].allFinite()) {
+      throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite",
+                  where + ", vertex " + std::to_string(v), "give numbers");
+    }
+    if (mesh.vertices[v].cwiseAbs().maxCoeff() > kMaxCoordinate) {
+      throw Error(ErrorCode::coordinate_too_large, "a coordinate is larger than 1,000,000 km",
+                  where + ", vertex " + std::to_string(v), "give coordinates in metres");
+    }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t vertex : mesh.triangles[t]) {

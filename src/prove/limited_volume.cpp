@@ -25,8 +25,8 @@ std::string place_text(const Vec3& place) {
 
 }  // namespace
 
-LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m)
-    : solid_(solid), origin_(origin), shrink_(shrink), rounding_m_(rounding_m) {
+LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m, double cuts_m)
+    : solid_(solid), origin_(origin), shrink_(shrink), rounding_m_(rounding_m), cuts_m_(cuts_m) {
   std::vector<bool> is_used(solid.vertices.size(), false);
   double reach = 0;
   facets_.reserve(solid.triangles.size());
@@ -44,7 +44,7 @@ LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrin
   }
   closed_ = facets_;
   unsure_m_ = unsure_of(reach);
-  least_m_ = rounding_m + unsure_of(0);
+  least_m_ = rounding_m + cuts_m + unsure_of(0);
   for (const Corners& facet : facets_) most_m_ = std::max(most_m_, tolerance_of(facet));
 }
 
@@ -55,7 +55,7 @@ double LimitedVolume::unsure_of(double reach_m) const {
 double LimitedVolume::tolerance_of(const Corners& facet) const {
   double reach = 0;
   for (const Vec3& corner : facet) reach = std::max(reach, corner.cwiseAbs().maxCoeff());
-  return rounding_m_ + shrink_ * distance_from(Vec3::Zero(), facet) + unsure_of(reach);
+  return rounding_m_ + cuts_m_ + shrink_ * distance_from(Vec3::Zero(), facet) + unsure_of(reach);
 }
 
 LimitedVolume LimitedVolume::in_front_of(const Vec3& point, const Vec3& normal) const {

@@ -36,13 +36,18 @@ struct FacetFinding {
   Broken broken;         ///< the worst place on it that was looked at
 };
 
+/// How far a corner that cutting made may lie beside where it was meant: Manifold leaves it within 1e-12 of the largest
+/// coordinate about a local origin, and a few cuts in turn add up. A volume reaches no farther than its range.
+inline double rounding_of_cuts_m(double range_m) { return 0x1p-38 * range_m; }
+
 /// Positions are relative to `origin`, near the target.
 class LimitedVolume {
  public:
   using Corners = std::array<Vec3, 3>;
 
   /// `solid`: closed, in the scene frame, vertices in one place taken for one. Must outlive this.
-  LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m);
+  /// `cuts_m`: how far cutting may have moved a corner (rounding_of_cuts_m).
+  LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m, double cuts_m);
 
   /// The same, of which only what lies in front of a plane is looked at, facets and vertices; it winds round what it
   /// did.
@@ -56,14 +61,17 @@ class LimitedVolume {
   double rounding_m() const { return rounding_m_; }  ///< of the volume's file
   double unsure_m() const { return unsure_m_; }      ///< what is rounded in a coordinate, with plenty to spare
 
-  /// A place on the facet breaks a limit if by more than this: what the file rounded, what is shrunk where the facet is
-  /// nearest to the origin, and what is rounded in its own coordinates. So where facets are judged one by one, no other
-  /// facet, however far it reaches, changes what this one may do. Where vertices are judged (tolerance_at), each may do
-  /// what is due at its own distance, and what is between a far vertex and a near one may do what is due between.
+  /// A place on the facet breaks a limit if by more than this: what the file and cutting rounded, what is shrunk where
+  /// the facet is nearest to the origin, and what is rounded in its own coordinates. So where facets are judged one by
+  /// one, no other facet, however far it reaches, changes what this one may do. Where vertices are judged
+  /// (tolerance_at), each may do what is due at its own distance, and what is between a far vertex and a near one may
+  /// do what is due between.
   double tolerance_of(const Corners& facet) const;
   /// The same of a vertex, and of what is rounded alone.
   double tolerance_at(const Vec3& vertex) const { return rounded_at(vertex) + shrink_ * vertex.norm(); }
-  double rounded_at(const Vec3& vertex) const { return rounding_m_ + unsure_of(vertex.cwiseAbs().maxCoeff()); }
+  double rounded_at(const Vec3& vertex) const {
+    return rounding_m_ + cuts_m_ + unsure_of(vertex.cwiseAbs().maxCoeff());
+  }
 
   double tolerance_m() const { return most_m_; }  ///< the largest of a facet
   double least_m() const { return least_m_; }     ///< no facet has less
@@ -98,7 +106,7 @@ class LimitedVolume {
 
   const Mesh& solid_;
   Vec3 origin_;
-  double shrink_, rounding_m_, unsure_m_ = 0, most_m_ = 0, least_m_ = 0;
+  double shrink_, rounding_m_, cuts_m_, unsure_m_ = 0, most_m_ = 0, least_m_ = 0;
   std::vector<Vec3> vertices_;
   std::vector<Corners> facets_;
   std::vector<Corners> closed_;  ///< all facets

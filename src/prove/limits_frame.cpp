@@ -273,7 +273,7 @@ ClaimProof prove_frame(const LimitedVolume& volume, const Sensor& sensor, const 
         if (orientation(facet[0], facet[1], facet[2], picture.middle()) == 0) return;
         // What is out at a facet is out by as much more behind it as that lies farther from the target.
         const double distance = nearest_points(facet, {picture.middle(), picture.middle(), picture.middle()}).distance;
-        const double allowed = volume.tolerance_m() * distance / farthest;
+        const double allowed = std::min(volume.tolerance_of(facet), volume.tolerance_m() * distance / farthest);
         finding.is_open = !FacetServer(picture, allowed).serves(facet);
       },
       progress);

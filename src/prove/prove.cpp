@@ -11,6 +11,7 @@
 
 #include "core/format.h"
 #include "core/progress_reporter.h"
+#include "core/read_limits.h"
 #include "prove/convex_polygon.h"
 #include "prove/layer.h"
 #include "prove/lift.h"
@@ -87,9 +88,16 @@ void check_scene(const Scene& scene) {
                         std::to_string(scene.mesh.vertices.size()),
                     "scene", kFix);
       }
-      if (scene.mesh.vertices[v].allFinite()) continue;
-      throw Error(ErrorCode::coordinate_not_finite,
-                  "vertex " + std::to_string(v) + " of the scene has a coordinate that is not finite", "scene", kFix);
+      const Vec3& at = scene.mesh.vertices[v];
+      if (!at.allFinite()) {
+        throw Error(ErrorCode::coordinate_not_finite,
+                    "vertex " + std::to_string(v) + " of the scene has a coordinate that is not finite", "scene", kFix);
+      }
+      // Beyond that the exact predicates overflow, and would take a triangle for one without area.
+      if (at.cwiseAbs().maxCoeff() <= internal::core::kMaxCoordinate) continue;
+      throw Error(ErrorCode::coordinate_too_large,
+                  "vertex " + std::to_string(v) + " of the scene is farther from the origin than 1,000,000 km", "scene",
+                  "give coordinates in metres");
     }
   }
 }
@@ -113,9 +121,10 @@ struct Worst {
   double by = -std::numeric_limits<double>::infinity();
   Vec3 at = Vec3::Zero();  ///< scene frame
 
+  /// What is not a number counts as the worst.
   void see(double value, const Vec3& place) {
     if (value <= by) return;
-    by = value;
+    by = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
     at = place;
   }
 };
@@ -149,12 +158,8 @@ class Prover {
   std::string lifts_text() const;
   void look_at(std::size_t part, const internal::core::ProgressReporter& progress);
   void look_at_vertices(const Judged& judged, const prove::View& view);
-  /// How far rounding may have moved what lies in the target's plane: that of a file, and that of booleans, which leave
-  /// a corner within 1e-12 of the largest coordinate (Manifold's precision), a few times.
-  double most_rounded_m() const {
-    constexpr double kOfBooleans = 0x1p-38;
-    return options_.rounding_m + kOfBooleans * reach_m_;
-  }
+  /// How far rounding may have moved what lies in the target's plane.
+  double most_rounded_m() const { return options_.rounding_m + prove::rounding_of_cuts_m(range_); }
   /// Whether it explains that the volume reaches so far behind the target. Not between two sides of one.
   bool is_rounded(double behind_m) const {
     return !other_side_m_ && behind_m <= most_rounded_m() && behind_m + most_unsure_m_ <= thickest_layer_m_;
@@ -192,7 +197,6 @@ class Prover {
   Worst farthest_;            ///< from a corner of the target, metres
   Worst behind_;              ///< its plane, metres
   double most_unsure_m_ = 0;  ///< so much less than a vertex is behind it, as far as numbers can tell
-  double reach_m_ = 0;        ///< of the volume: from the target to its farthest vertex
 };
 
 std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
@@ -265,7 +269,6 @@ void Prover::look_at_vertices(const Judged& judged, const prove::View& view) {
       const Vec3& at = judged.front.mesh.vertices[v];
       for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
       if (view.all_sides) continue;
-      reach_m_ = std::max(reach_m_, at.norm());
       behind_.see(-view.normal.dot(at) - view.unsure_at(at), view.origin + at);
       most_unsure_m_ = std::max(most_unsure_m_, view.unsure_at(at));
     }
@@ -398,7 +401,8 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
     views.push_back(prove::make_view(target_, part, lifts_[part].used_m));
   }
-  const prove::LimitedVolume all(solid_.mesh, views.front().origin, options_.shrink, options_.rounding_m);
+  const prove::LimitedVolume all(solid_.mesh, views.front().origin, options_.shrink, options_.rounding_m,
+                                 prove::rounding_of_cuts_m(range_));
   report_.limit_tolerance_m = all.tolerance_m();
   add_range(all);
   add_front(all);
@@ -410,9 +414,10 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
 }
 
 MaximalProof Prover::run_maximal(const internal::core::ProgressReporter& progress) {
+  set_lifts(progress);
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
-    const prove::View view = prove::make_view(target_, part, options_.lift_m.empty() ? 0 : options_.lift_m[part]);
+    const prove::View view = prove::make_view(target_, part, lifts_[part].used_m);
     Box near;
     for (const Vec3& corner : view.corners) near.extend(corner);
     for (const Vec3& vertex : solid_.mesh.vertices) near.extend((1 + 3 * options_.shrink) * (vertex - view.origin));
