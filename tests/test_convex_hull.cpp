@@ -31,14 +31,13 @@ std::string fault_of(const Mesh& hull, const std::vector<Vec3>& points) {
   if (!open.empty()) return open;
   const MeshMeasures measures = measure(hull);
   if (measures.euler != 2 || measures.pieces != 1) return "Euler number " + std::to_string(measures.euler);
-  for (const auto& [a, b, c] : hull.triangles) {
-    const auto& v = hull.vertices;
+  for (const auto& [i, j, k] : hull.triangles) {
+    const Vec3 &a = hull.vertices[i], &b = hull.vertices[j], &c = hull.vertices[k];
     for (const Vec3& point : points) {
-      if (core::orientation(v[a], v[b], v[c], point) < 0) return "a point lies outside";
+      if (core::orientation(a, b, c, point) < 0) return "a point lies outside";
     }
-    const bool is_flat = std::all_of(points.begin(), points.end(), [&](const Vec3& point) {
-      return core::orientation(v[a], v[b], v[c], point) == 0;
-    });
+    const bool is_flat = std::all_of(points.begin(), points.end(),
+                                     [&](const Vec3& point) { return core::orientation(a, b, c, point) == 0; });
     if (is_flat) return "a facet without area";
   }
   for (const Vec3& vertex : hull.vertices) {
