@@ -212,7 +212,7 @@ TEST(ProveInput, RangeAndFrontSayWhereTheyAreBroken) {
   large.volume = make_box_mesh({-3, -3, -3e-8}, {3, 3, 2e4});
   EXPECT_EQ(verdict_on(large.prove(), "front"), ProofVerdict::proved);
   EXPECT_NEAR(large.prove().layer_m, 3e-8, 1e-10);
-  large.volume = make_box_mesh({-3, -3, -3e-7}, {3, 3, 2e4});
+  large.volume = make_box_mesh({-3, -3, -3e-6}, {3, 3, 2e4});
   EXPECT_EQ(verdict_on(large.prove(), "front"), ProofVerdict::wrong);
 }
 

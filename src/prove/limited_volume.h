@@ -36,17 +36,13 @@ struct FacetFinding {
   Broken broken;         ///< the worst place on it that was looked at
 };
 
-/// How far a corner that cutting made may lie beside where it was meant: Manifold leaves it within 1e-12 of the largest
-/// coordinate about a local origin, and a few cuts in turn add up. A volume reaches no farther than its range.
-inline double rounding_of_cuts_m(double range_m) { return 0x1p-38 * range_m; }
-
 /// Positions are relative to `origin`, near the target.
 class LimitedVolume {
  public:
   using Corners = std::array<Vec3, 3>;
 
   /// `solid`: closed, in the scene frame, vertices in one place taken for one. Must outlive this.
-  /// `cuts_m`: how far cutting may have moved a corner (rounding_of_cuts_m).
+  /// `cuts_m`: how far cutting may have moved a corner (rounding_of_cuts_m of open_volume.h).
   LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m, double cuts_m);
 
   /// The same, of which only what lies in front of a plane is looked at, facets and vertices; it winds round what it

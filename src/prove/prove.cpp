@@ -18,6 +18,7 @@
 #include "prove/limited_volume.h"
 #include "prove/limits.h"
 #include "prove/maximal.h"
+#include "prove/open_volume.h"
 #include "prove/orientation.h"
 #include "prove/sight.h"
 #include "prove/solid_mesh.h"
@@ -310,7 +311,8 @@ void Prover::look_at(std::size_t part, const internal::core::ProgressReporter& p
   const double share = options_.maximal ? 0.5 : 1;
   prove::SightProof proof = prove::prove_sight(vertices, seen.facets, view, scene_, obstacles,
                                                {.is_recorded = is_recorded}, progress.part(0, 0.8 * share));
-  const prove::OpenVolume volume{whole, vertices, seen.facets, seen.numbers, proof.open, options_.rounding_m};
+  const prove::OpenVolume volume{whole,        vertices,   seen.facets,
+                                 seen.numbers, proof.open, options_.rounding_m + prove::rounding_of_cuts_m(range_)};
   report_.witness = prove::deepest_witness(scene_, view, obstacles, volume, std::move(report_.witness),
                                            progress.part(0.8 * share, 0.9 * share));
   if (!proof.open.empty() && !report_.witness) {  // nothing is wrong: it may be open for what is rounded

@@ -202,6 +202,10 @@ std::optional<double> Cleaner::raise_of_facet(std::uint32_t t, std::uint32_t mov
   return raise;
 }
 
+double merged_anyway_m(const CleaningLimits& limits) {
+  return std::min(numerics::kMergeAnyway * limits.distance_m, numerics::kMostRaises * limits.allowance_m);
+}
+
 /// The same of all facets of two vertices that would be merged, with what was raised before.
 std::optional<double> Cleaner::raise_of(std::uint32_t u, std::uint32_t v, const Vec3& place) const {
   const double move = std::max(moved_[u] + (place - vertices_[u]).norm(), moved_[v] + (place - vertices_[v]).norm());
@@ -213,7 +217,7 @@ std::optional<double> Cleaner::raise_of(std::uint32_t u, std::uint32_t v, const 
     return of_facet.has_value();
   });
   raise += std::max(raised_[u], raised_[v]);
-  const double most = numerics::kMostRaises * limits_.allowance_m + numerics::kMergeAnyway * limits_.distance_m;
+  const double most = numerics::kMostRaises * limits_.allowance_m + merged_anyway_m(limits_);
   if (!fits || raise > most) return std::nullopt;
   return raise;
 }
@@ -259,7 +263,7 @@ bool Cleaner::merge(std::uint32_t u, std::uint32_t v) {
   if (!can_merge(u, v)) return false;
   if (merge_somewhere(u, v)) return true;
   const double length = (vertices_[v] - vertices_[u]).norm();
-  if (length > numerics::kMergeAnyway * limits_.distance_m) return false;
+  if (length > merged_anyway_m(limits_)) return false;
   allowance_ = std::max(length, limits_.allowance_m);
   const bool is_merged = merge_somewhere(u, v);
   allowance_ = limits_.allowance_m;

@@ -34,9 +34,9 @@ constexpr double kFarthestMove = 4;
 /// What merges in a row may add to the solid, in epsilons of the booleans.
 constexpr double kMostRaises = 10;
 
-/// Vertices nearer to each other than this part of the edges that go are merged whatever that adds: to programs that
-/// join vertices (some do to 1e-8) they are one. 1e-8 m at the usual tolerance, where a volume is right to 1e-6 of the
-/// distance.
+/// Vertices nearer to each other than this part of the edges that go, and than kMostRaises epsilons, are merged
+/// whatever that adds: to programs that join vertices (some do to 1e-8) they are one. 1e-8 m at the usual tolerance,
+/// 6e-9 m in a volume of 600 m.
 constexpr double kMergeAnyway = 1e-2;
 
 /// A facet narrower than this part of the edges that go has no direction to keep: rounding tilts it by a degree and
