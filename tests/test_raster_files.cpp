@@ -203,12 +203,15 @@ std::string stored_zip(const std::vector<std::pair<std::string, std::string>>& f
   const auto add = [](std::string& to, std::uint64_t number, int bytes) {
     for (int i = 0; i < bytes; ++i) to += static_cast<char>(number >> (8 * i));
   };
-  for (const auto& [name, content] : files) {
+  for (const auto& file : files) {
+    const std::string &name = file.first, &content = file.second;
     const std::size_t begin = archive.size();
     const auto head = [&](std::string& to) {
       for (const int number : {20, 0, 0, 0, 0x21}) add(to, static_cast<std::uint64_t>(number), 2);
       add(to, ::crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size())), 4);
-      add(to, content.size(), 4), add(to, content.size(), 4), add(to, name.size(), 2), add(to, 0, 2);
+      for (int sizes = 0; sizes < 2; ++sizes) add(to, content.size(), 4);  // packed and unpacked
+      add(to, name.size(), 2);
+      add(to, 0, 2);
     };
     archive += "PK\3\4";
     head(archive);

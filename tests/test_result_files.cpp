@@ -196,12 +196,13 @@ TEST(ResultFiles, AFileThatVantageDidNotWriteIsNotReplacedByWhatLiesBesideAnOutp
     request.volumes = {directory / name};
     write_results(volume, request);
   };
-  for (const auto& [output, beside, own] :
+  for (const auto& [file, beside, own] :
        {std::tuple("a.ply", "a.report.json", "{\"version\": \"mine\", \"days\": [1, 2]}"),
         {"a.ply", "a.report.json", "no JSON"},
         {"a.ply", "a.report.json", ""},
         {"b.stl", "b.report.json", "[]"},
         {"b.stl", "b.stl.place.json", "{\"place\": \"home\"}"}}) {
+    const char* const output = file;
     write_bytes(directory / beside, own);
     vantage::testing::expect_error([&] { check_result_files({directory / output}, {}); }, ErrorCode::output_of_others,
                                    beside);
