@@ -40,8 +40,12 @@ Written answered(const std::filesystem::path& file, const cli::TableOptions& opt
   cli::RowReader reader(descriptor, "points.csv", [] {});
   Written written;
   std::optional<cli::PointTable> table;
-  const std::optional<Georeference> place =
-      has_place ? std::optional(Georeference{48, 11, "", ""}) : std::optional<Georeference>();
+  cli::PointFrame frame{.bounds = {Vec3(-500, -500, 0), Vec3(500, 500, 90)}};
+  if (has_place) {
+    frame.place = Georeference{48, 11, "", ""};
+    frame.sea_level_m = -520;
+    frame.ground.emplace(Ground{1.5});
+  }
   for (const std::vector<cli::Row>* rows = &reader.next(); !rows->empty(); rows = &reader.next()) {
     std::size_t first = 0;
     if (!table) {
@@ -53,7 +57,7 @@ Written answered(const std::filesystem::path& file, const cli::TableOptions& opt
       const cli::Row& row = (*rows)[i];
       const Vec3 coordinates = table->coordinates(row);
       require(coordinates.allFinite(), "coordinates are finite");
-      require(table->scene_point(coordinates, place, row).allFinite(), "points are finite");
+      require(table->scene_point(coordinates, frame, row).allFinite(), "points are finite");
       (void)table->id(row);
       table->append(written.text, row, coordinates, some_answer(written.rows), 0.5, "target");
       ++written.rows;
