@@ -457,11 +457,50 @@ class Tampered(Certificates):
         count = len(checker.Mesh(volume).vertices)
         named, with_one = b"element vertex %d\n" % count, b"element vertex %d\n" % (count + 1)
         self.assertIn(named, header)
-        one_far_away = (header.replace(named, with_one).replace(b"rounding_m 0\n", b"rounding_m 1\n") + b"end_header\n" +
-                        rows[:24 * count] + checker.struct.pack("<3d", 1e18, 0, 0) + rows[24 * count:])
-        refused(kept, one_far_away, lambda c: c.update(rounding_m=1), "cannot be rounded")  # no triangle has it
+        one_far_away = (header.replace(named, with_one).replace(b"rounding_m 0\n", b"rounding_m 1e-6\n") +
+                        b"end_header\n" + rows[:24 * count] + checker.struct.pack("<3d", 9e8, 0, 0) + rows[24 * count:])
+        refused(kept, one_far_away, lambda c: c.update(rounding_m=1e-6), "cannot be rounded")  # no triangle has it
         refused(b"vertex_indices", b"vertex_index", lambda c: c.update(shrink=2e-6), "PLY")
         refused(b"property double y", b"property double x", lambda c: c.update(shrink=2e-6), "PLY")
+
+    def test_vertices_that_no_triangle_has(self):
+        """They are in no hash: whoever appends some may not raise the target with them, nor widen a tolerance."""
+        self.make(more="navigation: {altitude: [5, 30]}\n")
+
+        def append(name, places):
+            path = self.folder / name
+            data, count = path.read_bytes(), len(checker.Mesh(path).vertices)
+            header, rows = data.split(b"end_header\n", 1)
+            header = header.replace(b"element vertex %d\n" % count, b"element vertex %d\n" % (count + len(places)))
+            more = b"".join(checker.struct.pack("<3d", *p) for p in places)
+            path.write_bytes(header + b"end_header\n" + rows[:24 * count] + more + rows[24 * count:])
+
+        def lift(by):
+            volume = self.folder / "volume.ply"
+            said = volume.read_bytes()
+            self.assertIn(b'"lift_m":[0.0]', said)
+            volume.write_bytes(said.replace(b'"lift_m":[0.0]', b'"lift_m":[%r]' % by))
+            certificate = self.read()
+            certificate["parts"][0]["shift_m"] += by
+            certificate["parts"][0]["centre"][2] += by
+            self.certificate.write_text(json.dumps(certificate), encoding="utf-8")
+
+        stairs = [(50.0, 50.0, 0.1 + i * 9e-7) for i in range(3000)]
+        kept = {path: path.read_bytes() for path in self.folder.iterdir()}
+        for name in ("volume.ply", "volume.scene.ply"):
+            for places, by, why in [([(9e8, 0.0, 0.0)], 0, ""), (stairs, 0, ""), ([(9e8, 0.0, 0.0)], 6e-6, "raised by more"),
+                                    (stairs, 1.99e-3, "raised by more"), ([(1e14, 0.0, 0.0)], 0, "larger than 1e9")]:
+                with self.subTest(name=name, vertices=len(places), lift=by):
+                    append(name, places)
+                    if by:
+                        lift(by)
+                    if why:
+                        with self.assertRaisesRegex((checker.Refused, checker.Unreadable), why):
+                            self.accepted()
+                    else:
+                        self.accepted()
+                for path, data in kept.items():
+                    path.write_bytes(data)
 
     def test_garbage(self):
         """Whatever is changed, the answer is one of three."""

@@ -33,6 +33,7 @@ MOST_SHRINK = 1e-5  # more of the distance is left out only if that is asked for
 ROUNDED = 16 * 2.0**-53  # of the largest coordinate: twice what writing a PLY moves a vertex (src/io/stored_mesh.cpp)
 TILT = Fraction(3, 2 * 10**12)  # an axis within 1e-12 of the normal's other two numbers is taken for the normal
 LEAST_BITS = 80  # of fractions: boxes round pieces outwards by one unit
+LARGEST = 1e9  # metres: vantage reads no larger coordinates and ranges. What rounding is allowed to do grows with both
 MARGIN, STEPS = 1e-9, 2.0**-49  # metres, and of the largest coordinate: what of the target is left out
 FULL_RANGE = 20  # metres: with a shorter range the next three are smaller in proportion (src/target/lengths.cpp)
 OWN_SURFACE, CLEAR, POINT = 2e-3, 1e-6, 5e-4  # what lies so low over the target is its surface; how far above that the
@@ -145,6 +146,15 @@ class Mesh:
             raise ValueError("an index out of range")
         if not all(math.isfinite(x) for v in self.vertices for x in v):
             raise ValueError("a number that is not finite")
+        if any(abs(x) > LARGEST for v in self.vertices for x in v):
+            raise ValueError("a coordinate is larger than 1e9 m")
+        self.find_area()
+
+    def find_area(self):
+        """No hash holds a vertex that no triangle has, so nothing may depend on it. What has no area is no surface."""
+        places = list(map(Scale(self.vertices).point, self.vertices))
+        self.with_area = [t for t in self.triangles if not is_flat([places[v] for v in t])]
+        self.with_area_at = sorted({v for t in self.with_area for v in t})
 
     def read_comments(self, lines):
         """Other programs may read a line where this one reads none, or the other way round: nothing like that."""
@@ -341,15 +351,17 @@ def check_front(part, view, is_all_round):
     allowed = min(TILT * largest + spread, largest / 10**6)
     demand(dot(own, way) > 0 and dot(off, off) <= allowed**2, "the target does not look to the stated side")
 
-def check_target(part, scale, centre, normal, corners, allowed):
-    """That the polygon is the target, moved by the stated shift. Numbers times 2^(2 bits); returns its corners."""
-    shift, unit = scale.whole(part["shift_m"]), 1 << scale.bits
-    given = [scale.point(v) for v in part["target"]]
-    moved = [tuple((x - c) * unit + shift * n for x, c, n in zip(v, centre, normal)) for v in given]
+def moved_target(part, scale, centre, normal):
+    """Its corners, moved by the stated shift, about the centre. Numbers times 2^(2 bits)."""
+    shift, unit, given = scale.whole(part["shift_m"]), 1 << scale.bits, map(scale.point, part["target"])
+    return [tuple((x - c) * unit + shift * n for x, c, n in zip(v, centre, normal)) for v in given]
+
+def check_target(moved, unit, normal, corners, allowed):
+    """That the polygon is the moved target, and the centre in it."""
     demand(abs(dot(normal, normal) - unit * unit) * 10**14 <= unit * unit, "the normal is not of unit length")
     if len(moved) == 1:
         demand(corners == [(0, 0, 0)] and dot(moved[0], moved[0]) <= (allowed * unit)**2, "the point is another one")
-        return moved
+        return
     extent = math.isqrt(sum((max(axis) - min(axis))**2 for axis in zip(*moved)))
     flat = max(extent // 10**6, unit * unit // 1000)  # a target need not be flatter; the plane is that of the mean
     demand(all(abs(dot(normal, p)) <= flat * unit for p in moved), "the target does not lie in the stated plane")
@@ -358,7 +370,6 @@ def check_target(part, scale, centre, normal, corners, allowed):
     demand(lies_in(moved, normal, allowed * unit, [(0, 0, 0)]), "the centre is not in the target")
     wide = [tuple(x * unit for x in c) for c in corners]
     demand(lies_in(wide, normal, allowed * unit, moved), "the polygon is smaller than the target")
-    return moved
 
 def column_over(moved, normal, unit):
     """The sides of the prism that stands on the target, as ways in and how far; of a point, of what is about it."""
@@ -371,7 +382,7 @@ def heights_over(column, grown, places, heights, triangles, most):
     """Of each triangle over the target, down to so far below its plane as `most` is above it: from where to where."""
     sides = [(way, at - grown * math.isqrt(dot(way, way))) for way, at in column]
     for t in triangles:
-        if max(heights[v] for v in t) < -most or min(heights[v] for v in t) > most or is_flat([places[v] for v in t]):
+        if max(heights[v] for v in t) < -most or min(heights[v] for v in t) > most:
             continue
         piece = [places[v] + (heights[v], 1) for v in t]
         for way, at in sides:
@@ -379,33 +390,47 @@ def heights_over(column, grown, places, heights, triangles, most):
         if piece:
             yield min(c[3] // c[-1] for c in piece), max(-(-c[3] // c[-1]) for c in piece)
 
-def check_lift(lift_m, reach_m, part, scale, normal, moved, places, scene):
+def check_lift(lift_m, lengths, part, scale, normal, moved, places, scene):
     """That a raised target leaves nothing below it but its own surface (docs/proof.md), and is raised for it alone."""
     if lift_m == 0:
         return
-    unit, centre, small = 1 << scale.bits, part["centre"], min(1, reach_m / FULL_RANGE)
-    radius = max(math.dist(v, centre) for v in part["target"])
-    largest = max(abs(x) for v in scene.vertices + [centre, centre] for x in v) + max(map(abs, centre))
-    slack_m = max(MARGIN * min(1, radius), STEPS * (largest + radius + reach_m))
-    clear_m = max(CLEAR * small, 4 * slack_m)
+    (reach_m, farthest_m, radius_m), centre = lengths, part["centre"]
+    unit, small = 1 << scale.bits, min(1, reach_m / FULL_RANGE)
+    radius_m = radius_m if len(moved) > 1 else POINT * small
+    largest = max([abs(x) for v in scene.with_area_at for x in scene.vertices[v]] + list(map(abs, centre)))
+    size_m, least_m = largest + max(map(abs, centre)) + radius_m, MARGIN * min(1, radius_m)
+    slack_m = max(least_m, STEPS * (size_m + farthest_m))
+    # vantage raises a target so far for the sake of the range, however near the volume was cut to it.
+    clear_m = max(CLEAR * small, 4 * max(least_m, STEPS * (size_m + reach_m)))
+    own_m = min(OWN_SURFACE, max(OWN_SURFACE * small, 4 * clear_m))  # wherever a scene lies, and however large it is
+    clear_m = min(OWN_SURFACE / 4, clear_m)
     whole = lambda length_m: math.ceil(Fraction(length_m) * unit * unit)  # noqa: E731: heights are times 2^(2 bits)
-    lift, slack, clear, own = map(whole, (lift_m, slack_m, clear_m, max(OWN_SURFACE * small, 4 * clear_m)))
+    lift, slack, clear, own = map(whole, (lift_m, slack_m, clear_m, own_m))
     point = whole(POINT * small) if len(moved) == 1 else 0
     heights, column = [dot(normal, p) + lift for p in places], column_over(moved, normal, unit)
-    over = list(heights_over(column, point // unit, places, heights, scene.triangles, 3 * own))
+    over = list(heights_over(column, point // unit, places, heights, scene.with_area, 3 * own))
     raised, tops = 0, [top for _, top in over]
     if part["cut_height_m"] is None:  # twice the diameter of what is looked at in its place
         raised = max([0] + [top + clear + 4 * point for top in tops if -clear - 4 * point < top <= own])
         own = clear  # what is higher is no surface that it lies on
     most = raised + own + 2 * clear
     raised = max([raised] + [top + clear for top in tops if raised - clear < top <= raised + own])
-    for height in sorted(heights):  # what all but continues the plane, anywhere
+    for height in sorted(heights[v] for v in scene.with_area_at):  # what all but continues the plane, anywhere
         if raised < height <= min(raised + clear, most):
             raised = height + clear
     demand(lift <= raised + clear, "the target is raised by more than the surface that it lies on needs")
-    inner = heights_over(column, -2 * slack // unit, places, heights, scene.triangles if not point else [], 3 * own)
+    inner = heights_over(column, -2 * slack // unit, places, heights, scene.with_area if not point else [], 3 * own)
     demand(not any(low < lift - 2 * slack and top > lift + 4 * slack for low, top in inner),
            "something lies between the target and where it was raised to, and is not its surface")
+
+def check_vertices(points, shrunk, used, moved, unit, reach, rounding, allowed, normal):
+    """Range and front. What numbers cannot tell of a vertex grows with its own distance, not with what is stated."""
+    for v in used:
+        slack = allowed + math.ceil(Fraction(STEPS * math.hypot(*shrunk[v])) * unit)
+        away = [minus(tuple(x * unit for x in points[v]), t) for t in moved]
+        most = (reach + rounding + slack) * unit
+        demand(all(dot(a, a) <= most**2 for a in away), "a vertex lies beyond the range")
+        demand(not normal or dot(normal, points[v]) >= -slack * unit, "a vertex lies behind the target")
 
 def check_part(part, view, certificate, scene, volume, middles):
     vertices, triangles = welded(volume)
@@ -418,31 +443,30 @@ def check_part(part, view, certificate, scene, volume, middles):
     corners = [scale.point(c) for c in part["corners"]]
     unit = 1 << scale.bits
     demand(part["target"], "a part of the target has no corners")
-    radius = max(math.dist(v, centre) for v in part["target"])
-    allowed_m = 2 * max(MARGIN * min(1, radius), STEPS * (max(map(abs, centre)) + radius))
+    moved = moved_target(part, scale, whole_centre, normal)
+    radius_m = math.isqrt(max(dot(p, p) for p in moved)) / unit**2
+    largest = max(abs(x) for p in part["target"] + [centre] for x in p)
+    allowed_m = 2 * max(MARGIN * min(1, radius_m), STEPS * (largest + radius_m))
     allowed = math.ceil(Fraction(allowed_m) * unit)
-    moved = check_target(part, scale, whole_centre, normal, corners, allowed)
-    reach_m = certificate["max_range_m"]
-    slack = allowed + math.ceil(Fraction(certificate["rounding_m"] + STEPS * reach_m) * unit)
+    check_target(moved, unit, normal, corners, allowed)
 
     check_closed(triangles)
     used = {v for t in triangles.values() for v in t}
-    reach = math.floor(Fraction(reach_m) * unit) + slack
-    for v in used:
-        away = [minus(tuple(x * unit for x in points[v]), t) for t in moved]
-        demand(all(dot(a, a) <= (reach * unit)**2 for a in away), "a vertex lies beyond the range")
+    reach, rounding = (math.floor(Fraction(certificate[key]) * unit) for key in ("max_range_m", "rounding_m"))
     cut = part["cut_height_m"]
     check_front(part, view, cut is None)
+    check_vertices(points, shrunk, used, moved, unit, reach, rounding, allowed, None if cut is None else normal)
     if cut is not None:
         demand(0 <= cut <= allowed_m, "more of the scene is left out than rounding needs")
         cut = scale.whole(cut) * unit
-        demand(all(dot(normal, points[v]) >= -slack * unit for v in used), "a vertex lies behind the target")
 
     tested = {i for i, (a, b, c) in triangles.items() if dot(points[a], cross(points[b], points[c])) != 0}
     replay = Replay(part, points, triangles, corners)
     demand(set(replay.facets) >= tested, "a facet is left out")
     places = [minus(scale.point(v), whole_centre) for v in scene.vertices]
-    check_lift(view.get("lift_m", 0), view.get("reach_m", 0), part, scale, normal, moved, places, scene)
+    farthest_m = max(math.hypot(*shrunk[v]) for v in used)
+    lengths = certificate["max_range_m"], farthest_m, radius_m
+    check_lift(view.get("lift_m", 0), lengths, part, scale, normal, moved, places, scene)
     if scene.triangles:
         pieces = [Node(corners_in_front([places[v] for v in t], normal, cut), []) for t in scene.triangles]
         replay.groups(0, len(replay.facets), tree_of(list(range(len(pieces))), middles, pieces))
@@ -460,8 +484,7 @@ def check_rounding(certificate, volume):
     said = [c[19:] for c in volume.comments if c.startswith("vantage rounding_m ")]
     demand(len(said) <= 1, "the volume says twice how far it was rounded")
     demand(certificate["rounding_m"] in [0, *map(number, said)], "the volume was not rounded so much")
-    vertices, triangles = welded(volume)  # a vertex that bounds nothing is nowhere looked at, and may be anywhere
-    largest = max((abs(x) for t in triangles.values() for v in t for x in vertices[v]), default=0)
+    largest = max((abs(x) for v in volume.with_area_at for x in volume.vertices[v]), default=0)
     demand(0 <= certificate["rounding_m"] <= ROUNDED * largest, "the volume's numbers cannot be rounded so much")
 
 def reach_of(said):
@@ -471,15 +494,22 @@ def reach_of(said):
         pixel, camera = check_form(sensor["pixel"], PIXEL), check_form(sensor["camera"], CAMERA)
         demand(min(pixel["size_m"], camera["focal_px"]) > 0, "a pixel or a focal length is not positive")
         lengths.append(pixel["size_m"] * camera["focal_px"])
-    demand(lengths and 0 < min(lengths) < math.inf, "the volume has no range")
+    demand(lengths and min(lengths) > 0, "the volume has no range")
+    demand(min(lengths) <= LARGEST, "the volume has a range of more than 1e9 m")
     return min(lengths)
+
+def check_sizes(certificate):
+    """Of all lengths that a tolerance grows with."""
+    demand(0 < certificate["max_range_m"] <= LARGEST, "the range is not positive, or more than 1e9 m")
+    for part in certificate["parts"]:
+        demand(all(abs(x) <= LARGEST for p in part["target"] + [part["centre"], [part["shift_m"]]] for x in p),
+               "the target is farther away than 1e9 m, or was moved so far")
 
 def check_files(certificate, scene, volume):
     """Compares with what the volume says of itself; returns the target that each part is of."""
     demand(scene.hash(b"scene") == certificate["scene"]["hash"], "the scene is not the one of the certificate")
     demand(volume.hash(b"volume") == certificate["volume"]["hash"], "the volume is not the one of the certificate")
     demand(re.fullmatch("[0-9a-f]{64}", certificate["mission_hash"]), "the hash of the mission is none")
-    demand(certificate["max_range_m"] > 0, "the range is not positive")
     check_rounding(certificate, volume)
     on_earth = [{c for c in of.comments if c.startswith("vantage georeference:")} for of in (scene, volume)]
     demand(on_earth[1] <= on_earth[0] and len(on_earth[0]) <= 1, "the volume lies at another place on the earth")
@@ -490,8 +520,7 @@ def check_files(certificate, scene, volume):
     demand(said["mission_hash"] == certificate["mission_hash"], "the volume is of another mission")
     demand(said["scene_hash"] == certificate["scene"]["hash"], "the volume is of another scene")
     demand(said["volume_hash"] == certificate["volume"]["hash"], "the volume was changed since it was written")
-    reach_m = reach_of(said)
-    demand(certificate["max_range_m"] <= reach_m, "the volume has a shorter range")
+    demand(certificate["max_range_m"] <= reach_of(said), "the volume has a shorter range")
     demand(("views" in said) != ("target" in said), "the volume has no target, or two")
     views = [view[0] for view in said["views"]] if "views" in said else [said["target"]]
     parts = [(part, view) for view in views for part in view["parts"]]
@@ -500,7 +529,7 @@ def check_files(certificate, scene, volume):
     demand(all(lift >= 0 for lift in lifts), "the target was lowered")
     stated = [(part, view["offset_m"] + lift) for (part, view), lift in zip(parts, lifts)]
     demand(stated == [(p["target"], p["shift_m"]) for p in certificate["parts"]], "the target is not the volume's")
-    return [dict(view, lift_m=lift, reach_m=reach_m) for (_, view), lift in zip(parts, lifts)]
+    return [dict(view, lift_m=lift) for (_, view), lift in zip(parts, lifts)]
 
 def read_certificate(path):
     certificate = read_json(read_bytes(path).decode("utf-8"), dict)
@@ -517,6 +546,7 @@ def check(path, out=print, most_shrink=MOST_SHRINK):
         shrink, views = certificate["shrink"], check_files(certificate, scene, volume)
         demand(0 <= shrink <= most_shrink < 1, f"a shrink of {shrink} is out of range: see --most-shrink")
         demand(certificate["parts"], "the certificate has no part")
+        check_sizes(certificate)
         for box in certificate["boxes"]:
             check_box(box, volume, Fraction(certificate["rounding_m"]))
         middles = [[min(x) + max(x) for x in zip(*(scene.vertices[v] for v in t))] for t in scene.triangles]

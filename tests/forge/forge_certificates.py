@@ -23,9 +23,9 @@ import time
 TOOL = pathlib.Path(__file__).resolve().parent.parent.parent / "tools" / "check_certificate.py"
 sys.path.insert(0, str(TOOL.parent))
 import check_certificate as checker  # noqa: E402
-from forged_files import EAST, block, files  # noqa: E402
+from forged_files import EAST, TOWN, block, files, joined  # noqa: E402
 from mutants import mutant, statement_in  # noqa: E402
-from single_changes import CHANGES, POINT, cover, put, two_parts  # noqa: E402
+from single_changes import CHANGES, HIGH, POINT, cover, put, raised_past, ranges, two_parts  # noqa: E402
 from what_is_false import what_is_false  # noqa: E402
 
 LONGEST_S = 20  # of one check
@@ -66,6 +66,28 @@ def check_changes(folder, numbers, only):
         if got != code or false or any(ord(c) < 32 and c != "\n" for c in told):  # control characters
             failures.append(f"{name}: {got} instead of {code}: {told[-200:]} {false}")
     return failures
+
+
+def check_lift_of_any_size(folder):
+    """That a lift is bounded even if coordinates were not: k and the height of the target's own surface are, too."""
+    far = [(1e14, 0.0, 0.0), (1e14, 9.0, 0.0), (1e14, 0.0, -9.0)], [(0, 1, 2)]
+    largest, checker.LARGEST = checker.LARGEST, float("inf")
+    failures = []
+    for height, lift in ((1.9, 2.0), (1.9, 1.9003), (0.0039, 0.005), (-1.0, 0.0021)):
+        code, told = verdict(written(folder, files(**raised_past(height, lift, far))))
+        if code != 1 or "raised by more" not in told:
+            failures.append(f"a lift of {lift} m past a plate at {height} m, a scene of 1e14 m: {code} {told[-200:]}")
+    checker.LARGEST = largest
+    return failures
+
+
+def check_what_leans_over(folder):
+    """That what begins below a raised target and ends a little above it is refused for that, whatever the range is."""
+    leaning = [(-3.0, -3.0, 0.1001), (3.0, -3.0, 0.1001), (0.0, 3.0, 0.1015)], [(0, 1, 2)]
+    top_m = 0.0001 + 0.0014 * 5 / 6  # of it, over the target
+    change = dict(ranges(1e9), scene=joined(TOWN, leaning), volume=HIGH, shift=(0.0, top_m - 5e-6))
+    code, told = verdict(written(folder, files(**change)))
+    return [] if code == 1 and "something lies between" in told else [f"it leans over a target: {code} {told[-200:]}"]
 
 
 def check_what_is_false(folder, numbers):
@@ -161,6 +183,7 @@ def main():
         failures = check_changes(folder, numbers, options.only)
         if not options.only:
             failures += check_what_is_false(folder, numbers)
+            failures += check_lift_of_any_size(folder) + check_what_leans_over(folder)
             failures += check_special_files(folder)
             failures += check_mutants(folder, options.seed, options.mutants)
     for failure in failures:

@@ -129,6 +129,16 @@ def mutant_of_rows(data, numbers):
     return bytes(data)
 
 
+def mutant_of_vertices(data, numbers):
+    """Of a mesh: vertices that no triangle has behind the others."""
+    end = data.index(b"end_header\n") + 11
+    count = int(data.split(b"element vertex ", 1)[1].split(b"\n", 1)[0])
+    far = numbers.choice([0.0, 1.0, 1e3, 9e8, 1e14, 1e300])
+    more = numbers.choice([[(far, 0.0, 0.0)], [(far, far, 0.1 + 9e-7 * i) for i in range(3000)]])
+    rows = data[end:end + 24 * count] + b"".join(struct.pack("<3d", *p) for p in more) + data[end + 24 * count:]
+    return data[:end].replace(b"element vertex %d\n" % count, b"element vertex %d\n" % (count + len(more))) + rows
+
+
 def with_its_hash(content, of):
     """As somebody does who mends what names the mesh."""
     with tempfile.TemporaryDirectory() as scratch:
@@ -158,7 +168,7 @@ def mutant(content, of, numbers):
                      for line in content["volume.ply"].split(b"\n")]
             content.update({of: json.dumps(claims).encode(), "volume.ply": b"\n".join(lines)})
         return content
-    change = numbers.choice([mutant_of_lines, mutant_of_rows, mutant_of_bytes,
+    change = numbers.choice([mutant_of_lines, mutant_of_rows, mutant_of_bytes, mutant_of_vertices,
                              lambda d, n: mutant_of_bytes(d, n, d.index(b"end_header"))])
     content[of] = change(content[of], numbers)
     return with_its_hash(content, of) if numbers.random() < 0.6 else content

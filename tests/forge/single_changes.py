@@ -110,7 +110,41 @@ POINT = dict(target=[[0.0, 0.0, 0.1]], certificate=lambda c: c["parts"][0].updat
              step="(-1,0,0)", scene=WALL)
 BOW = [SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]]
 ELL = [[-2.0, -2.0, 0.1], [2.0, -2.0, 0.1], [2.0, 0.0, 0.1], [0.0, 0.0, 0.1], [0.0, 2.0, 0.1], [-2.0, 2.0, 0.1]]
-FAR = 1e18
+FAR = -9e8
+STAIRS = [(50.0, 50.0, 0.1 + 9e-7 * i) for i in range(3000)]  # the lift of each leads to the next one
+HIGH = moved(WEST, (0, 0, 3))
+
+
+def unused(*places):
+    """Vertices that no triangle has."""
+    return list(places), []
+
+
+def folded(*places):
+    """A triangle of both sides without area: the places lie on a line."""
+    return [places[0], places[len(places) // 2], places[-1]], [(0, 1, 2), (0, 2, 1)]
+
+
+def raised_past(height, lift, *more, **others):
+    """By so much that what is flat at a height over the target is below it; and something more in the scene."""
+    made = dict(cover(height, lift), volume=HIGH, **others)
+    return dict(made, scene=joined(made["scene"], *more))
+
+
+def ranges(of_volume, of_certificate=None):
+    """What is said of the range."""
+    reach = of_certificate or of_volume
+    return dict(reach=of_volume, certificate=lambda c: c.update(max_range_m=reach))
+
+
+def small_and_far(margin):
+    """A world of micrometres whose target is said to lie a metre lower, and to be moved by that metre."""
+    made = small_world(margin)
+    z = made["target"][0][2]
+
+    def at_its_place(claims):
+        claims["parts"][0]["centre"] = [0.0, 0.0, z]
+    return dict(made, target=[[x, y, z - 1] for x, y, _ in made["target"]], shift=(1.0, 0.0), certificate=at_its_place)
 MINUS_INFINITY, NAN = float("-inf"), float("nan")
 
 # What is changed, the exit code that it must get, and the change.
@@ -148,6 +182,19 @@ CHANGES = [
     ("a volume of 2 km in a negative range", 1, dict(volume=block((-2000, -25, 0.2), (-5, 25, 25)),
                                                      **put(max_range_m=-1e9))),
     ("no range", 1, put(max_range_m=0)),
+    ("a range of 1e9 m", 0, ranges(1e9)),
+    ("a range of 1.1e9 m", 1, ranges(1.1e9)),
+    ("a range of 1.1e9 m in the volume alone", 1, ranges(1.1e9, 50.0)),
+    ("a range of 1.1e9 m that the volume does not tell", 1, dict(ranges(1.1e9), said=False)),
+    ("a range of 1e15 m, and a volume behind the target", 1, dict(
+        ranges(1e15), volume=block((-25, -25, -0.9), (-5, 25, 25)), scene=WALL)),
+    ("a range of 1e9 m, and a volume a micrometre behind the target", 1, dict(
+        ranges(1e9), volume=block((-25, -25, 0.1 - 1e-6), (-5, 25, 25)))),
+    ("a rounding of a micrometre, and a volume half of one behind the target", 1, dict(
+        ranges(1e9), rounding=1e-6, volume=joined(block((-25, -25, 0.1 - 5e-7), (-5, 25, 25)),
+                                                  block((FAR, -1, 1), (FAR + 9, 1, 2))))),
+    ("a rounding of a micrometre, and a volume as far away", 0, dict(
+        ranges(1e9), rounding=1e-6, volume=joined(WEST, block((FAR, -1, 1), (FAR + 9, 1, 2))))),
     ("a range that is no number", 2, put(max_range_m=NAN)),
     ("an infinite range", 2, put(max_range_m=math.inf)),
     ("a range of 1e400", 2, words('"max_range_m": 50.0', '"max_range_m": 1e400')),
@@ -184,6 +231,10 @@ CHANGES = [
     ("a millimetre that does not count", 1, part(cut_height_m=1e-3)),
     ("a nanometre in a world of micrometres", 1, small_world(1e-9)),
     ("as little as that in proportion", 0, small_world(1e-15)),
+    ("a nanometre in a world of micrometres that is moved by a metre", 1, small_and_far(5e-10)),
+    ("what a metre of that is rounded by", 0, small_and_far(1e-15)),
+    ("a target at 1.1e9 m that is moved as far", 1, dict(
+        target=[[x, y, -1.1e9] for x, y, _ in SQUARE], shift=(1.1e9 + 0.1, 0.0))),
 
     # Keys, and JSON.
     ("a range twice, the first one shorter", 2, doubled_key("max_range_m", 10.0)),
@@ -262,7 +313,7 @@ CHANGES = [
         lambda p: p.update(corners=[[x - 2.001, y, 0] for x, y, _ in p["corners"]]), centre=[2.001, 0, 0.1])),
     ("a centre that is no number", 2, part(centre=[NAN, 0, 0.1])),
     ("a centre that is true", 2, part(centre=[True, 0, 0.1])),
-    ("a centre of 1e308", 2, part(centre=[1e308, 0, 0.1])),
+    ("a centre of 1e308", 1, part(centre=[1e308, 0, 0.1])),
     ("a normal to the other side", 1, part(normal=[0, 0, -1])),
     ("a normal that is tilted by 1e-9", 1, part(normal=[1e-9, 0, 1])),
     ("a normal that is too long", 1, part(normal=[0, 0, 1.000001])),
@@ -348,6 +399,32 @@ CHANGES = [
         GROUND, WALL, flat((-3.0, -3.0, 0.1015), (3.0, 3.0)),
         ([(-3.0, -3.0, 0.1001), (3.0, -3.0, 0.1001), (0.0, 3.0, 0.11)], [(0, 1, 2)])))),
     ("a lift in proportion in a world of micrometres", 1, dict(small_world(1e-15), shift=(0.0, 1e-6))),
+    ("a lift of 2 m past a plate, and a vertex at 1e14 m that nothing uses", 2, raised_past(
+        1.9, 2.0, unused((1e14, 0.0, 0.0)))),
+    ("a lift of 2 m past a plate, and a triangle without area at 1e14 m", 2, raised_past(
+        1.9, 2.0, folded((1e14, 0.0, 0.0), (1e14, 9.0, 0.0), (1e14, 18.0, 0.0)))),
+    ("a lift of 2 m past a plate", 1, raised_past(1.9, 2.0)),
+    ("a lift of 2 cm past a plate, and a range of 1e12 m", 1, dict(raised_past(0.01, 0.02), **ranges(1e12))),
+    ("a lift of 2 mm past a plate, and a range of 1e12 m", 1, dict(raised_past(0.0019, 0.0025), **ranges(1e12))),
+    ("a lift of 6 um for nothing", 1, dict(shift=(0.0, 6e-6))),
+    ("a lift of 6 um for nothing, and a vertex at 9e8 m that nothing uses", 1, dict(
+        shift=(0.0, 6e-6), scene=joined(TOWN, unused((9e8, 0.0, 0.0))))),
+    ("a lift of 6 um for nothing, and a triangle without area at 9e8 m", 1, dict(
+        shift=(0.0, 6e-6), scene=joined(TOWN, folded((9e8, 0.0, -9.0), (9e8, 9.0, -9.0), (9e8, 18.0, -9.0))))),
+    ("a lift of 6 um for nothing, and a vertex of the volume at 9e8 m that nothing uses", 1, dict(
+        shift=(0.0, 6e-6), volume=joined(WEST, unused((9e8, 0.0, 0.0))))),
+    ("a lift of 6 um for nothing, and a range of 1e9 m", 0, dict(ranges(1e9), shift=(0.0, 6e-6))),
+    ("a lift of 1.99 mm for nothing", 1, dict(shift=(0.0, 1.99e-3))),
+    ("a lift of 1.99 mm over vertices that nothing uses", 1, dict(
+        shift=(0.0, 1.99e-3), scene=joined(TOWN, unused(*STAIRS)))),
+    ("a lift of 1.99 mm over triangles without area", 1, dict(shift=(0.0, 1.99e-3), scene=joined(TOWN, *(
+        folded(*[(x, y, z) for x in (50.0, 51.0, 52.0)]) for _, y, z in STAIRS)))),
+    ("a lift of 1.99 mm over vertices of the volume that nothing uses", 1, dict(
+        shift=(0.0, 1.99e-3), volume=joined(WEST, unused(*STAIRS)))),
+    ("vertices that nothing uses in both meshes", 0, dict(
+        scene=joined(unused(*STAIRS), TOWN), volume=joined(unused(*STAIRS), WEST))),
+    ("a lift of a micrometre in a range of 50 um, of a volume that has a range of 20 m", 1, dict(
+        small_world(1e-15), volume=scaled(HIGH, 1e-6), shift=(0.0, 1e-6), **ranges(20.0, 5e-5))),
     ("a negative lift", 1, dict(shift=(0.0, -0.001))),
     ("a lift that is no number", 2, say(lift_m=[NAN])),
 
@@ -407,13 +484,18 @@ CHANGES = [
     ("an empty file", 2, dict(volume_ply=lambda d: b"")),
 
     # The volume's mesh.
-    ("a vertex at 1e18 that nothing uses", 0, shell_of(([(FAR, 0.0, 0.0)], []))),
-    ("a triangle without area at 1e18, and a rounding of a kilometre", 1, dict(
-        shell_of(([(FAR, 0.0, 0.0)], [(0, 0, 0)])), rounding=1000.0)),
-    ("a triangle of two corners at 1e18, and a rounding of a kilometre", 1, dict(
-        shell_of(([(FAR, 0.0, 0.0), (FAR, 9.0, 0.0)], [(0, 0, 1)])), rounding=1000.0)),
-    ("triangles without area at 1e18, and a rounding of a kilometre", 1, dict(
-        shell_of(([(FAR, 0.0, 0.0), (FAR, 9.0, 0.0), (FAR, 18.0, 0.0)], [(0, 1, 2), (0, 2, 1)])), rounding=1000.0)),
+    ("a vertex at 1e18 m that nothing uses", 2, shell_of(unused((1e18, 0.0, 0.0)))),
+    ("a vertex at 1e18 m that nothing uses, of the scene", 2, dict(scene=joined(TOWN, unused((1e18, 0.0, 0.0))))),
+    ("a vertex at 9e8 m that nothing uses", 0, shell_of(unused((FAR, 0.0, 0.0)))),
+    ("a vertex at 9e8 m that nothing uses, of the scene", 0, dict(scene=joined(TOWN, unused((FAR, 0.0, 0.0))))),
+    ("a vertex at 9e8 m that nothing uses, and a rounding of a micrometre", 1, dict(
+        shell_of(unused((FAR, 0.0, 0.0))), rounding=1e-6)),
+    ("a triangle without area at 9e8 m, and a rounding of a micrometre", 1, dict(
+        shell_of(([(FAR, 0.0, 0.0)], [(0, 0, 0)])), rounding=1e-6)),
+    ("a triangle of two corners at 9e8 m, and a rounding of a micrometre", 1, dict(
+        shell_of(([(FAR, 0.0, 0.0), (FAR, 9.0, 0.0)], [(0, 0, 1)])), rounding=1e-6)),
+    ("triangles without area at 9e8 m, a range of 1e9 m, and a rounding of a micrometre", 1, dict(
+        shell_of(folded((FAR, 0.0, 9.0), (FAR, 9.0, 9.0), (FAR, 18.0, 9.0))), rounding=1e-6, **ranges(1e9))),
     ("a flap out of range", 1, shell_of(([(-500.0, 0.0, 1.0), (-500.0, 1.0, 1.0), (-500.0, 0.0, 2.0)],
                                          [(0, 1, 2), (0, 2, 1)]))),
     ("all of it twice", 0, shell_of(WEST)),
