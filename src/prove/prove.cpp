@@ -11,7 +11,6 @@
 
 #include "core/format.h"
 #include "core/progress_reporter.h"
-#include "core/read_limits.h"
 #include "prove/convex_polygon.h"
 #include "prove/layer.h"
 #include "prove/lift.h"
@@ -94,8 +93,7 @@ void check_scene(const Scene& scene) {
         throw Error(ErrorCode::coordinate_not_finite,
                     "vertex " + std::to_string(v) + " of the scene has a coordinate that is not finite", "scene", kFix);
       }
-      // Beyond that the exact predicates overflow, and would take a triangle for one without area.
-      if (at.cwiseAbs().maxCoeff() <= internal::core::kMaxCoordinate) continue;
+      if (at.cwiseAbs().maxCoeff() <= prove::kFarthestM) continue;
       throw Error(ErrorCode::coordinate_too_large,
                   "vertex " + std::to_string(v) + " of the scene is farther from the origin than 1,000,000 km", "scene",
                   "give coordinates in metres");

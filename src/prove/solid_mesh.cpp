@@ -17,7 +17,6 @@ namespace vantage::internal::prove {
 namespace {
 
 constexpr const char* kAdvice = "give the closed, outward mesh of a volume";
-constexpr double kFarthestM = 1e9;  // as for scenes
 
 void check_numbers(const Mesh& mesh, const std::string& where) {
   if (mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", where, kAdvice);

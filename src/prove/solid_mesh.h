@@ -9,6 +9,10 @@
 
 namespace vantage::internal::prove {
 
+/// Coordinates are no larger: beyond that the exact predicates overflow, and would take a triangle for one without
+/// area.
+constexpr double kFarthestM = 1e9;
+
 struct SolidMesh {
   Mesh mesh;
   std::vector<std::uint32_t> facet_of;  ///< per triangle: its number in the mesh that was given
