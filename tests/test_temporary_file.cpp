@@ -19,6 +19,7 @@
 
 #include "core/replace_folder.h"
 #include "core/temporary_file.h"
+#include "core/temporary_mark.h"
 #include "support/random.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -41,6 +42,12 @@ constexpr auto kNamed = TemporaryFile::Names::from_the_start;
 Names sorted_names(const TemporaryDirectory& directory) {
   Names names = directory.names();
   std::sort(names.begin(), names.end());
+  return names;
+}
+
+Names names_in(const fs::path& folder) {
+  Names names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
   return names;
 }
 
@@ -303,6 +310,51 @@ TEST(TemporaryFolder, GoesWithTheObjectOrWithTheNextOne) {
   testing::expect_code([&] { TemporaryFolder(directory / "none", "x-"); }, ErrorCode::output_unwritable, "none");
 }
 
+/// A folder with the mark in it.
+void make_marked(const fs::path& folder) {
+  fs::create_directory(folder);
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  EXPECT_TRUE(put_temporary_mark(opened));
+  ::close(opened);
+}
+
+// A name alone shows nothing: "vantage-tmp-backup" is also one that people give.
+TEST(TemporaryFolder, LeavesFoldersThatVantageDidNotMake) {
+  const TemporaryDirectory directory;
+  make_marked(directory / ".x-mymark");
+  const std::string mark = read_bytes(directory / ".x-mymark" / kTemporaryMark);
+  ASSERT_GT(mark.size(), 20U);
+  for (const char* name : {"backup", "wrongs", "longer", "linked", "folder"}) {
+    const fs::path folder = directory / (std::string(".x-") + name);
+    fs::create_directory(folder);
+    write_bytes(folder / "city.osm.pbf", "mine");
+  }
+  write_bytes(directory / ".x-wrongs" / kTemporaryMark, "my notes");
+  write_bytes(directory / ".x-longer" / kTemporaryMark, mark + "x");
+  write_bytes(directory / "mark", mark);
+  fs::create_symlink(directory / "mark", directory / ".x-linked" / kTemporaryMark);
+  fs::create_directory(directory / ".x-folder" / kTemporaryMark);
+  { const TemporaryFolder mine(directory.path(), ".x-"); }
+  EXPECT_EQ(sorted_names(directory), (Names{".x-backup", ".x-folder", ".x-linked", ".x-longer", ".x-wrongs", "mark"}));
+  for (const char* name : {".x-backup", ".x-wrongs", ".x-longer", ".x-linked", ".x-folder"}) {
+    EXPECT_EQ(read_bytes(directory / name / "city.osm.pbf"), "mine") << name;
+  }
+}
+
+TEST(TemporaryFolder, IsRemovedWithoutFollowingLinks) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory / "mine");
+  write_bytes(directory / "mine/file", "mine");
+  {
+    const TemporaryFolder folder(directory.path(), ".x-");
+    fs::create_directories(folder.path() / "deep/deeper");
+    write_bytes(folder.path() / "deep/deeper/file", "x");
+    fs::create_directory_symlink(directory / "mine", folder.path() / "deep/link");
+  }
+  EXPECT_EQ(directory.names(), Names{"mine"});
+  EXPECT_EQ(read_bytes(directory / "mine/file"), "mine");
+}
+
 TEST(TemporaryFolder, TakesThePlaceOfAnother) {
   const TemporaryDirectory directory;
   for (const std::string text : {"first", "second"}) {
@@ -311,10 +363,10 @@ TEST(TemporaryFolder, TakesThePlaceOfAnother) {
     ASSERT_TRUE(folder.move_to(directory / "place"));
   }
   EXPECT_EQ(directory.names(), Names{"place"});
-  EXPECT_TRUE(fs::exists(directory / "place/second"));
-  EXPECT_FALSE(fs::exists(directory / "place/first"));
+  EXPECT_EQ(names_in(directory / "place"), Names{"second"}) << "and no mark";
   TemporaryFolder folder(directory.path(), ".x-");
   EXPECT_FALSE(folder.move_to(directory / "none/place"));
+  EXPECT_EQ(names_in(folder.path()), Names{kTemporaryMark}) << "it is still a temporary one";
 }
 
 /// Without an exchange in one step, as on some network file systems.
@@ -330,21 +382,22 @@ TEST(TemporaryFolder, TakesThePlaceOfAnotherInTwoSteps) {
   EXPECT_FALSE(fs::exists(directory / "place/first"));
   EXPECT_FALSE(replace_folder(directory / "none", directory / "place", false));
   EXPECT_EQ(errno, ENOENT);
-  EXPECT_TRUE(fs::exists(directory / "place/second")) << "the old one is back";
+  EXPECT_EQ(names_in(directory / "place"), Names{"second"}) << "the old one is back, without a mark";
   EXPECT_EQ(directory.names(), Names{"place"});
 }
 
 TEST(TemporaryFolder, TheOldOneThatWasLeftAsideGoesWhenANewOneIsInPlace) {
   const TemporaryDirectory directory;
-  fs::create_directory(directory / ".x-abcdef-old");
+  make_marked(directory / ".x-abcdef-old");
   write_bytes(directory / ".x-abcdef-old/file", "x");
-  fs::create_directory(directory / ".y-abcdef-old");
+  make_marked(directory / ".y-abcdef-old");
+  fs::create_directory(directory / ".x-mydata-old");
   {
     TemporaryFolder folder(directory.path(), ".x-");
     EXPECT_TRUE(fs::exists(directory / ".x-abcdef-old/file")) << "until then it is the only one";
     ASSERT_TRUE(folder.move_to(directory / "place"));
   }
-  EXPECT_EQ(sorted_names(directory), (Names{".y-abcdef-old", "place"}));
+  EXPECT_EQ(sorted_names(directory), (Names{".x-mydata-old", ".y-abcdef-old", "place"}));
 }
 
 TEST(TemporaryFolder, OfStagesIsMadeBesideAFolderOfALongName) {

@@ -9,8 +9,8 @@
 namespace vantage {
 
 /// A new folder that only this user may read. It is removed with all that is in it when the object goes away; if the
-/// process is killed before, by the next one that makes a folder of that kind in that place. Throws
-/// ErrorCode::output_unwritable where none can be made.
+/// process is killed before, by the next one that makes a folder of that kind in that place. It is known by a file
+/// in it, .vantage-temporary; move_to() takes that away. Throws ErrorCode::output_unwritable where none can be made.
 class VANTAGE_API TemporaryFolder {
  public:
   /// In the folder for temporary files: TMPDIR, or /tmp.

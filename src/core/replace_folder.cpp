@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/file_locks.h"
+#include "core/temporary_mark.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -31,13 +32,14 @@ bool replace_in_two_steps(const fs::path& folder, const fs::path& place) {
   if (old >= 0) (void)lock_with_others(old);  // nobody takes it for one that was left
   bool is_done = ::rename(place.c_str(), aside.c_str()) == 0;
   int reason = errno;
+  if (is_done && old >= 0) (void)put_temporary_mark(old);  // it is found by that if the process is killed
   if (is_done && ::rename(folder.c_str(), place.c_str()) != 0) {
     reason = errno;
     is_done = false;
+    if (old >= 0) (void)take_temporary_mark(old);
     ::rename(aside.c_str(), place.c_str());
   }
-  std::error_code ignored;
-  if (is_done) fs::remove_all(aside, ignored);
+  if (is_done) remove_temporary_folder(aside);
   if (old >= 0) ::close(old);
   errno = reason;
   return is_done;

@@ -7,8 +7,8 @@ namespace vantage::internal::core {
 
 /// Moves `folder` to `place`, which is free or holds a folder. What was there is removed, or is in `folder` then: the
 /// caller removes that. In one step where the file system can do it. Elsewhere the old folder is at `folder`-old for a
-/// moment, with a lock (core/file_locks.h). False, with errno, where it cannot be done: what was there is there.
-/// `try_in_one_step`: false for tests of the other way.
+/// moment, with a lock (core/file_locks.h) and a mark (core/temporary_mark.h). False, with errno, where it cannot be
+/// done: what was there is there. `try_in_one_step`: false for tests of the other way.
 bool replace_folder(const std::filesystem::path& folder, const std::filesystem::path& place,
                     bool try_in_one_step = true);
 

@@ -12,6 +12,7 @@
 
 #include "core/file_locks.h"
 #include "core/replace_folder.h"
+#include "core/temporary_mark.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -21,6 +22,8 @@ namespace fs = std::filesystem;
 using internal::core::leads_to;
 using internal::core::lock_alone;
 using internal::core::lock_with_others;
+using internal::core::put_temporary_mark;
+using internal::core::remove_temporary_folder;
 
 constexpr std::size_t kRandomCharacters = 6;  // of mkdtemp
 constexpr int kAttempts = 10;
@@ -31,7 +34,8 @@ fs::path folder_for_temporary_files() {
   return error ? fs::path("/tmp") : folder;
 }
 
-/// Removes those that were left by processes that have ended: PREFIXxxxxxx and an ending.
+/// Removes those that were left by processes that have ended: PREFIXxxxxxx and an ending. A name shows nothing, since
+/// others may give it too: the mark does.
 void remove_abandoned(const fs::path& parent, std::string_view prefix, std::string_view ending) {
   std::error_code error;
   for (fs::directory_iterator entry(parent, error); !error && entry != fs::directory_iterator();
@@ -43,12 +47,19 @@ void remove_abandoned(const fs::path& parent, std::string_view prefix, std::stri
     if (descriptor < 0) continue;
     struct stat status {};
     if (::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() && lock_alone(descriptor) &&
-        leads_to(entry->path(), descriptor)) {
-      std::error_code ignored;
-      fs::remove_all(entry->path(), ignored);
+        internal::core::has_temporary_mark(descriptor) && leads_to(entry->path(), descriptor)) {
+      remove_temporary_folder(entry->path());
     }
     ::close(descriptor);
   }
+}
+
+/// What stood in the place of a folder is where that one was, and goes with it, also if the process is killed now.
+void mark_replaced(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)put_temporary_mark(descriptor);
+  ::close(descriptor);
 }
 
 }  // namespace
@@ -62,31 +73,37 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& pref
     pattern = (parent / (prefix + std::string(kRandomCharacters, 'X'))).string();
     if (::mkdtemp(pattern.data()) == nullptr) break;
     descriptor_ = ::open(pattern.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (descriptor_ >= 0 && lock_with_others(descriptor_) && leads_to(pattern, descriptor_)) {
+    const bool is_held = descriptor_ >= 0 && lock_with_others(descriptor_) && leads_to(pattern, descriptor_);
+    if (is_held && put_temporary_mark(descriptor_)) {  // before anything else is in it
       path_ = pattern;
       return;
     }
     const int reason = errno;
-    if (descriptor_ < 0) ::rmdir(pattern.c_str());
-    if (descriptor_ < 0 && reason != ENOENT) {  // as when too many files are open: another attempt ends alike
-      errno = reason;
-      break;
-    }
-    if (descriptor_ >= 0) ::close(descriptor_);  // taken for an abandoned one before it was held
+    if (is_held || descriptor_ < 0) ::rmdir(pattern.c_str());
+    if (descriptor_ >= 0) ::close(descriptor_);
+    const bool is_gone = descriptor_ >= 0 ? !is_held : reason == ENOENT;  // somebody removed it before it was held
     descriptor_ = -1;
+    errno = reason;
+    if (!is_gone) break;  // as when too many files are open: another attempt ends alike
   }
   throw Error(ErrorCode::output_unwritable, std::string("no temporary folder can be made: ") + std::strerror(errno),
               pattern, "make room there, or set TMPDIR to a folder that can be written");
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
+  if (!path_.empty()) remove_temporary_folder(path_);
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 bool TemporaryFolder::move_to(const fs::path& place) {
-  if (!internal::core::replace_folder(path_, place)) return false;
+  if (!internal::core::take_temporary_mark(descriptor_)) return false;  // what is in place is there to stay
+  if (!internal::core::replace_folder(path_, place)) {
+    const int reason = errno;
+    (void)put_temporary_mark(descriptor_);
+    errno = reason;
+    return false;
+  }
+  mark_replaced(path_);
   // What a killed process left beside is older than what is in place now.
   const std::string name = path_.filename().string();
   remove_abandoned(path_.has_parent_path() ? path_.parent_path() : fs::path("."),

@@ -1,0 +1,80 @@
+#include "core/temporary_mark.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+namespace vantage::internal::core {
+namespace {
+
+constexpr std::string_view kMarkText =
+    "vantage made this folder for a short time. It removes the folder with all that is in it.\n";
+
+constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+
+/// Of a folder that may have been moved meanwhile: by its descriptor, not by its name.
+void empty_folder(int folder, std::string_view kept) {
+  const int again = ::openat(folder, ".", kOpenFolder);
+  DIR* const entries = again < 0 ? nullptr : ::fdopendir(again);
+  if (entries == nullptr) {
+    if (again >= 0) ::close(again);
+    return;
+  }
+  while (const dirent* const entry = ::readdir(entries)) {
+    const char* const name = entry->d_name;
+    const std::string_view text = name;
+    if (text == "." || text == ".." || text == kept || ::unlinkat(folder, name, 0) == 0) continue;
+    const int deeper = ::openat(folder, name, kOpenFolder);
+    if (deeper < 0) continue;
+    empty_folder(deeper, "");
+    ::close(deeper);
+    ::unlinkat(folder, name, AT_REMOVEDIR);
+  }
+  ::closedir(entries);
+}
+
+}  // namespace
+
+bool put_temporary_mark(int folder) {
+  const int file = ::openat(folder, kTemporaryMark, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (file < 0) return false;
+  errno = ENOSPC;  // of a part that was written, nothing is said
+  const bool is_written = ::write(file, kMarkText.data(), kMarkText.size()) == static_cast<ssize_t>(kMarkText.size());
+  const int reason = errno;
+  ::close(file);
+  if (!is_written) ::unlinkat(folder, kTemporaryMark, 0);
+  errno = reason;
+  return is_written;
+}
+
+bool has_temporary_mark(int folder) {
+  const int file = ::openat(folder, kTemporaryMark, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  struct stat status {};
+  std::array<char, kMarkText.size() + 1> bytes{};
+  const bool is_own_file = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
+  const ssize_t count = is_own_file ? ::read(file, bytes.data(), bytes.size()) : -1;
+  ::close(file);
+  return count >= 0 && std::string_view(bytes.data(), static_cast<std::size_t>(count)) == kMarkText;
+}
+
+bool take_temporary_mark(int folder) {
+  return !has_temporary_mark(folder) || ::unlinkat(folder, kTemporaryMark, 0) == 0;
+}
+
+void remove_temporary_folder(const std::filesystem::path& folder) {
+  if (const int opened = ::open(folder.c_str(), kOpenFolder); opened >= 0) {
+    empty_folder(opened, kTemporaryMark);
+    ::close(opened);
+  }
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+}
+
+}  // namespace vantage::internal::core
