@@ -18,6 +18,7 @@
 #include "vantage/error.h"
 #include "vantage/output.h"
 #include "vantage/result.h"
+#include "vantage/version.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -89,8 +90,8 @@ TEST(ResultFiles, APictureIsOwnWhereItsTextSaysSo) {
   const std::string marked = core::with_png_mark(header + "pixels");
   EXPECT_TRUE(marked.starts_with(header));
   EXPECT_TRUE(marked.ends_with("pixels"));
-  const std::size_t named = marked.find("vantage ");
-  ASSERT_NE(named, std::string::npos);
+  const std::size_t end = marked.size() - std::string("pixels").size();  // of the chunk, with its checksum
+  ASSERT_NE(marked.find("vantage " VANTAGE_VERSION), std::string::npos);
   for (std::size_t bytes = 0; bytes <= marked.size(); ++bytes) {
     write_bytes(directory / "a.png", marked.substr(0, bytes));
     std::optional<ErrorCode> code;
@@ -99,7 +100,7 @@ TEST(ResultFiles, APictureIsOwnWhereItsTextSaysSo) {
     } catch (const Error& error) {
       code = error.code();
     }
-    EXPECT_EQ(code, bytes < named + 8 ? std::optional(ErrorCode::output_of_others) : std::nullopt) << bytes;
+    EXPECT_EQ(code, bytes < end ? std::optional(ErrorCode::output_of_others) : std::nullopt) << bytes;
   }
 }
 
@@ -232,6 +233,55 @@ TEST(ResultFiles, WhatVantageWroteIsKnownByItsBeginning) {
   write_bytes(directory / "v.table.csv", table_csv({}));
   check_derived_output(directory / "v.table.csv");
   check_derived_output(directory / "none.ply");
+}
+
+/// What a writer wrote, with other bytes in one place.
+struct Changed {
+  const char* name;
+  std::string from, to;
+};
+
+// "# vantage points of the old town" is how a file of somebody's own may begin.
+TEST(ResultFiles, WhatOnlyBeginsLikeAFileOfVantageIsOfOthers) {
+  const TemporaryDirectory directory;
+  const Volume volume = make_hemisphere(Vec3::Zero(), 100);
+  const auto write_changed = [&](const Changed& changed) {
+    write_volume(volume, directory / changed.name);
+    std::string bytes = read_bytes(directory / changed.name);
+    const std::size_t at = bytes.find(changed.from);
+    ASSERT_NE(at, std::string::npos) << changed.name << ": " << changed.from;
+    write_bytes(directory / changed.name, bytes.replace(at, changed.from.size(), changed.to));
+  };
+  const std::string version = "vantage " VANTAGE_VERSION;
+  for (const Changed& changed :
+       std::vector<Changed>{{"v.obj", version + " visibility volume: computed", "vantage points of the old town"},
+                            {"v.obj", version, "vantage 0.1"},
+                            {"v.obj", "volume: computed", "volume: computed by hand"},
+                            {"v.obj", "volume: computed", "volume: "},
+                            {"v.ply", version + " visibility volume: computed", "vantage points of the old town"},
+                            {"v.ply", "comment " + version, "comment my own\ncomment " + version},
+                            {"v.stl", version + " visibility", "vantage points by Ann"},
+                            {"v.stl", ", metres, ", ", inches, "},
+                            {"v.glb", version, "vantage points 1"},
+                            {"v.glb", "\"generator\":\"" + version, "\"copyright\":\"" + version}}) {
+    write_changed(changed);
+    const std::string own = read_bytes(directory / changed.name);
+    vantage::testing::expect_code([&] { check_derived_output(directory / changed.name); }, ErrorCode::output_of_others,
+                                  changed.name);
+    EXPECT_EQ(read_bytes(directory / changed.name), own);
+  }
+  for (const char* name : {"v.obj", "v.ply", "v.stl", "v.glb"}) {
+    write_changed({name, version, "vantage 12.0.345"});
+    check_derived_output(directory / name);  // of another version
+  }
+  Scene scene;
+  scene.mesh = volume.mesh;
+  scene.object_of.assign(scene.mesh.triangles.size(), 0);
+  scene.objects.resize(1);
+  for (const char* name : {"s.obj", "s.ply", "s.stl", "s.glb"}) {
+    write_scene(scene, directory / name);
+    check_derived_output(directory / name);
+  }
 }
 
 }  // namespace

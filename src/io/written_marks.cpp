@@ -5,14 +5,17 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "core/png_mark.h"
+#include "core/version_text.h"
 #include "vantage/output.h"
 
 namespace vantage::internal::io {
 namespace {
 
-constexpr std::size_t kLooked = 64 << 10;         // bytes of the beginning that are looked at
+constexpr std::size_t kLooked = 64 << 10;  // bytes of the beginning that are looked at
+constexpr std::string_view kPlyStart = "ply\nformat binary_little_endian 1.0\ncomment vantage ";
 constexpr std::uintmax_t kMostJson = 64'000'000;  // bytes; a report of a large city has some
 
 std::string beginning_of(const std::filesystem::path& file, std::size_t most) {
@@ -27,6 +30,10 @@ bool has_all(const nlohmann::json& object, std::initializer_list<const char*> ke
   return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return object.contains(key); });
 }
 
+bool has_version(const nlohmann::json& object) {
+  return object["version"].is_string() && core::is_version(object["version"].get<std::string>());
+}
+
 /// A report of a volume or of a scene, or what lies beside an STL.
 bool is_own_json(const std::filesystem::path& file) {
   std::error_code error;
@@ -35,13 +42,49 @@ bool is_own_json(const std::filesystem::path& file) {
   const nlohmann::json json = nlohmann::json::parse(beginning_of(file, size), nullptr, false);
   if (!json.is_object()) return false;
   if (json.contains("vantage")) return json["vantage"].is_object() && json["vantage"].contains("georeference");
-  return has_all(json, {"version", "method", "outcome", "causes", "bounding_box"}) ||
-         has_all(json, {"source", "triangles", "objects", "bounds", "notes"});
+  if (has_all(json, {"version", "method", "outcome", "causes", "bounding_box"})) return has_version(json);
+  return has_all(json, {"source", "triangles", "objects", "bounds", "notes"});
 }
 
-bool is_own_ply(std::string_view bytes) {
-  const std::string_view header = bytes.substr(0, bytes.find("\nend_header\n"));
-  return header.starts_with("ply\n") && header.find("\ncomment vantage ") != std::string_view::npos;
+/// "scene", or "visibility volume", a colon and an outcome, of this version or of another.
+bool is_content(std::string_view text) {
+  constexpr std::string_view kVolume = "visibility volume: ";
+  if (text == "scene") return true;
+  if (!text.starts_with(kVolume) || text.size() == kVolume.size()) return false;
+  return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", kVolume.size()) == std::string_view::npos;
+}
+
+/// What is behind `start` and a version, to the end of the line; nothing where the text does not begin so. People write
+/// "# vantage point" and the like: with the version it is the writers' line.
+std::string_view behind_version(std::string_view text, std::string_view start) {
+  if (!text.starts_with(start)) return {};
+  text = text.substr(start.size(), text.substr(start.size()).find('\n'));
+  const std::size_t space = text.find(' ');
+  return space != std::string_view::npos && core::is_version(text.substr(0, space)) ? text.substr(space + 1)
+                                                                                    : std::string_view();
+}
+
+/// All 80 bytes of the header.
+bool is_own_stl(std::string_view bytes) {
+  constexpr std::size_t kHeaderBytes = 80;
+  if (bytes.size() < kHeaderBytes) return false;
+  const std::string_view text = behind_version(bytes.substr(0, kHeaderBytes), "vantage ");
+  const std::string_view content = text.substr(0, text.find_last_not_of(' ') + 1);
+  return content == "visibility volume, scene frame, metres, z up" || content == "scene, scene frame, metres, z up";
+}
+
+/// The JSON begins with what made it.
+bool is_own_glb(std::string_view bytes) {
+  constexpr std::string_view kGlbMagic = "glTF", kJsonType = "JSON";
+  constexpr std::string_view kGenerator = R"({"asset":{"version":"2.0","generator":"vantage )";
+  constexpr std::size_t kTypeAt = 16, kJsonAt = 20;
+  if (!bytes.starts_with(kGlbMagic) || bytes.size() < kJsonAt || bytes.substr(kTypeAt, kJsonType.size()) != kJsonType)
+    return false;
+  const std::string_view json = bytes.substr(kJsonAt);
+  if (!json.starts_with(kGenerator)) return false;
+  const std::string_view version = json.substr(kGenerator.size());
+  const std::size_t end = version.find('"');
+  return end != std::string_view::npos && core::is_version(version.substr(0, end));
 }
 
 }  // namespace
@@ -52,12 +95,10 @@ bool is_own_file(const std::filesystem::path& file) {
   const std::string bytes = beginning_of(file, kLooked);
   const std::string_view text = bytes;
   if (extension == ".csv") return text.substr(0, text.find_first_of("\r\n")) == kVolumeTableHeader;
-  if (extension == ".ply") return is_own_ply(text);
-  if (extension == ".obj") return text.starts_with("# vantage ");
-  if (extension == ".stl") return text.starts_with("vantage ");
-  if (extension == ".glb") {
-    return text.starts_with("glTF") && text.find("\"generator\":\"vantage ") != std::string_view::npos;
-  }
+  if (extension == ".ply") return is_content(behind_version(text, kPlyStart));
+  if (extension == ".obj") return is_content(behind_version(text, "# vantage "));
+  if (extension == ".stl") return is_own_stl(text);
+  if (extension == ".glb") return is_own_glb(text);
   return extension == ".png" && core::has_png_mark(text);
 }
 
