@@ -1,12 +1,13 @@
 """Temporary folders: who removes them, also when a process is killed."""
 
 import os
+import shutil
 import subprocess
 import sys
 
 import pytest
 
-from vantage._folders import Folder, remove_abandoned
+from vantage._folders import MARK, Folder, remove_abandoned, remove_all
 
 HOLDER = """
 import sys
@@ -53,6 +54,65 @@ def test_of_a_killed_process_goes_with_the_next(tmp_path):
         assert os.listdir(tmp_path) == [os.path.basename(mine)]
 
 
+def marked(path):
+    """A folder as a killed process leaves it."""
+    with Folder(path.name[:3], path.parent) as folder:
+        text = open(os.path.join(folder, MARK)).read()
+    path.mkdir()
+    (path / MARK).write_text(text)
+    return text
+
+
+@pytest.mark.parametrize("remove", [remove_abandoned, remove_all])
+def test_folders_that_vantage_did_not_make_stay(tmp_path, remove):
+    """A name alone shows nothing: "vantage-scene-florence" is also one that people give."""
+    text = marked(tmp_path / ".x-my_files")
+    assert len(text) > 20
+    for name in ("florence", "examples", "longnote", "the_link", "a_folder"):
+        (tmp_path / f".x-{name}").mkdir()
+        (tmp_path / f".x-{name}" / "city.osm.pbf").write_text("mine")
+    (tmp_path / ".x-examples" / MARK).write_text("my notes")
+    (tmp_path / ".x-longnote" / MARK).write_text(text + "x")
+    (tmp_path / "mark").write_text(text)
+    (tmp_path / ".x-the_link" / MARK).symlink_to(tmp_path / "mark")
+    (tmp_path / ".x-a_folder" / MARK).mkdir()
+    remove(".x-", tmp_path)
+    assert not (tmp_path / ".x-my_files").exists()
+    assert [path.read_text() for path in tmp_path.glob(".x-*/city.osm.pbf")] == ["mine"] * 5
+
+
+def test_it_is_marked_before_anything_else_is_in_it(tmp_path):
+    with Folder(".x-", tmp_path) as folder:
+        assert os.listdir(folder) == [MARK]
+
+
+def test_the_mark_is_removed_last(tmp_path, monkeypatch):
+    """What is left of a removal is still marked."""
+    seen = []
+    with Folder(".x-", tmp_path) as folder:
+        os.makedirs(os.path.join(folder, "deep", "deeper"))
+        for name in ("a", "deep/b", "z"):
+            open(os.path.join(folder, name), "w").close()
+        whole = shutil.rmtree
+
+        def rmtree(path, *arguments, **options):
+            seen.append(sorted(os.listdir(folder)))
+            whole(path, *arguments, **options)
+
+        monkeypatch.setattr(shutil, "rmtree", rmtree)
+    assert seen[-1] == [MARK] and all(MARK in names for names in seen) and list(tmp_path.iterdir()) == []
+
+
+def test_links_are_not_followed(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "file").write_text("mine")
+    with Folder(".x-", tmp_path) as folder:
+        os.symlink(tmp_path / "mine", os.path.join(folder, "link"))
+        os.mkdir(os.path.join(folder, "deep"))
+        os.symlink(tmp_path / "mine", os.path.join(folder, "deep", "link"))
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"] and (tmp_path / "mine" / "file").read_text() == "mine"
+
+
 def test_nothing_else_is_removed(tmp_path):
     (tmp_path / ".x-longer_than_it_is").mkdir()
     (tmp_path / ".x-abcdefgh").write_text("a file")
@@ -61,7 +121,7 @@ def test_nothing_else_is_removed(tmp_path):
     before = sorted(tmp_path.iterdir())
     remove_abandoned(".x-", tmp_path)
     assert sorted(tmp_path.iterdir()) == before
-    (tmp_path / ".x-00000000").mkdir()
+    marked(tmp_path / ".x-00000000")
     remove_abandoned(".x-", tmp_path)
     assert sorted(tmp_path.iterdir()) == before
     remove_abandoned(".x-", tmp_path / "none")

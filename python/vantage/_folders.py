@@ -16,6 +16,10 @@ from ._requests import Path
 BESIDE = ".vantage-part-"
 """How the name begins of a folder in which a file is written that then takes the place of another beside it."""
 
+MARK = ".vantage-temporary"
+"""The file by which such a folder says that vantage made it; src/core/temporary_mark.cpp writes the same one."""
+
+_MARK_TEXT = b"vantage made this folder for a short time. It removes the folder with all that is in it.\n"
 _RANDOM = 8  # characters of tempfile.mkdtemp
 _ATTEMPTS = 10
 
@@ -23,7 +27,7 @@ _ATTEMPTS = 10
 class Folder:
     """A new folder that only this user may read; for `with`, or until the process ends. Whoever has one holds a lock on it
     (flock), which ends with the process: what nobody holds was left by a process that was killed, and the next folder of
-    the same `prefix` in the same `parent` (default: the folder for temporary files) removes it.
+    the same `prefix` in the same `parent` (default: the folder for temporary files) removes it, if it has the mark.
 
     `removes_others`: False where others may use the folder from machines whose locks cannot be seen.
 
@@ -39,6 +43,7 @@ class Folder:
             path = tempfile.mkdtemp(prefix=prefix, dir=where)
             held = _held(path)
             if held is not None:
+                _mark_new(path, held)
                 break
         else:
             raise OSError(errno.EBUSY, "other processes remove each temporary folder that is made", where)
@@ -57,16 +62,87 @@ class Folder:
 
 
 def remove_abandoned(prefix: str, parent: Path | None = None) -> None:
-    """Removes the folders of that kind that no process holds. What cannot be removed stays."""
-    where = os.path.abspath(parent or tempfile.gettempdir())
+    """Removes the folders of that kind that no process holds. A name shows nothing, since others may give it too: the mark
+    does. What cannot be removed stays."""
+    for path in _named_so(prefix, os.path.abspath(parent or tempfile.gettempdir())):
+        _remove_if_abandoned(path)
+
+
+def remove_all(prefix: str, parent: Path) -> None:
+    """The same, whoever holds them: other machines may have locks that cannot be seen."""
+    for path in _named_so(prefix, os.path.abspath(parent)):
+        try:
+            folder = _open(path)
+        except OSError:
+            continue
+        try:
+            if _is_own(path, folder):
+                _remove(path)
+        finally:
+            os.close(folder)
+
+
+def _named_so(prefix: str, parent: str) -> list[str]:
+    """What has a name as `Folder` gives it."""
     try:
-        with os.scandir(where) as entries:
-            names = [entry.name for entry in entries]
+        with os.scandir(parent) as entries:
+            return [entry.path for entry in entries
+                    if entry.name.startswith(prefix) and len(entry.name) == len(prefix) + _RANDOM]
+    except OSError:
+        return []
+
+
+def _put_mark(path: str) -> None:
+    """Raises OSError where it cannot be put there, or something has its name."""
+    mark = os.path.join(path, MARK)
+    file = os.open(mark, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+    try:
+        with open(file, "wb") as stream:
+            stream.write(_MARK_TEXT)
+    except OSError:
+        os.unlink(mark)
+        raise
+
+
+def _has_mark(folder: int) -> bool:
+    """A file of this user with our text, and no link."""
+    try:
+        file = os.open(MARK, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=folder)
+    except OSError:
+        return False
+    try:
+        about = os.fstat(file)
+        return stat.S_ISREG(about.st_mode) and about.st_uid == os.geteuid() and \
+            os.read(file, len(_MARK_TEXT) + 1) == _MARK_TEXT
+    except OSError:
+        return False
+    finally:
+        os.close(file)
+
+
+def _is_own(path: str, folder: int) -> bool:
+    return os.fstat(folder).st_uid == os.geteuid() and _has_mark(folder) and _leads_to(path, folder)
+
+
+def _remove(path: str) -> None:
+    """The mark last: what a killed process leaves of it is still marked. What cannot be removed stays."""
+    try:
+        folder = _open(path)
     except OSError:
         return
-    for name in names:
-        if name.startswith(prefix) and len(name) == len(prefix) + _RANDOM:
-            _remove_if_abandoned(os.path.join(where, name))
+    try:
+        for name in os.listdir(folder):
+            if name == MARK:
+                continue
+            try:
+                os.unlink(name, dir_fd=folder)
+            except OSError:  # a folder
+                shutil.rmtree(name, ignore_errors=True, dir_fd=folder)
+    except OSError:
+        pass
+    finally:
+        os.close(folder)
+    shutil.rmtree(path, ignore_errors=True)
 
 
 def _open(path: str) -> int:
@@ -102,6 +178,16 @@ def _held(path: str) -> int | None:
     return None
 
 
+def _mark_new(path: str, held: int) -> None:
+    """Before anything else is in it."""
+    try:
+        _put_mark(path)
+    except OSError:
+        os.close(held)
+        os.rmdir(path)
+        raise
+
+
 def _remove_if_abandoned(path: str) -> None:
     try:
         folder = _open(path)
@@ -109,9 +195,8 @@ def _remove_if_abandoned(path: str) -> None:
         return
     try:
         fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        about = os.fstat(folder)
-        if stat.S_ISDIR(about.st_mode) and about.st_uid == os.geteuid() and _leads_to(path, folder):
-            shutil.rmtree(path, ignore_errors=True)
+        if _is_own(path, folder):
+            _remove(path)
     except OSError:
         pass
     finally:
@@ -121,7 +206,7 @@ def _remove_if_abandoned(path: str) -> None:
 def _end(path: str, held: int, process: int) -> None:
     if os.getpid() == process:  # a forked process has the objects of its parent, but not their folders
         for _ in range(3):  # another thread may still be writing
-            shutil.rmtree(path, ignore_errors=True)
+            _remove(path)
             if not os.path.lexists(path):
                 break
     os.close(held)
