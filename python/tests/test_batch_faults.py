@@ -147,7 +147,7 @@ def test_one_run_at_a_time(scene, whole, tmp_path):
 
     report = batch.run(triangles(), scene, tmp_path, **ASKED, progress=another)
     assert told[0].code == "folder-in-use" and f"process {os.getpid()} " in told[0].problem
-    assert without_time(report).equals(without_time(whole)) and not (tmp_path / ".lock").exists()
+    assert without_time(report).equals(without_time(whole)) and not (tmp_path / _lock.LOCK).exists()
 
 
 def test_the_lock_ends_with_its_process(tmp_path):
@@ -167,7 +167,7 @@ with _lock.Lock(_store.Store({str(tmp_path)!r})):
     other.kill()
     other.communicate()
     with _lock.Lock(store):
-        assert (tmp_path / ".lock").read_text().startswith(f"process {os.getpid()} of ")
+        assert (tmp_path / _lock.LOCK).read_text().startswith(f"process {os.getpid()} of ")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -178,6 +178,127 @@ def test_a_file_system_without_locks_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(_lock.fcntl, "flock", flock)
     with pytest.warns(UserWarning, match="has no locks"), _lock.Lock(_store.Store(tmp_path)):
         pass
+
+
+@pytest.mark.parametrize("kind", ["text", "link", "link to nothing", "folder", "pipe", "half"])
+def test_what_only_has_the_name_of_the_lock_stays(tmp_path, kind):
+    lock, mine, out = tmp_path / "out" / _lock.LOCK, tmp_path / "mine", tmp_path / "out"
+    out.mkdir()
+    mine.write_text("process 1 of mine\n")
+    if kind == "text":
+        lock.write_text("pid 17\nprocess 17 of here\n")
+    elif kind == "half":
+        lock.write_text("process 17 of here\nand more")
+    elif kind == "folder":
+        lock.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(lock)
+    else:
+        lock.symlink_to(mine if kind == "link" else tmp_path / "none")
+    before = lock.lstat()
+    with pytest.raises(vt.Error) as raised:
+        _lock.Lock(_store.Store(out)).__enter__()
+    assert raised.value.code == "folder-in-use" and raised.value.where == str(lock) and "move it" in raised.value.fix
+    assert os.path.samestat(lock.lstat(), before) and lock.lstat().st_size == before.st_size
+    assert mine.read_text() == "process 1 of mine\n" and not (tmp_path / "none").exists()
+
+
+def test_the_lock_of_another_program_stays(tmp_path):
+    (tmp_path / ".lock").write_text("of another program")
+    with _lock.Lock(_store.Store(tmp_path)):
+        pass
+    assert [path.name for path in tmp_path.iterdir()] == [".lock"]
+    assert (tmp_path / ".lock").read_text() == "of another program"
+
+
+def test_a_lock_that_was_left_is_taken(tmp_path):
+    (tmp_path / _lock.LOCK).write_text("process 17 of here\n")
+    with _lock.Lock(_store.Store(tmp_path)):
+        assert (tmp_path / _lock.LOCK).read_text().startswith(f"process {os.getpid()} of ")
+        (tmp_path / _lock.LOCK).unlink()
+        (tmp_path / _lock.LOCK).write_text("mine")
+    assert (tmp_path / _lock.LOCK).read_text() == "mine", "it is another file by now"
+
+
+def test_only_what_a_run_left_is_tidied(tmp_path):
+    from vantage import _folders
+
+    store = _store.Store(tmp_path)
+    mine = [".unfinished-novel/1.txt", ".unfinished-novels_1/1.txt", "rows/.unfinished-12345678/1.txt", ".film.mkv.part",
+            ".film.mkv.12-34.part", "mine/.000001.json.vantage-12-34.part", "volumes/mine/.a.ply.vantage-1-2.part",
+            "rows/.000001.json.vantage-12.part", "rows/000001.json.vantage-12-34.part"]
+    left = [_store._beside("report.json"), _store._beside("rows/000001.json"), _store._beside("volumes/000001.zarr.zip")]
+    for name in mine + left:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(name)
+    (tmp_path / "volumes" / left[0]).symlink_to(tmp_path / mine[0])
+    folder = store.scratch()
+    folder._end.detach()  # as of a killed process
+    (pathlib.Path(folder.path) / "volume.ply").write_text("half")
+    assert os.path.isfile(os.path.join(folder.path, _folders.MARK))
+    store.tidy()
+    assert [name for name in mine if not (tmp_path / name).is_file()] == []
+    assert [name for name in left if (tmp_path / name).exists()] == [] and not os.path.exists(folder.path)
+    assert (tmp_path / "volumes" / left[0]).is_symlink()
+
+
+def test_a_folder_with_files_of_others_is_refused(scene, tmp_path):
+    for name in ("results.parquet", "report.json", "scene.npz", "volumes/000000/0.ply", "rows/000000.parquet"):
+        out = tmp_path / name.replace("/", "_")
+        (out / name).parent.mkdir(parents=True)
+        (out / name).write_text("mine")
+        told = refused(triangles(), scene, out, **ASKED)
+        assert told.code == "folder-in-use" and name.partition("/")[0] in told.where, told
+        assert [path for path in out.rglob("*") if path.is_file()] == [out / name] and (out / name).read_text() == "mine"
+
+
+class Line:
+    """A store on the other end of a line that breaks: its files appear with their first byte."""
+
+    def __init__(self, folder, breaks):
+        from fsspec.implementations.local import LocalFileSystem
+
+        class Breaking(LocalFileSystem):
+            protocol = "line"
+            names = []
+
+            def put_file(self, local, path, **options):
+                self.names.append(path)
+                with open(local, "rb") as file:
+                    content = file.read()
+                self.pipe_file(path, content)
+
+            def pipe_file(self, path, content, **options):
+                self.names.append(path)
+                with open(path, "wb") as file:
+                    file.write(content[:2] if breaks else content)
+                if breaks:
+                    raise OSError("the line broke")
+
+        self.store = _store.Store(folder)
+        self.store.files = Breaking()
+        self.store.protocol, self.store.is_local = "line", False
+
+
+@pytest.mark.parametrize("from_file", [False, True])
+def test_elsewhere_files_are_whole_or_not_there(tmp_path, from_file):
+    (tmp_path / "local").write_bytes(b"12345")
+
+    def put(store):
+        if from_file:
+            store.put_file("rows/a", tmp_path / "local")
+        else:
+            store.put("rows/a", b"12345")
+
+    put(Line(tmp_path / "out", False).store)
+    assert (tmp_path / "out" / "rows" / "a").read_bytes() == b"12345"
+    (tmp_path / "out" / "rows" / "a").write_bytes(b"older")
+    broken = Line(tmp_path / "out", True).store
+    with pytest.raises(vt.Error) as raised:
+        put(broken)
+    assert raised.value.code == "output-unwritable" and "the line broke" in raised.value.problem
+    assert str(tmp_path / "out" / "rows" / "a") not in broken.files.names
+    assert [(path.name, path.read_bytes()) for path in (tmp_path / "out" / "rows").iterdir()] == [("a", b"older")]
 
 
 # ---- processes

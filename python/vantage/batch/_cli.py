@@ -84,7 +84,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from ._run import REPORT, run
+    from ._manifest import REPORT
+    from ._run import run
     from ._scenes import request_of
     from ._store import Store
 

@@ -5,14 +5,22 @@ from __future__ import annotations
 import errno
 import fcntl
 import os
+import re
 import socket
+import stat
 import warnings
 from types import TracebackType
 
-from .._errors import make
+from .._errors import Error, make
 from ._store import Store
 
-LOCK = ".lock"
+LOCK = ".vantage-batch.lock"
+
+_WRITTEN = re.compile(rb"(process \d+ of [^\n]*\n)?")
+"""What the file may hold."""
+
+_NO_FILE = {errno.ELOOP, errno.EISDIR, errno.ENXIO}
+"""What the system says of opening a link, a folder, a socket."""
 
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
 """What file systems say that have no locks."""
@@ -23,7 +31,7 @@ class Lock:
     process. An object store has no locks.
 
     Raises:
-        Error: another run works in the folder.
+        Error: another run works in the folder; something else has the name of the lock.
     """
 
     def __init__(self, store: Store):
@@ -43,7 +51,12 @@ class Lock:
 
     def _try(self) -> int | None:
         """The lock; None where the file was removed meanwhile by the run that had it."""
-        file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        try:
+            file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+        except OSError as error:
+            if error.errno in _NO_FILE:
+                raise self._of_others() from None
+            raise
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -57,18 +70,30 @@ class Lock:
                 raise
             warnings.warn(f"the file system of {self._store.where()} has no locks: see to it that no other run works in this "
                           "folder", stacklevel=4)
+        if not self._leads_to(file):
+            os.close(file)
+            return None
+        if not stat.S_ISREG(os.fstat(file).st_mode) or not _WRITTEN.fullmatch(os.pread(file, 1000, 0)):
+            os.close(file)
+            raise self._of_others()
+        return file
+
+    def _leads_to(self, file: int) -> bool:
         try:
-            if os.path.samestat(os.stat(self._path), os.fstat(file)):
-                return file
+            return os.path.samestat(os.lstat(self._path), os.fstat(file))
         except FileNotFoundError:
-            pass
-        os.close(file)
-        return None
+            return False
+
+    def _of_others(self) -> Error:
+        """It would be emptied, and removed at the end."""
+        return make("output", "folder-in-use", "something that no run made has the name of the lock",
+                    self._store.where(LOCK), "move it away, or choose another folder", None)
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if self._held is not None:
             try:
-                os.unlink(self._path)
+                if self._leads_to(self._held):
+                    os.unlink(self._path)
             except OSError:
                 pass
             os.close(self._held)

@@ -17,10 +17,13 @@ from .._extras import require
 from .._requests import given
 from .._scene import Scene
 from .._volume import Volume
+from ._scenes import ARRAYS
 from ._store import Store
 from ._table import Table
 
 MANIFEST = "manifest.json"
+RESULTS = "results.parquet"
+REPORT = "report.json"
 
 _MEANING = {"version": "another version of vantage", "scene_hash": "another scene", "targets_hash": "other targets",
             "mission_hash": "another sensor, or other limits", "volumes": "another choice of volumes"}
@@ -53,8 +56,10 @@ def agree(store: Store, mine: Mapping[str, str], scene: Mapping[str, Any]) -> di
     """
     data = store.read(MANIFEST)
     if data is None:
-        if store.names("rows"):
-            raise _in_use("the folder holds rows of an unknown run", store.where())
+        for name in ("rows", "volumes", RESULTS, REPORT, ARRAYS):  # they would be replaced
+            if store.names(name):
+                raise make("output", "folder-in-use", f"there is a {name} already, but no {MANIFEST} of a run",
+                           store.where(name), "choose another folder, or move it away", None)
         content = {**mine, "scene": dict(scene)}
         store.put(MANIFEST, (json.dumps(content, indent=2, default=os.fspath) + "\n").encode())
         return {}

@@ -21,13 +21,11 @@ from .._scene import Scene
 from . import _geometry, _manifest, _rows, _scenes, _seals, _table, _work
 from ._dask import DaskWorkers
 from ._lock import Lock
+from ._manifest import REPORT, RESULTS
 from ._pool import LocalWorkers, Workers
 from ._queue import Queue
 from ._store import Store
 from ._work import Done, Job, Task
-
-RESULTS = "results.parquet"
-REPORT = "report.json"
 
 
 @dataclasses.dataclass

@@ -25,7 +25,7 @@ from ._store import Store
 AnyScene = Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]]
 
 _FILES = ("mesh", "osm", "raster", "terrain")
-_ARRAYS = "scene.npz"
+ARRAYS = "scene.npz"
 
 _kept: dict[str, Scene] = {}
 _lock = threading.Lock()
@@ -63,11 +63,11 @@ def request_of(scene: AnyScene) -> dict[str, Any]:
 def load(request: Mapping[str, Any], store: Store, progress: Progress = None) -> Scene:
     """Reads the scene that `request_of` named; `store`: of the results, where arrays lie."""
     if "arrays" in request:
-        data = store.read(_ARRAYS)
+        data = store.read(ARRAYS)
         if data is None:
-            raise input_error("file-not-found", "the scene of the run is gone", store.where(_ARRAYS),
+            raise input_error("file-not-found", "the scene of the run is gone", store.where(ARRAYS),
                               "start the run again, with the scene")
-        return _of_bytes(data, store.where(_ARRAYS))
+        return _of_bytes(data, store.where(ARRAYS))
     keys = dict(request)
     for key in _FILES:
         if key in keys:
@@ -110,7 +110,7 @@ def to_bytes(scene: Scene) -> bytes:
 
 def save(scene: Scene, store: Store) -> None:
     """Writes what `load` reads for {"arrays": ...}."""
-    store.put(_ARRAYS, to_bytes(scene))
+    store.put(ARRAYS, to_bytes(scene))
 
 
 def _of_bytes(data: bytes, where: str) -> Scene:

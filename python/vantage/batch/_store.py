@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
-import shutil
+import re
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from .._errors import Error, input_error, make
 from .._extras import require
-from .._folders import Folder
+from .._folders import Folder, remove_all
 from .._requests import Path
 
 _PUT_IS_WHOLE = {"s3", "s3a", "gs", "gcs", "abfs", "abfss", "az", "memory"}
@@ -20,6 +21,13 @@ _PUT_IS_WHOLE = {"s3", "s3a", "gs", "gcs", "abfs", "abfss", "az", "memory"}
 
 UNFINISHED = ".unfinished-"
 """How the names of folders begin that `Store.scratch` makes."""
+
+
+_PART = re.compile(r"\..+\.vantage-\d+-\d+\.part")
+"""The names of unfinished files, as `_beside` makes them."""
+
+_WITH_PARTS = ("", "rows", "volumes")
+"""The folders in which such files are made."""
 
 
 class Store:
@@ -94,10 +102,7 @@ class Store:
             elif self.protocol in _PUT_IS_WHOLE:
                 self.files.pipe_file(self.path(name), content)
             else:
-                beside = self.path(_beside(name))
-                self.files.makedirs(beside.rsplit("/", 1)[0], exist_ok=True)
-                self.files.pipe_file(beside, content)
-                self.files.mv(beside, self.path(name))
+                self._put_beside(name, lambda beside: self.files.pipe_file(beside, content))
 
     def put_file(self, name: str, local: Path) -> None:
         """Moves a finished local file to it, whole or not at all."""
@@ -111,7 +116,10 @@ class Store:
                 _settle(os.path.dirname(target))
             return
         with self.writing(name):
-            self.files.put_file(os.fspath(local), self.path(name))
+            if self.protocol in _PUT_IS_WHOLE:
+                self.files.put_file(os.fspath(local), self.path(name))
+            else:
+                self._put_beside(name, lambda beside: self.files.put_file(os.fspath(local), beside))
 
     def scratch(self) -> Folder:
         """A local folder for files that `put_file` will move, on the same disk where the store is local; for `with`. Those
@@ -122,16 +130,25 @@ class Store:
             return Folder(UNFINISHED, self.root if self.is_local else None, removes_others=not self.is_local)
 
     def tidy(self) -> None:
-        """Removes what killed processes left unfinished. Call it while nobody else writes: with the folder's lock, and
-        before work begins or after all is done."""
+        """Removes what killed processes left unfinished, and nothing that only looks like it. Call it while nobody else
+        writes: with the folder's lock, and before work begins or after all is done."""
         if not self.is_local:
             return
-        for folder, folders, files in os.walk(self.root):
-            for name in files:
-                if name.startswith(".") and name.endswith(".part"):
-                    os.unlink(os.path.join(folder, name))
-            for name in [name for name in folders if name.startswith(UNFINISHED)]:
-                shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
+        for folder in _WITH_PARTS:
+            _remove_parts(os.path.join(self.root, folder))
+        remove_all(UNFINISHED, self.root)
+
+    def _put_beside(self, name: str, send: Callable[[str], Any]) -> None:
+        """To a name beside it, and then moved: where the connection is lost, no half of a file has its name."""
+        beside = self.path(_beside(name))
+        self.files.makedirs(beside.rsplit("/", 1)[0], exist_ok=True)
+        try:
+            send(beside)
+            self.files.mv(beside, self.path(name))
+        except BaseException:
+            with contextlib.suppress(Exception):  # what went wrong first is what counts
+                self.files.rm_file(beside)
+            raise
 
     def _put_local(self, name: str, content: bytes) -> None:
         target, beside = self.path(name), self.path(_beside(name))
@@ -194,8 +211,19 @@ def _settle(folder: str) -> None:
         os.close(opened)
 
 
+def _remove_parts(folder: str) -> None:
+    try:
+        with os.scandir(folder) as entries:
+            parts = [entry.path for entry in entries
+                     if _PART.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
+    except (FileNotFoundError, NotADirectoryError):
+        return
+    for part in parts:
+        os.unlink(part)
+
+
 def _beside(name: str) -> str:
     """A name for the unfinished file, which no other process uses."""
     folder, _, last = name.rpartition("/")
-    hidden = f".{last}.{os.getpid()}-{threading.get_ident()}.part"
+    hidden = f".{last}.vantage-{os.getpid()}-{threading.get_ident()}.part"
     return f"{folder}/{hidden}" if folder else hidden
