@@ -234,13 +234,40 @@ def test_several_targets_are_refused(scene):
 def test_bad_places(field, tmp_path):
     (tmp_path / "kept.zarr").mkdir()
     (tmp_path / "kept.zarr" / "mine").write_text("mine")
+    (tmp_path / "others.zarr").mkdir()  # a store, but not of a field
+    (tmp_path / "others.zarr" / ".zgroup").write_text('{"zarr_format": 2}')
     for name, code in (("a.txt", "output-format-unknown"), ("none/a.nc", "output-folder-missing"),
-                       ("kept.zarr", "folder-in-use")):
+                       ("kept.zarr", "folder-in-use"), ("others.zarr", "folder-in-use")):
         with pytest.raises(vt.OutputError) as raised:
             field.vantage.save(tmp_path / name)
         assert raised.value.code == code
     assert (tmp_path / "kept.zarr" / "mine").read_text() == "mine"
-    assert [one.name for one in tmp_path.iterdir()] == ["kept.zarr"]
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["kept.zarr", "others.zarr"]
+    assert (tmp_path / "others.zarr" / ".zgroup").exists()
+
+
+def test_the_older_field_stays_where_the_new_one_cannot_take_its_place(field, tmp_path, monkeypatch):
+    """Nor does it lie meanwhile where the next process removes it, if this one is killed."""
+    from vantage import _folders, fields
+
+    path = tmp_path / "field.zarr"
+    field.vantage.save(path)
+    before = {file.relative_to(path): file.read_bytes() for file in path.rglob("*") if file.is_file()}
+    whole, seen = os.replace, []
+
+    def failing(made, place):
+        if str(place) != str(path):
+            return whole(made, place)
+        _folders.remove_all(_folders.BESIDE, tmp_path)  # what is left, whoever holds it
+        seen.extend(one for one in tmp_path.rglob("fraction"))
+        raise OSError("the disk is broken")
+
+    monkeypatch.setattr(fields.os, "replace", failing)
+    with pytest.raises(vt.OutputError):
+        field.vantage.save(path)
+    assert len(seen) == 1
+    assert {file.relative_to(path): file.read_bytes() for file in path.rglob("*") if file.is_file()} == before
+    assert [one.name for one in tmp_path.iterdir()] == ["field.zarr"]
 
 
 def test_missing_extra_is_named():

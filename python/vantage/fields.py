@@ -208,9 +208,18 @@ def _written_whole(file: str, write: Callable[[str], None]) -> None:
 
 def _replace_store(made: str, file: str, folder: str) -> None:
     """A folder takes the place of an older field, and of nothing else."""
-    if os.path.lexists(file):
-        if not (os.path.isfile(os.path.join(file, "zarr.json")) or os.path.isfile(os.path.join(file, ".zgroup"))):
-            raise make("output", "folder-in-use", "another thing stands in the place of the field", file,
-                       "choose another place", None)
-        shutil.move(file, os.path.join(folder, "older"))
-    os.replace(made, file)
+    if not os.path.lexists(file):
+        os.replace(made, file)
+        return
+    if not os.path.isdir(os.path.join(file, "fraction")) or \
+            not any(os.path.isfile(os.path.join(file, name)) for name in ("zarr.json", ".zgroup")):
+        raise make("output", "folder-in-use", "another thing stands in the place of the field", file,
+                   "choose another place", None)
+    aside = folder + "-old"  # not into the folder: that goes with this process, be it killed
+    shutil.move(file, aside)
+    try:
+        os.replace(made, file)
+    except BaseException:
+        shutil.move(aside, file)
+        raise
+    shutil.move(aside, os.path.join(folder, "older"))
