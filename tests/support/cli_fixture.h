@@ -33,7 +33,7 @@ inline constexpr const char* kSensor = "sensor: {max_range: 60}\n";
 inline constexpr const char* kOldOutput = "an old volume, precious\n";
 /// What an earlier run wrote: a report that vantage did not write is never replaced.
 inline constexpr const char* kOldReport =
-    R"({"version": "0", "method": "exact", "outcome": "computed", "causes": [], "bounding_box": null, "lift_m": 0})";
+    R"({"version": "0.0.1", "method": "exact", "outcome": "computed", "causes": [], "bounding_box": null, "lift_m": 0})";
 
 inline std::string content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
