@@ -407,7 +407,9 @@ void MovedLimits::expect_same(const Volume& base, const Volume& other, const Mot
   for (int i = 0; i < 150; ++i) {
     const Vec3 p = random.in_box(one.bounds());
     const double depth = one.depth(p), depth_there = two.depth(motion.of(p)) / motion.scale;
-    if (std::abs(depth) > apart || std::abs(depth_there) > apart) EXPECT_GT(depth * depth_there, 0) << p.transpose();
+    if (std::abs(depth) > apart || std::abs(depth_there) > apart) {
+      EXPECT_GT(depth * depth_there, 0) << p.transpose();
+    }
   }
 }
 

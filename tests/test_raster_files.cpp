@@ -219,13 +219,21 @@ std::string stored_zip(const std::vector<std::pair<std::string, std::string>>& f
     directory += "PK\1\2";
     add(directory, 20, 2);
     head(directory);
-    add(directory, 0, 2), add(directory, 0, 2), add(directory, 0, 2), add(directory, 0, 4), add(directory, begin, 4);
+    add(directory, 0, 2);
+    add(directory, 0, 2);
+    add(directory, 0, 2);
+    add(directory, 0, 4);
+    add(directory, begin, 4);
     directory += name;
   }
   const std::size_t begin = archive.size();
   archive += directory + "PK\5\6";
-  add(archive, 0, 4), add(archive, files.size(), 2), add(archive, files.size(), 2);
-  add(archive, directory.size(), 4), add(archive, begin, 4), add(archive, 0, 2);
+  add(archive, 0, 4);
+  add(archive, files.size(), 2);
+  add(archive, files.size(), 2);
+  add(archive, directory.size(), 4);
+  add(archive, begin, 4);
+  add(archive, 0, 2);
   return archive;
 }
 
@@ -282,7 +290,9 @@ TEST(RasterFiles, AHeaderAloneIsNoRaster) {
   const auto extra = static_cast<std::uint32_t>(8 + 2 + 12 * tags.size() + 4);
   add(tags.size(), 2);
   for (const Tag& tag : tags) {
-    add(tag.tag, 2), add(tag.type, 2), add(tag.count, 4);
+    add(tag.tag, 2);
+    add(tag.type, 2);
+    add(tag.count, 4);
     add(tag.tag > 30000 ? extra + tag.value : tag.value, 4);
   }
   add(0, 4);
