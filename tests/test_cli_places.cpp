@@ -65,14 +65,14 @@ TEST_F(CliPlaces, NavigationMeshesFromAnotherLevelAreRefused) {
 TEST_F(CliPlaces, VolumesAreVerifiedWhereTheyLie) {
   for (const std::string mission : {"a.yaml", "b.yaml"}) {
     const ProgramRun verified = run({"verify", mission, "a.ply", "--points", "4000", "--json"});
-    const auto json = nlohmann::json::parse(verified.out);
-    EXPECT_EQ(json.at("over_claimed"), 0) << mission << json.dump();
-    EXPECT_EQ(json.at("closed"), true);
+    const auto report = nlohmann::json::parse(verified.out);
+    EXPECT_EQ(report.at("over_claimed"), 0) << mission << report.dump();
+    EXPECT_EQ(report.at("closed"), true);
     // About another origin the scene is rounded otherwise: the rays do not notice, the proof does.
-    EXPECT_EQ(json.at("right"), mission == "a.yaml") << mission << json.dump();
+    EXPECT_EQ(report.at("right"), mission == "a.yaml") << mission << report.dump();
     EXPECT_EQ(verified.exit_code, mission == "a.yaml" ? 0 : 1);
-    EXPECT_EQ(json.at("under_claimed"), 0) << mission << ": the target has two parts, and both must be seen";
-    EXPECT_GT(json.at("inside").get<int>(), 1000);
+    EXPECT_EQ(report.at("under_claimed"), 0) << mission << ": the target has two parts, and both must be seen";
+    EXPECT_GT(report.at("inside").get<int>(), 1000);
     const bool is_told = verified.err.find("a.ply lies about another origin") != std::string::npos;
     EXPECT_EQ(is_told, mission == "b.yaml") << verified.err;
   }
@@ -186,9 +186,9 @@ TEST_F(CliPlaces, AsksWhetherATinyTargetIsInDegrees) {
 TEST_F(CliPlaces, VolumesAreComparedWhereTheyLie) {
   output_of({"compute", "b.yaml", "-q", "-o", "b.obj"});
   const ProgramRun compared = run({"compare", "a.ply", "b.obj", "--json"});
-  const auto json = nlohmann::json::parse(compared.out);
-  EXPECT_LT(json.at("only_a_percent").get<double>(), 0.01);
-  EXPECT_LT(json.at("only_b_percent").get<double>(), 0.01);
+  const auto report = nlohmann::json::parse(compared.out);
+  EXPECT_LT(report.at("only_a_percent").get<double>(), 0.01);
+  EXPECT_LT(report.at("only_b_percent").get<double>(), 0.01);
   testing::expect_wording(compared.err);
 
   // What is written of the difference lies in the frame of the first, and says so.

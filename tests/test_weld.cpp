@@ -162,7 +162,9 @@ TEST(MendWelded, WhatTouchesStaysClosedByIndex) {
       EXPECT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
       EXPECT_EQ(labelled.labels.size(), mesh.triangles.size());
       EXPECT_NEAR(enclosed_volume(mesh), before.volume_m3, 1e-6);
-      if (round % 2) EXPECT_EQ(measure(mesh).pieces, before.pieces);
+      if (round % 2) {
+        EXPECT_EQ(measure(mesh).pieces, before.pieces);
+      }
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
@@ -18,10 +19,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// While one lives, signals that ask to end wait: for a step too short to be stopped. Where another thread takes them,
+/// as Python's may, it changes nothing.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t held;
+    ::sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held, signal);
+    ::pthread_sigmask(SIG_BLOCK, &held, &old_);
+  }
+  ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &old_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t old_{};
+};
+
 /// Asks the file system itself: permissions alone do not tell of a read-only disk, a quota or a network share. By a
 /// file with a name, as the output will have one: some folders take files without a name, and no others.
 void try_to_make_a_file_beside(const fs::path& file) {
   using internal::core::TemporaryFile;
+  const HeldSignals held;  // whoever is ended here leaves no trial behind
   try {
     const TemporaryFile trial(file, TemporaryFile::Names::from_the_start);
   } catch (const std::system_error& error) {
