@@ -169,6 +169,12 @@ TEST_F(GroundTargetTest, OutlinesThatAreNoneAreRefused) {
   expect_refused("target: {outline: [[50, 0], [60, 0], [60, 9]], vertices: [[50, 0, 0], [60, 0, 0], [60, 9, 0]]}\n",
                  ErrorCode::conflicting_keys);
   expect_refused("target: {vertices: [[50, 0, 0], [60, 0, 0], [60, 9, 0]], holes: []}\n", ErrorCode::not_applicable);
+  // The unit of a coordinate is that of its system.
+  for (const std::string corner : {"[60 ft, 9]", "[60, 9 m]", "[60, 9, 1 ft]"}) {
+    expect_refused("target: {outline: [[50, 0], [60, 0], " + corner + "]}\n", ErrorCode::value_syntax);
+    expect_refused("target: {outline: [[0, 0], [90, 0], [90, 90]], holes: [[[60, 2], " + corner + ", [70, 9]]]}\n",
+                   ErrorCode::value_syntax);
+  }
 }
 
 TEST_F(GroundTargetTest, FarAwayIsMostLikelyTheWrongOrder) {

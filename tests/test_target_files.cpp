@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -288,6 +289,18 @@ TEST_F(TargetFiles, KmlSaysFromWhereItsHeightsAre) {
   refuse("file: sea.kml", ErrorCode::heights_differ, "sea.kml");
   const Mission sea = placed("file: sea.kml", ", sea_level: -500");
   EXPECT_EQ(heights(sea.target), std::pair(30.0, 30.0));
+  // Of two polygons one is on the ground, and the other one above it.
+  const auto polygon = [](const std::string& how) {
+    const std::string mark = placemark("", mode(how), raised(kSquare, 5));
+    const std::size_t begin = mark.find("<Polygon>");
+    return mark.substr(begin, mark.find("</Placemark>") - begin);
+  };
+  for (const bool is_ground_first : {true, false}) {
+    const std::string one = polygon("clampToGround"), other = polygon("relativeToGround");
+    write("mixed.kml", kml("<Placemark><name>decks</name><MultiGeometry>" +
+                           (is_ground_first ? one + other : other + one) + "</MultiGeometry></Placemark>"));
+    refuse("file: mixed.kml", ErrorCode::target_not_planar, "mixed.kml");
+  }
 }
 
 TEST_F(TargetFiles, KmzIsUnpacked) {
@@ -370,6 +383,8 @@ TEST_F(TargetFiles, WhatIsNoTargetIsRefused) {
   write("a.geojson", feature(json_ring(kSquare)));
   refuse("file: a.geojson, center: [48, 11]", ErrorCode::conflicting_keys, "mission.yaml:3:");
   refuse("feature: a, point: [0, 0, 30]", ErrorCode::missing_key, "mission.yaml:3:");
+  write("swapped.geojson", feature("[[48.1374, 11.5755], [48.1376, 11.5755], [48.1376, 11.5757], [48.1374, 11.5755]]"));
+  refuse("file: swapped.geojson", ErrorCode::too_far_away, "swapped.geojson");
   write("half.geojson",
         feature("[" + json_ring(kSquare) + "], [" + json_ring(raised(kBent, 30)) + "]", "{}", "MultiPolygon"));
   refuse("file: half.geojson", ErrorCode::wrong_type, "half.geojson");
@@ -400,6 +415,19 @@ TEST_F(TargetFiles, OutlinesMayHaveHeights) {
   refuse("outline: [[30, 0, 30], [50, 0, 30], [50, 20]]", ErrorCode::wrong_type, "mission.yaml:3:");
   refuse("outline: [[30, 0, 30], [50, 0, 30], [50, 20, 32], [40, 5, 30]]", ErrorCode::target_not_planar,
          "mission.yaml:3:");
+}
+
+TEST_F(TargetFiles, OutlinesThatAreCutMayNotBeNearlyUpright) {
+  const auto leaning = [](double slope, bool is_convex) {
+    std::ostringstream text;
+    text << "outline: [[30, 0, 30], [31, 0, " << 30 + slope << "], [31, 20, " << 30 + slope << "], ";
+    if (!is_convex) text << "[30.5, 5, " << 30 + slope / 2 << "], ";
+    text << "[30, 20, 30]]";
+    return text.str();
+  };
+  EXPECT_EQ(placed(leaning(30, true)).target.parts.size(), 1u);
+  EXPECT_GT(placed(leaning(7, false)).target.parts.size(), 1u);
+  refuse(leaning(30, false), ErrorCode::target_not_planar, "mission.yaml:3:");
 }
 
 TEST_F(TargetFiles, NoOutlineIsLeftOutUnsaid) {

@@ -208,22 +208,40 @@ void place_sun(Mission& mission) {
   mission.sensor.sun->direction = direction;
 }
 
-void check_near(const std::string& where, const std::vector<Vec3>& places, const CrsConverter& converter) {
-  for (const Vec3& place : places) {
-    const double distance = place.head<2>().norm();
-    if (distance <= geo::kFarthestM) continue;
-    throw Error(ErrorCode::too_far_away,
-                "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-                where, converter.order_advice());
+/// Positions of the mission, as given and in the frame.
+class PlacedPositions {
+ public:
+  explicit PlacedPositions(const CrsConverter& converter) : converter_(converter) {}
+
+  Vec3 operator()(const Vec3& position) {
+    given_.emplace_back(position.head<2>());
+    placed_.push_back(converter_(position));
+    return placed_.back();
   }
-}
+
+  void check_near(const std::string& where) const {
+    for (const Vec3& place : placed_) {
+      const double distance = place.head<2>().norm();
+      if (distance <= geo::kFarthestM) continue;
+      throw Error(ErrorCode::too_far_away,
+                  "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin" +
+                      converter_.order_remark(given_),
+                  where, converter_.order_advice());
+    }
+  }
+
+ private:
+  const CrsConverter& converter_;
+  std::vector<Vec2> given_;
+  std::vector<Vec3> placed_;
+};
 
 /// The positions that the mission gives in its own coordinate reference system.
 void convert_positions(const CrsConverter& converter, MissionTarget& given) {
-  std::vector<Vec3> nearest, corners;
+  PlacedPositions vertices(converter), nearest(converter), corners(converter);
   with_place(given.place, [&] {
     for (std::vector<Vec3>& part : given.target.parts) {
-      for (Vec3& vertex : part) vertex = converter(vertex);
+      for (Vec3& vertex : part) vertex = vertices(vertex);
     }
     if (auto& ground = given.ground_target) {
       for (TargetOutline& outline : ground->outlines) {
@@ -231,9 +249,9 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
         const auto convert = [&](Zone::Ring& ring) {
           for (Vec2& corner : ring) {
             const bool has_z = number < outline.z_m.size();
-            corners.push_back(converter({corner.x(), corner.y(), has_z ? outline.z_m[number] : 0}));
-            corner = corners.back().head<2>();
-            if (has_z) outline.z_m[number] = corners.back().z();
+            const Vec3 placed = corners({corner.x(), corner.y(), has_z ? outline.z_m[number] : 0});
+            corner = placed.head<2>();
+            if (has_z) outline.z_m[number] = placed.z();
             ++number;
           }
         };
@@ -241,14 +259,10 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
         for (Zone::Ring& hole : outline.holes) convert(hole);
       }
     }
-    if (auto& faces = given.face_target; faces && faces->nearest) {
-      nearest.push_back(*(faces->nearest = converter(*faces->nearest)));
-    }
+    if (auto& faces = given.face_target; faces && faces->nearest) faces->nearest = nearest(*faces->nearest);
     return 0;
   });
-  check_near(given.place, given.target.parts.at(0), converter);
-  check_near(given.place, nearest, converter);
-  check_near(given.place, corners, converter);
+  for (const PlacedPositions* positions : {&vertices, &nearest, &corners}) positions->check_near(given.place);
 }
 
 std::vector<MissionTarget> given_targets(const MissionFile& file) {

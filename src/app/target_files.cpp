@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -37,9 +38,13 @@ class FeatureOfFile {
                          const std::string& fix) const {
     fail_in_zones(code, from_.file, place, problem, fix);
   }
+  [[noreturn]] void fail_for_unlike_heights(const std::string& place) const {
+    fail(ErrorCode::target_not_planar, place, "its corners have different heights above the ground",
+         "give all of them one height, or heights above the sea level ('absolute')");
+  }
   const std::vector<ListedZone>& chosen(const Features& features) const;
   Zone::Ring in_frame(const Zone::Ring& ring, const std::string& place) const;
-  void add_heights(const ListedZone& listed, TargetOutline& outline, GroundTarget& target) const;
+  std::optional<double> add_heights(const ListedZone& listed, TargetOutline& outline) const;
 
   const Mission& mission_;
   const TargetFile& from_;
@@ -103,22 +108,27 @@ std::vector<ListedZone> FeatureOfFile::polygons(ZoneList list) const {
 
 Zone::Ring FeatureOfFile::in_frame(const Zone::Ring& ring, const std::string& place) const {
   Zone::Ring placed;
+  double farthest_m = 0;
   for (const Eigen::Vector2d& corner : ring) {
     placed.push_back(frame_.to_local({corner.x(), corner.y()}));
-    const double distance = placed.back().norm();
-    if (distance <= geo::kFarthestM) continue;
-    fail(ErrorCode::too_far_away, place,
-         "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-         "check the file: is it of another place, or are longitude and latitude swapped?");
+    farthest_m = std::max(farthest_m, placed.back().norm());
   }
-  return placed;
+  if (farthest_m <= geo::kFarthestM) return placed;
+  const bool is_swapped = std::all_of(ring.begin(), ring.end(), [this](const Eigen::Vector2d& corner) {
+    return std::abs(corner.x()) <= 90 && frame_.to_local({corner.y(), corner.x()}).norm() <= geo::kFarthestM;
+  });
+  fail(ErrorCode::too_far_away, place,
+       "the target lies " + std::to_string(std::lround(farthest_m / 1000)) + " km from the scene's origin" +
+           (is_swapped ? "; longitude and latitude seem to be swapped" : ""),
+       is_swapped ? "write the longitude before the latitude" : "check the file: is it of another place?");
 }
 
-void FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline, GroundTarget& target) const {
+/// Of heights above the ground: the one that all corners have.
+std::optional<double> FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline) const {
   const std::size_t count = listed.corner_z_m.size();
   const auto without = static_cast<std::size_t>(
       std::count_if(listed.corner_z_m.begin(), listed.corner_z_m.end(), [](double z) { return std::isnan(z); }));
-  if (without == count) return;
+  if (without == count) return std::nullopt;
   if (without > 0) {
     fail(ErrorCode::wrong_type, listed.place,
          std::to_string(without) + " of its " + std::to_string(count) + " corners have no height, and others have one",
@@ -126,13 +136,8 @@ void FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline
   }
   if (listed.corners_from == HeightReference::ground) {
     const auto [low, high] = std::minmax_element(listed.corner_z_m.begin(), listed.corner_z_m.end());
-    const bool is_first = target.outlines.empty();
-    if (*low != *high || (!is_first && target.above_ground_m != *low)) {
-      fail(ErrorCode::target_not_planar, listed.place, "its corners have different heights above the ground",
-           "give all of them one height, or heights above the sea level ('absolute')");
-    }
-    target.above_ground_m = *low;
-    return;
+    if (*low != *high) fail_for_unlike_heights(listed.place);
+    return *low;
   }
   double shift = 0;
   if (listed.corners_from == HeightReference::sea_level) {
@@ -145,6 +150,7 @@ void FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline
     shift = *sea;
   }
   for (const double z : listed.corner_z_m) outline.z_m.push_back(z + shift);
+  return std::nullopt;
 }
 
 GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) const {
@@ -158,7 +164,10 @@ GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) cons
     if (const auto fault = core::fault_of(area)) {
       fail(fault->code, listed.place, fault->problem, advice_for_outline(*fault, listed.corner_z_m));
     }
-    add_heights(listed, outline, target);
+    // One on the ground is no metre above it, and not where the others are.
+    const double above_ground_m = add_heights(listed, outline).value_or(0);
+    if (!target.outlines.empty() && above_ground_m != target.above_ground_m) fail_for_unlike_heights(listed.place);
+    target.above_ground_m = above_ground_m;
     target.outlines.push_back(std::move(outline));
   }
   const auto has_heights = [](const TargetOutline& one) { return !one.z_m.empty(); };

@@ -208,8 +208,8 @@ TargetParser::Corners TargetParser::corners(const YamlNode& node, const std::str
       fail(ErrorCode::wrong_type, corner, name + " must be two numbers, or three, not " + describe(corner),
            kOutlineForm);
     }
-    result.ring.emplace_back(length(corner.items[0], name + ".x"), length(corner.items[1], name + ".y"));
-    if (count == 3) result.z_m.push_back(length(corner.items[2], name + ".z"));
+    result.ring.emplace_back(coordinate(corner.items[0], name + ".x"), coordinate(corner.items[1], name + ".y"));
+    if (count == 3) result.z_m.push_back(coordinate(corner.items[2], name + ".z"));
   }
   if (!result.z_m.empty() && result.z_m.size() < result.ring.size()) {
     fail(ErrorCode::wrong_type, node, what + " has corners with a z and corners without", kOutlineForm);

@@ -33,8 +33,9 @@ class ValueReader {
   double length(const YamlNode& node, const std::string& what) const;
   double positive_length(const YamlNode& node, const std::string& what) const;  ///< above 0
   double angle(const YamlNode& node, const std::string& what) const;            ///< degrees, with a unit or without
-  /// Three coordinates, which take no unit: a reference system may say what it is. `form` is what to write instead,
-  /// where the node is none.
+  /// Takes no unit: a reference system may say what it is.
+  double coordinate(const YamlNode& node, const std::string& what) const;
+  /// Three coordinates. `form` is what to write instead, where the node is none.
   Vec3 vector(const YamlNode& node, const std::string& what,
               const char* form = "write three numbers in brackets, in metres, z up: [x, y, z]") const;
   /// The corners of a polygon: two coordinates each.
@@ -51,7 +52,6 @@ class ValueReader {
   using Parse = ParsedNumber (*)(std::string_view);
   using Advice = std::string (*)(std::string_view, NumberFault);
   double parsed(const YamlNode& node, const std::string& what, Parse parse, Advice advice) const;
-  double coordinate(const YamlNode& node, const std::string& what) const;
   double checked(double value, const YamlNode& node, const std::string& what) const;
   double above_zero(double value, const YamlNode& node, const std::string& what) const;
 

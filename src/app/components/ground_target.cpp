@@ -33,7 +33,7 @@ using city::Vec2;
 Mesh ground_mesh(const Scene& scene, std::uint32_t ground) {
   Mesh mesh;
   std::vector<std::uint32_t> renamed(scene.mesh.vertices.size(), UINT32_MAX);
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < scene.object_of.size(); ++i) {
     if (scene.object_of[i] != ground) continue;
     Triangle triangle = scene.mesh.triangles[i];
     for (std::uint32_t& vertex : triangle) {
@@ -234,6 +234,13 @@ void put_at_heights(Mission& mission, const std::vector<TargetOutline>& outlines
     if (auto part = as_one_part(outline)) {
       mission.target.parts.push_back(std::move(*part));
       continue;
+    }
+    // What is cut in plan is rounded there to 0.12 mm: along a steeper plane that is more than a millimetre.
+    constexpr double kSteepest = 8;
+    if (plane.slope.norm() > kSteepest) {
+      throw Error(ErrorCode::target_not_planar,
+                  "the target's outline is not convex and nearly upright, steeper than " + shortest(kSteepest) + " to 1",
+                  mission.as_written.places.target, std::string("for a wall, ") + kUprightAdvice);
     }
     for (const city::ConvexArea& area : city::convex_areas(drawn({outline}), city::Outlines::rough)) {
       for (const city::Ring& piece : area.pieces) {
