@@ -1,7 +1,9 @@
 // vantage inspect --objects: the names of objects, and what a mission writes for them.
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
+#include "vantage/mission.h"
 #include "vantage/objects.h"
+#include "vantage/result.h"
 
 namespace vantage::testing {
 namespace {
@@ -93,6 +95,18 @@ TEST(ListedObjects, WallsHaveFacadesAndTreesAreNoTargets) {
   std::vector<std::string> missions;
   for (const ListedObject& one : list_objects(loaded)) missions.push_back(one.mission);
   EXPECT_EQ(missions, expected);
+}
+
+TEST(ListedObjects, ASceneMayHaveNone) {
+  LoadedScene loaded;
+  loaded.scene.mesh.vertices = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
+  loaded.scene.mesh.triangles = {{0, 1, 2}};
+  EXPECT_TRUE(list_objects(loaded).empty());
+  Mission mission;
+  mission.target.parts = {{{2, 2, 1}, {3, 2, 1}, {3, 3, 1}}};
+  mission.sensor.max_range_m = 20;
+  mission.loaded = std::make_shared<const LoadedScene>(loaded);
+  EXPECT_EQ(run_mission(mission, {}).volume.outcome, Outcome::computed);
 }
 
 TEST_F(CliObjects, TheSceneMayStandBehindTheOption) {

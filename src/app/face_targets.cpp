@@ -141,7 +141,7 @@ Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, co
   const Vec2 at = frame.to_local({at_deg[1], at_deg[0]});
   std::optional<std::uint32_t> highest, nearest;
   double top = -INFINITY, least = INFINITY;
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < scene.object_of.size(); ++i) {
     const std::uint32_t object = scene.object_of[i];
     if (is_ground(scene.objects[object])) continue;
     const auto height = height_at(scene, scene.mesh.triangles[i], at);

@@ -21,7 +21,7 @@ struct GroundExtent {
   /// Of a scene with a ground.
   explicit GroundExtent(const Scene& scene) {
     const std::uint32_t ground = *ground_object(scene);
-    for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    for (std::size_t i = 0; i < scene.object_of.size(); ++i) {
       if (scene.object_of[i] != ground) continue;
       vertices.insert(vertices.end(), scene.mesh.triangles[i].begin(), scene.mesh.triangles[i].end());
     }

@@ -87,6 +87,7 @@ std::string mission_of(const LoadedScene& loaded, const SceneObject& object) {
 
 std::vector<ListedObject> list_objects(const LoadedScene& loaded, const std::string& text) {
   const Scene& scene = loaded.scene;
+  if (scene.object_of.empty()) return {};  // a scene may have no objects
   std::vector<ListedObject> all(scene.objects.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     all[i].index = i;

@@ -26,9 +26,20 @@ struct ProvedView {
   std::optional<double> other_side_m = {};
 };
 
-/// Whether two targets are the sides of one, and how far their planes are apart.
+bool have_same_corners(std::vector<Vec3> a, std::vector<Vec3> b) {
+  const auto is_before = [](const Vec3& p, const Vec3& q) {
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  };
+  std::sort(a.begin(), a.end(), is_before);
+  std::sort(b.begin(), b.end(), is_before);
+  return a == b;
+}
+
+/// Whether two targets are the sides of one, and how far their planes are apart. Others may lie in one plane and face
+/// opposite ways: a position in that plane may then see one only, whichever it is.
 std::optional<double> two_sides(const std::vector<Target>& list) {
   if (list.size() != 2 || list[0].parts.size() != 1 || list[1].parts.size() != 1) return std::nullopt;
+  if (!have_same_corners(list[0].parts[0], list[1].parts[0])) return std::nullopt;
   const TargetFrame a = make_target_frame(list[0]), b = make_target_frame(list[1]);
   // Normals of the same corners, run the other way: the same but for their last digits. What leans away by more leaves
   // a wedge between the two planes, in which anything may hide.

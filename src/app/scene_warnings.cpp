@@ -218,6 +218,7 @@ struct Crossed {
 std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at) {
   constexpr double kOnGround = 1e-3;  // metres: so far apart may a floor and the ground below it be
   const Scene& scene = loaded.scene;
+  if (scene.object_of.empty()) return std::nullopt;  // a scene may have no objects
   std::map<std::uint32_t, Crossed> objects;
   const auto is_in_plan = [&](const Box& box) {
     return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
