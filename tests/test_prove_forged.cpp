@@ -107,15 +107,15 @@ TEST(ProveForged, ASunInsideTheViewIsNotProved) {
   EXPECT_NE(verdict_of(prove_volume(scene, facade, sensor, {}, both), "sun"), ProofVerdict::proved);
 }
 
-/// A box that keeps a limit, and a lobe at one of its vertices, turned inside out, that reaches down to where the limit
-/// is broken: the mesh winds round it -1 times, and its sides face the other way.
+/// A box that keeps a limit, and a lobe at one of its vertices, turned inside out, that reaches to where the limit is
+/// broken: the mesh winds round it -1 times, and its sides face the other way.
 struct Lobed {
   Scene scene = SceneBuilder().ground("ground", 60);
   Mesh box = make_box_mesh({-3, -3, 12}, {3, 3, 16}), lobed = box;
 
-  explicit Lobed(bool is_inside_out = true) {
+  explicit Lobed(bool is_inside_out = true, const Vec3& far_end = {0, 0, 3}) {
     const auto first = static_cast<std::uint32_t>(lobed.vertices.size());
-    lobed.vertices.insert(lobed.vertices.end(), {Vec3(0, 0, 3), Vec3(-1, 2, 13), Vec3(1, -2, 13)});
+    lobed.vertices.insert(lobed.vertices.end(), {far_end, Vec3(-1, 2, 13), Vec3(1, -2, 13)});
     const std::uint32_t shared = 3;  // of the box, at (3, 3, 12)
     const std::uint32_t tip = first, left = first + 1, right = first + 2;
     std::vector<Triangle> lobe = {{tip, left, right}, {tip, right, shared}, {tip, shared, left}, {shared, right, left}};
@@ -127,7 +127,9 @@ struct Lobed {
   }
   ProofVerdict of(const std::string& claim, const Mesh& mesh, const Sensor& sensor,
                   const Navigation& navigation) const {
-    return verdict_of(prove_volume(scene, low_square(), sensor, navigation, mesh), claim);
+    Target target = low_square();
+    target.front = Vec3(0, 0, 1);
+    return verdict_of(prove_volume(scene, target, sensor, navigation, mesh), claim);
   }
 };
 
@@ -178,6 +180,29 @@ TEST(ProveForged, NoLimitIsProvedOfALobeThatIsInsideOut) {
     navigation = {};
     navigation.clearance = Clearance{8, std::make_shared<const Mesh>(world.scene.mesh)};
     check("clearance", plain, navigation);
+  }
+}
+
+TEST(ProveForged, NorWhereTheLobeReachesUpOrThroughTheGround) {
+  for (const bool is_inside_out : {true, false}) {
+    const auto check = [&](const std::string& claim, const Sensor& sensor, const Vec3& far_end) {
+      const Lobed world(is_inside_out, far_end);
+      EXPECT_EQ(world.of(claim, world.box, sensor, {}), ProofVerdict::proved) << claim;
+      EXPECT_NE(world.of(claim, world.lobed, sensor, {}), ProofVerdict::proved) << claim << is_inside_out;
+    };
+    const Vec3 above(0, 0, 40), below(0, 0, -20);
+    const Sensor plain{.max_range_m = 50};
+    Sensor sensor{.max_range_m = 20};
+    check("range", sensor, above);
+    sensor = plain;
+    sensor.camera = pinhole_of_fov(170, 170, 4000, 4000);
+    sensor.mount = {.yaw_deg = 0, .min_pitch_deg = -90, .max_pitch_deg = -90};
+    sensor.pixel = PixelLimit{40 / *sensor.camera->focal_px};
+    check("pixel", sensor, above);
+    sensor = plain;
+    sensor.sun = SunLimit{Vec3(0, 0, 1), 30};
+    check("sun", sensor, below);
+    check("front", plain, below);
   }
 }
 

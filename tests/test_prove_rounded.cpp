@@ -14,11 +14,13 @@
 #include <vector>
 
 #include "prove/shallow.h"
+#include "prove/sight.h"
 #include "prove/view.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
+#include "vantage/error.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
@@ -265,6 +267,54 @@ TEST(ProveRounded, SeveralTargetsTellTheirLayersAndLifts) {
     EXPECT_EQ(report.lift_of_part_m.size(), 2U);
     EXPECT_EQ(report.lift_m, one.lift_m);
   }
+}
+
+/// Targets in one plane that face opposite ways are not the two sides of one: in that plane a position sees one of
+/// them only.
+TEST(ProveRounded, OfTargetsInOnePlaneIsNoSideOfTheOther) {
+  Walled yard;
+  Mission mission;
+  auto loaded = std::make_shared<LoadedScene>();
+  loaded->scene = yard.scene;
+  mission.loaded = loaded;
+  mission.sensor.max_range_m = 90;
+  Target up = testing::target_of({{-9, -1, 2}, {-7, -1, 2}, {-7, 1, 2}, {-9, 1, 2}}), down = up, beside = up;
+  std::reverse(down.parts[0].begin(), down.parts[0].end());
+  up.front_by_order = down.front_by_order = true;
+  mission.views = {{up, down}};
+  check_provable(mission);
+  for (Vec3& corner : down.parts[0]) corner.x() += 3;
+  mission.views = {{up, down}};
+  EXPECT_THROW(check_provable(mission), Error);
+}
+
+/// Of a facet that is open for many pieces no more are listed than are looked at.
+TEST(ProveRounded, ManyOpenPiecesAreNotAllListed) {
+  Mesh flaps;
+  testing::SceneBuilder city;
+  for (int i = 0; i < 40; ++i) {
+    const double x = 10 + 0.1 * i;
+    city.polygon("sheet " + std::to_string(i), {{x, -9, 0.5}, {x, 9, 0.5}, {x, 9, 20}, {x, -9, 20}});
+    const auto first = static_cast<std::uint32_t>(flaps.vertices.size());
+    for (const Vec3& corner : {Vec3(20 + x, -1, 5), Vec3(20 + x, 1, 5), Vec3(20 + x, 0, 7)})
+      flaps.vertices.push_back(corner);
+    flaps.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Scene scene = city;
+  const Target target = testing::target_of({{0, -2, 0.1}, {2, -2, 0.1}, {2, 2, 0.1}, {0, 2, 0.1}});
+  const auto view = internal::prove::make_view(target, 0, 0);
+  std::vector<Vec3> vertices;
+  for (const Vec3& vertex : flaps.vertices) vertices.push_back(vertex - view.origin);
+  const auto tree = internal::prove::obstacles_in_front(scene, view, Box{Vec3::Constant(-500), Vec3::Constant(500)});
+  const auto told = [&](std::size_t most) {
+    return internal::prove::prove_sight(vertices, flaps.triangles, view, scene, tree, {.most_pieces = most}, {})
+        .open.size();
+  };
+  const std::size_t all = told(1'000'000);
+  ASSERT_EQ(all, 40U * 40);
+  EXPECT_EQ(told(all), all);
+  EXPECT_GT(told(100), 100U);
+  EXPECT_LE(told(100), 110U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <span>
 
@@ -42,7 +43,7 @@ class SightProver {
         scene_(scene),
         obstacles_(obstacles),
         is_recorded_(telling.is_recorded),
-        tells_all_(telling.tells_all),
+        most_pieces_(telling.most_pieces),
         patches_(make_patches(vertices, facets)) {
     Box box = obstacles.nodes.front().box;
     for (const Vec3& vertex : vertices) box.extend(vertex);
@@ -93,7 +94,9 @@ class SightProver {
   const View& view_;
   const Scene& scene_;
   const SceneTree& obstacles_;
-  bool is_recorded_, tells_all_;
+  bool is_recorded_;
+  std::size_t most_pieces_;
+  mutable std::atomic<std::size_t> pieces_{0};  ///< that were told
   Patches patches_;
   double largest_ = 0;
 };
@@ -193,6 +196,7 @@ bool SightProver::is_separated(const Patch& patch, const PointHull& hull, std::u
 /// taken apart instead.
 void SightProver::prove(std::uint32_t index, const Items& items, Found& found) const {
   const Patch& patch = patches_.tree[index];
+  if (most_pieces_ != 0 && pieces_ > most_pieces_) return;
   const bool is_single = patch.second == 0;
   const PointHull hull = hull_of(patch);
   Known known;
@@ -208,7 +212,8 @@ void SightProver::prove(std::uint32_t index, const Items& items, Found& found) c
       continue;
     } else if (is_piece && is_single) {
       found.open.push_back({patches_.order[patch.begin], item & ~kPiece});
-      if (is_recorded_ || (++met == kMostMet && !tells_all_)) return;
+      if (is_recorded_ || (++met == kMostMet && most_pieces_ == 0)) return;
+      if (most_pieces_ != 0 && ++pieces_ > most_pieces_) return;
     } else if (is_piece || (!is_single && is_narrow(item, patch))) {
       left.push_back(item);
       record(found, kLeave);

@@ -27,7 +27,8 @@ struct SightProof {
 /// What a proof of sight tells besides. To be recorded, the tree must be that of all_obstacles_in_front.
 struct SightTelling {
   bool is_recorded = false;
-  bool tells_all = false;  ///< all of the pieces that a facet is open for
+  /// Not 0: all of the pieces that a facet is open for, until it is more than so many in all; then some of them.
+  std::size_t most_pieces = 0;
 };
 
 /// `vertices`, `facets`: of the shrunk volume, about View::origin; the facets whose plane does not hold that. The hull
