@@ -130,7 +130,7 @@ TEST_F(CliSpheres, WritesItsStages) {
   EXPECT_EQ(static_cast<std::size_t>(count()), files);
 
   // Again, with fewer: nothing of the old ones stays, and nothing beside the folder either.
-  write("stages/999_sphere_999.ply", "old");
+  fs::copy_file(folder_ / "stages" / "000_sphere_0.ply", folder_ / "stages" / "999_sphere_999.ply");
   output_of({"compute", "mission.yaml", "--method", "spheres", "-q", "-o", "volume.ply", "--stages", "stages"});
   EXPECT_EQ(static_cast<std::size_t>(count()), files);
   for (const auto& entry : fs::directory_iterator(folder_))
@@ -161,8 +161,14 @@ TEST_F(CliSpheres, LeavesOtherFoldersAlone) {
   expect_bad(with("kept"), "kept");
   write("scans/001_scan.ply", "mine");
   expect_bad(with("scans"), "scans");
+  // Nor is what has such a name, be it beside what --stages wrote.
+  write("named/stages.json", "{}");
+  expect_bad(with("named"), "named");
+  output_of(with("stages"));
+  write("stages/001_scan.ply", "mine");
+  expect_bad(with("stages"), "stages");
+  fs::remove(folder_ / "stages" / "001_scan.ply");
   // A run that fails leaves the older stages, and no traces.
-  write("stages/stages.json", "{}");
   write("mission.yaml",
         std::string(testing::kScene) + testing::kSensor +
             "target: {vertices: [[22, -3, 5], [28, -3, 5], [25, 3, 15]]}\nspheres: {device: cpu, cubemap: 4}\n");

@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/point_json.h"
 #include "core/format.h"
@@ -17,6 +18,7 @@
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
+#include "vantage/output.h"
 #include "vantage/result.h"
 #include "vantage/stages.h"
 #include "vantage/temporary_folder.h"
@@ -126,14 +128,17 @@ void StageFolder::check_replaceable() const {
   std::error_code error;
   fs::directory_iterator entry(folder_, error);
   if (error) fail("the folder of the stages cannot be read", error.value());
-  bool is_empty = true, has_story = false;
+  std::vector<fs::path> files;
+  bool has_story = false;
   for (; entry != fs::directory_iterator(); entry.increment(error)) {
     if (!is_stage_file(*entry)) refuse(entry->path().filename().string());
-    is_empty = false;
-    has_story |= entry->path().filename() == kStory;
+    files.push_back(entry->path());
+    has_story |= files.back().filename() == kStory;
   }
   if (error) fail("the folder of the stages cannot be read", error.value());
-  if (!is_empty && !has_story) refuse(std::string("no ") + kStory);
+  if (!files.empty() && !has_story) refuse(std::string("no ") + kStory);
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) check_derived_output(file);  // others' files may have such names
 }
 
 StageSink StageFolder::sink() {

@@ -34,7 +34,7 @@ bool has_version(const nlohmann::json& object) {
   return object["version"].is_string() && core::is_version(object["version"].get<std::string>());
 }
 
-/// A report of a volume or of a scene, or what lies beside an STL.
+/// A report of a volume or of a scene, the story of stages, or what lies beside an STL.
 bool is_own_json(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -43,6 +43,7 @@ bool is_own_json(const std::filesystem::path& file) {
   if (!json.is_object()) return false;
   if (json.contains("vantage")) return json["vantage"].is_object() && json["vantage"].contains("georeference");
   if (has_all(json, {"version", "method", "outcome", "causes", "bounding_box"})) return has_version(json);
+  if (has_all(json, {"version", "mission", "outcome", "run", "stages"})) return has_version(json);
   return has_all(json, {"source", "triangles", "objects", "bounds", "notes"});
 }
 

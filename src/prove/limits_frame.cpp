@@ -267,6 +267,7 @@ ClaimProof prove_frame(const LimitedVolume& volume, const Sensor& sensor, const 
   if (!is_outside || !*is_outside) return not_proved("frame", "the volume reaches the middle of the target");
   double farthest = 0;
   for (const Vec3& vertex : volume.vertices()) farthest = std::max(farthest, (vertex - picture.middle()).norm());
+  constexpr std::size_t kMostOpen = 100;  // these take longest, and one is enough not to prove it
   const auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& facet, FacetFinding& finding) {
         // The way to c does not leave along a facet's plane, but for a few that have neighbours which do not.
@@ -276,7 +277,7 @@ ClaimProof prove_frame(const LimitedVolume& volume, const Sensor& sensor, const 
         const double allowed = std::min(volume.tolerance_of(facet), volume.tolerance_m() * distance / farthest);
         finding.is_open = !FacetServer(picture, allowed).serves(facet);
       },
-      progress);
+      progress, kMostOpen);
   ClaimProof claim = volume.judged(
       "frame", findings, "for each facet an orientation of the mount was found that serves all of it", "the picture");
   if (claim.verdict == ProofVerdict::proved) return claim;
