@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/grounds.h"
 #include "support/random.h"
 #include "support/shared_data.h"
 #include "support/solids.h"
@@ -27,86 +28,22 @@
 namespace vantage {
 namespace {
 
+using testing::above;
 using testing::first_open_edge;
+using testing::GroundCase;
+using testing::Heights;
+using testing::heights_at;
 using testing::holds;
+using testing::kGroundCases;
 using testing::make_hemisphere;
+using testing::make_hills;
 using testing::Random;
-
-/// Hills over [-extent, extent]^2: a grid with its posts moved aside, two triangles for each cell.
-Mesh make_hills(Random& random, double extent, double height, int cells, const Vec3& origin) {
-  Mesh mesh;
-  const double cell = 2 * extent / cells;
-  for (int row = 0; row <= cells; ++row) {
-    for (int column = 0; column <= cells; ++column) {
-      const bool is_inside = row > 0 && column > 0 && row < cells && column < cells;
-      const double aside = is_inside ? random.uniform(-0.3, 0.3) * cell : 0;
-      const double along = is_inside ? random.uniform(-0.3, 0.3) * cell : 0;
-      mesh.vertices.push_back(
-          origin + Vec3(column * cell - extent + aside, row * cell - extent + along, random.uniform(-height, height)));
-    }
-  }
-  const auto post = [&](int row, int column) { return static_cast<std::uint32_t>(row * (cells + 1) + column); };
-  for (int row = 0; row < cells; ++row) {
-    for (int column = 0; column < cells; ++column) {
-      mesh.triangles.push_back({post(row, column), post(row, column + 1), post(row + 1, column + 1)});
-      // Soups have triangles of either turn.
-      const bool faces_up = random.chance(0.5);
-      const Triangle other{post(row, column), post(row + 1, column + 1), post(row + 1, column)};
-      mesh.triangles.push_back(faces_up ? other : Triangle{other[0], other[2], other[1]});
-    }
-  }
-  return mesh;
-}
-
-struct Heights {
-  bool any = false;
-  double lowest = INFINITY, highest = -INFINITY;
-};
-
-/// Of all triangles that a vertical line meets, in long double.
-Heights heights_at(const Mesh& mesh, const Vec3& p) {
-  Heights heights;
-  for (const Triangle& t : mesh.triangles) {
-    long double weight[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &a = mesh.vertices[t[(k + 1) % 3]], &b = mesh.vertices[t[(k + 2) % 3]];
-      weight[k] = (static_cast<long double>(b.x()) - a.x()) * (static_cast<long double>(p.y()) - a.y()) -
-                  (static_cast<long double>(b.y()) - a.y()) * (static_cast<long double>(p.x()) - a.x());
-    }
-    const long double sum = weight[0] + weight[1] + weight[2];
-    if (sum == 0 || weight[0] / sum < 0 || weight[1] / sum < 0 || weight[2] / sum < 0) continue;
-    long double z = 0;
-    for (std::size_t k = 0; k < 3; ++k) z += weight[k] / sum * mesh.vertices[t[k]].z();
-    heights.any = true;
-    heights.lowest = std::min(heights.lowest, static_cast<double>(z));
-    heights.highest = std::max(heights.highest, static_cast<double>(z));
-  }
-  return heights;
-}
-
-Navigation above(Mesh ground, double min_m, double max_m) {
-  Navigation navigation;
-  navigation.above_ground = {min_m, max_m, Ground{0, std::make_shared<const Mesh>(std::move(ground))}};
-  return navigation;
-}
-
-/// By how much a point keeps the limit: negative where it breaks it, metres along z.
-double slack(const AboveGround& limit, const Vec3& p) {
-  const Heights heights = heights_at(*limit.ground.surface, p);
-  if (!heights.any) return -INFINITY;
-  return std::min(p.z() - heights.highest - limit.min_m, heights.lowest + limit.max_m - p.z());
-}
-
-struct Case {
-  double scale;
-  Vec3 origin;
-};
-const std::vector<Case> kCases = {
-    {1, Vec3(0, 0, 0)}, {1, Vec3(580000.1, 4785000.2, 1000.3)}, {1e-4, Vec3(0, 0, 0)}, {100, Vec3(-3000, 500, 80)}};
+using testing::slack;
+using testing::walls_inside;
 
 TEST(AboveGround, TheCutIsWhatTheHeightsSay) {
   Random random(31);
-  for (const Case& at : kCases) {
+  for (const GroundCase& at : kGroundCases) {
     SCOPED_TRACE(at.scale);
     const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
     const Navigation navigation =
@@ -130,7 +67,7 @@ TEST(AboveGround, TheCutIsWhatTheHeightsSay) {
 
 TEST(AboveGround, NoVertexLeavesTheBand) {
   Random random(7);
-  for (const Case& at : kCases) {
+  for (const GroundCase& at : kGroundCases) {
     const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
     const Navigation navigation =
         above(make_hills(random, 50 * at.scale, 6 * at.scale, 12, at.origin), 4 * at.scale, 25 * at.scale);
@@ -147,7 +84,7 @@ TEST(AboveGround, NoVertexLeavesTheBand) {
 
 TEST(AboveGround, AnEndThatLimitsNothingRoundsNothing) {
   Random random(91);
-  for (const Case& at : kCases) {
+  for (const GroundCase& at : kGroundCases) {
     SCOPED_TRACE(at.scale);
     const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
     const Mesh ground = make_hills(random, 50 * at.scale, 6 * at.scale, 12, at.origin);
@@ -164,72 +101,6 @@ TEST(AboveGround, AnEndThatLimitsNothingRoundsNothing) {
       EXPECT_EQ(none.mesh.triangles.size(), 0U) << "from " << far_m;
     }
   }
-}
-
-/// Each triangle in two, at a corner on one of its sides that its neighbour there may not have.
-Mesh split_in_two(const Mesh& mesh, Random& random) {
-  Mesh result = mesh;
-  for (Triangle& t : result.triangles) std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());
-  for (std::size_t i = 0, count = mesh.triangles.size(); i < count; ++i) {
-    const auto [a, b, c] = result.triangles[i];
-    const auto corner = static_cast<std::uint32_t>(result.vertices.size());
-    const double share = random.uniform(0.1, 0.9);
-    result.vertices.emplace_back(result.vertices[a] + share * (result.vertices[b] - result.vertices[a]));
-    result.triangles[i] = {a, corner, c};
-    result.triangles.push_back({corner, b, c});
-  }
-  return result;
-}
-
-/// Of the facets that bound the volume where the ground ends, but are not at the border of [-extent, extent]^2.
-int walls_inside(const Volume& cut, const Vec3& origin, double extent) {
-  int count = 0;
-  for (std::size_t t = 0; t < cut.mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = cut.mesh.triangles[t];
-    const Vec3 middle = (cut.mesh.vertices[a] + cut.mesh.vertices[b] + cut.mesh.vertices[c]) / 3 - origin;
-    count +=
-        cut.causes[cut.cause_of[t]].name == "ground edge" && middle.head<2>().cwiseAbs().maxCoeff() < 0.999 * extent;
-  }
-  return count;
-}
-
-TEST(AboveGround, NoWallsStandWhereTheGroundGoesOn) {
-  Random random(47);
-  for (const Case& at : kCases) {
-    SCOPED_TRACE(at.scale);
-    const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
-    Mesh ground = make_hills(random, 50 * at.scale, 6 * at.scale, 6, at.origin);
-    const Volume whole = cut_to_navigation(dome, above(ground, 4 * at.scale, 25 * at.scale));
-    for (int times = 1; times <= 3; ++times) {
-      ground = split_in_two(ground, random);
-      const Volume cut = cut_to_navigation(dome, above(ground, 4 * at.scale, 25 * at.scale));
-      ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
-      EXPECT_EQ(first_open_edge(cut.mesh), "");
-      EXPECT_EQ(walls_inside(cut, at.origin, 50 * at.scale), 0) << "of " << cut.mesh.triangles.size() << " facets";
-      const double rounding = 1e-9 + 1e-15 * at.origin.cwiseAbs().maxCoeff() / at.scale;
-      EXPECT_NEAR(enclosed_volume(cut.mesh) / enclosed_volume(whole.mesh), 1, rounding);
-      EXPECT_NEAR(surface_area(cut.mesh) / surface_area(whole.mesh), 1, 1e-6 + rounding);
-    }
-  }
-}
-
-TEST(AboveGround, AStepOfTheGroundIsNoWallAboveIt) {
-  Mesh ground;  // two halves, at x = 0 one 2 m over the other, with corners of their own
-  ground.vertices = {{-50, -50, 0}, {0, -50, 0},  {0, 50, 0},  {-50, 50, 0},
-                     {0, -50, 2},   {50, -50, 2}, {50, 50, 2}, {0, 50, 2}};
-  ground.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
-  const Volume cut = cut_to_navigation(make_hemisphere(Vec3::Zero(), 60), above(ground, 4, 25));
-  ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
-  EXPECT_EQ(walls_inside(cut, Vec3::Zero(), 50), 0) << "of " << cut.mesh.triangles.size() << " facets";
-  // The upper half of the dome has no hole: the step alone is upright.
-  double upright_m2 = 0;
-  for (const Triangle& t : cut.mesh.triangles) {
-    const Vec3 &a = cut.mesh.vertices[t[0]], &b = cut.mesh.vertices[t[1]], &c = cut.mesh.vertices[t[2]];
-    if (std::max({std::abs(a.x()), std::abs(b.x()), std::abs(c.x())}) < 1e-9)
-      upright_m2 += (b - a).cross(c - a).norm() / 2;
-  }
-  EXPECT_GT(upright_m2, 2 * 90);
-  EXPECT_LT(upright_m2, 2 * 2 * 100 + 1);  // at the bottom and at the top of the band
 }
 
 TEST(AboveGround, OfPiecesOverEachOtherAllCount) {
