@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/edges.h"
+#include "core/pieces.h"
 #include "core/triangle_tree.h"
 #include "core/weld.h"
 
@@ -46,6 +47,71 @@ Mesh triangles_near(const Mesh& surface, const Box& near, const Vec3& origin) {
   return core::welded(mesh);
 }
 
+/// Triangles about the origin, and for each of them the rounding of its coordinates, metres: from before the origin was
+/// subtracted, and where a corner was computed to lie on a side. A part of a triangle keeps that of the whole.
+struct NearGround {
+  Mesh mesh;
+  std::vector<double> rounding;
+};
+
+NearGround with_roundings(const Mesh& mesh, const Vec3& origin) {
+  constexpr double kRoundings = 8 * std::numeric_limits<double>::epsilon();
+  NearGround ground{mesh, {}};
+  for (const Triangle& triangle : mesh.triangles) {
+    double largest = 0;
+    for (const std::uint32_t v : triangle) {
+      const Vec3& at = mesh.vertices[v];
+      largest = std::max({largest, at.cwiseAbs().maxCoeff(), (at + origin).cwiseAbs().maxCoeff()});
+    }
+    ground.rounding.push_back(kRoundings * largest);
+  }
+  return ground;
+}
+
+/// The vertices in plan, without triangles.
+Mesh flat_plan(const Mesh& mesh) {
+  Mesh plan;
+  for (const Vec3& vertex : mesh.vertices) plan.vertices.emplace_back(vertex.x(), vertex.y(), 0);
+  return plan;
+}
+
+/// Corners that stand in one place to the rounding of all triangles at one of them become one corner: that one goes to
+/// the other. Those that stay are not moved, so no corner is moved twice.
+void join_corners(NearGround& ground, const core::ProgressReporter& progress) {
+  Mesh& mesh = ground.mesh;
+  core::drop_unused_vertices(mesh);
+  std::vector<double> rounding(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) rounding[v] = std::min(rounding[v], ground.rounding[t]);
+  }
+  Mesh plan = flat_plan(mesh);
+  std::vector<std::uint32_t> joined(mesh.vertices.size());
+  for (std::uint32_t v = 0; v < joined.size(); ++v) {
+    joined[v] = v;
+    plan.triangles.push_back({v, v, v});
+  }
+  const core::TriangleTree tree(plan);
+  for (std::uint32_t v = 0; v < joined.size(); ++v) {
+    progress.tick();
+    tree.for_each_near(core::triangle_box(plan, v), rounding[v], [&](std::uint32_t other) {
+      progress.tick();
+      if (other >= joined[v] || joined[other] != other) return;
+      if ((mesh.vertices[other] - mesh.vertices[v]).cwiseAbs().maxCoeff() <= rounding[v]) joined[v] = other;
+    });
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const Triangle at = {joined[a], joined[b], joined[c]};
+    if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0]) continue;
+    mesh.triangles[kept] = at;
+    ground.rounding[kept++] = ground.rounding[t];
+  }
+  mesh.triangles.resize(kept);
+  ground.rounding.resize(kept);
+  core::drop_unused_vertices(mesh);
+}
+
 /// A side of a triangle that no other triangle runs the other way, in plan.
 struct OpenSide {
   std::uint32_t from, to, triangle;
@@ -62,18 +128,20 @@ std::vector<OpenSide> open_sides(const Mesh& mesh) {
   return sides;
 }
 
-/// Calls `visit(one, other)` for open sides of two triangles that run along each other in plan, to rounding, for more
-/// than a point. Twice for two, in either order.
+/// Calls `visit(one, other)` for open sides of two triangles that run along each other in plan, to the rounding of the
+/// one, for more than a point. Twice for two as a rule, in either order.
 template <typename Visit>
-void for_each_touching(const Mesh& mesh, const std::vector<OpenSide>& sides, double rounding, const Visit& visit) {
-  Mesh plan;
-  for (const Vec3& vertex : mesh.vertices) plan.vertices.emplace_back(vertex.x(), vertex.y(), 0);
+void for_each_touching(const NearGround& ground, const std::vector<OpenSide>& sides,
+                       const core::ProgressReporter& progress, const Visit& visit) {
+  Mesh plan = flat_plan(ground.mesh);
   for (const OpenSide& side : sides) plan.triangles.push_back({side.from, side.to, side.to});
   const core::TriangleTree tree(plan);
   for (std::uint32_t i = 0; i < sides.size(); ++i) {
     const Vec3 a = plan.vertices[sides[i].from], along = plan.vertices[sides[i].to] - a;
-    const double length = along.norm();
+    const double length = along.norm(), rounding = ground.rounding[sides[i].triangle];
+    progress.tick();
     tree.for_each_near(core::triangle_box(plan, i), rounding, [&](std::uint32_t k) {
+      progress.tick();
       if (k == i || sides[k].triangle == sides[i].triangle) return;
       const Vec3 p = plan.vertices[sides[k].from] - a, q = plan.vertices[sides[k].to] - a;
       const auto off = [&](const Vec3& v) { return std::abs(along.x() * v.y() - along.y() * v.x()) / length; };
@@ -84,24 +152,31 @@ void for_each_touching(const Mesh& mesh, const std::vector<OpenSide>& sides, dou
   }
 }
 
-/// Where a corner of one triangle lies on the side of another one, to rounding, that one is split there: grounds are
-/// often made so. A triangle is moved by no more than the rounding.
-void split_at_corners(Mesh& mesh, double rounding) {
-  for (bool is_split = true; is_split;) {
-    is_split = false;
+/// Where a corner of one triangle lies between the ends of a side of another one, to the rounding of that one, it is
+/// split there: grounds are often made so. Each split moves the side by no more than that rounding in plan, and along z
+/// by as much again times one and its slope; a side with n corners between its ends is split about log2(n) times one
+/// after another. A corner as near to an end of the side as rounding is left alone. Returns false where corners are
+/// left that would take more rounds.
+bool split_at_corners(NearGround& ground, const core::ProgressReporter& progress) {
+  // Two rounds at the most halve what has corners yet of a side, which is no longer than 2^51 roundings; a triangle has
+  // three sides.
+  constexpr int kRounds = 3 * 2 * 52;
+  Mesh& mesh = ground.mesh;
+  for (int round = 0; round < kRounds; ++round) {
     struct Split {
       std::uint32_t from, to, corner;
       double from_middle;  ///< as a part of the side
     };
     std::vector<std::optional<Split>> splits(mesh.triangles.size());
-    for_each_touching(mesh, open_sides(mesh), rounding, [&](const OpenSide& side, const OpenSide& other) {
+    for_each_touching(ground, open_sides(mesh), progress, [&](const OpenSide& side, const OpenSide& other) {
       const Vec3 a = mesh.vertices[side.from], along = mesh.vertices[side.to] - a;
-      const double length = along.head<2>().norm();
+      const double length = along.head<2>().norm(), rounding = ground.rounding[side.triangle];
       for (const std::uint32_t corner : {other.from, other.to}) {
         const Vec3 at = mesh.vertices[corner] - a;
         const double share = at.head<2>().dot(along.head<2>()) / (length * length);
+        if (!(share * length > rounding && (1 - share) * length > rounding)) continue;
         const double off = std::abs(at.z() - share * along.z());
-        if (!(share > 0 && share < 1) || off > rounding * (1 + std::abs(along.z()) / length)) continue;
+        if (off > rounding * (1 + std::abs(along.z()) / length)) continue;
         const Triangle& corners = mesh.triangles[side.triangle];
         if (std::find(corners.begin(), corners.end(), corner) != corners.end()) continue;
         std::optional<Split>& known = splits[side.triangle];
@@ -109,6 +184,7 @@ void split_at_corners(Mesh& mesh, double rounding) {
         if (!known || from_middle < known->from_middle) known = {side.from, side.to, corner, from_middle};
       }
     });
+    bool is_split = false;
     for (std::uint32_t t = 0; t < splits.size(); ++t) {
       if (!splits[t]) continue;
       const auto& [from, to, corner, unused] = *splits[t];
@@ -116,9 +192,19 @@ void split_at_corners(Mesh& mesh, double rounding) {
       std::replace(second.begin(), second.end(), from, corner);
       std::replace(mesh.triangles[t].begin(), mesh.triangles[t].end(), to, corner);
       mesh.triangles.push_back(second);
+      ground.rounding.push_back(ground.rounding[t]);
       is_split = true;
     }
+    if (!is_split) return true;
   }
+  return false;
+}
+
+/// No triangle was turned over where its corners were moved.
+bool faces_up(const Mesh& mesh) {
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return turn_in_plan(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) > 0;
+  });
 }
 
 /// Whether all of `other` lies to the right of a side of `one`, or on it.
@@ -134,18 +220,20 @@ bool is_beside(const Mesh& mesh, const Triangle& one, const Triangle& other) {
 }
 
 /// No two triangles overlap in plan, and where two touch along a side they have its ends in common, in space.
-bool is_height_field(const Mesh& mesh, double rounding) {
+bool is_height_field(const NearGround& ground, const core::ProgressReporter& progress) {
+  const Mesh& mesh = ground.mesh;
   bool paired = true;
   const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
   core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
     paired = paired && (edge.size() == 1 || (edge.size() == 2 && edge[0].forward != edge[1].forward));
   });
-  for_each_touching(mesh, open_sides(mesh), rounding, [&](const OpenSide&, const OpenSide&) { paired = false; });
+  for_each_touching(ground, open_sides(mesh), progress, [&](const OpenSide&, const OpenSide&) { paired = false; });
   if (!paired) return false;
   Mesh plan = mesh;
   for (Vec3& vertex : plan.vertices) vertex.z() = 0;
   const core::TriangleTree tree(plan);
   for (std::uint32_t t = 0; t < plan.triangles.size(); ++t) {
+    progress.tick();
     bool overlaps = false;
     tree.for_each_near(core::triangle_box(plan, t), 0, [&](std::uint32_t other) {
       if (other <= t || overlaps) return;
@@ -223,15 +311,15 @@ Solid between_all(const Mesh& mesh, double min_m, double max_m, const GroundBand
 
 Solid make_ground_band(const Mesh& surface, double min_m, double max_m, const Box& near, const Vec3& origin,
                        const GroundBandLabels& labels, const core::ProgressReporter& progress) {
-  Mesh mesh = triangles_near(surface, near, origin);
+  const Mesh mesh = triangles_near(surface, near, origin);
   if (mesh.empty()) return Solid();
-  // Before the origin was subtracted, and where a corner was computed to lie on a side.
-  constexpr double kRoundings = 8 * std::numeric_limits<double>::epsilon();
-  const Box bounds = bounding_box(surface);
-  const double rounding = kRoundings * std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
-  split_at_corners(mesh, rounding);
-  if (!is_height_field(mesh, rounding)) return between_all(mesh, min_m, max_m, labels, progress);
-  return between(mesh, shifted(min_m), shifted(max_m), labels);
+  NearGround ground = with_roundings(mesh, origin);
+  join_corners(ground, progress);
+  const bool is_sound = split_at_corners(ground, progress) && faces_up(ground.mesh);
+  if (!is_sound || !is_height_field(ground, progress)) {
+    return between_all(is_sound ? ground.mesh : mesh, min_m, max_m, labels, progress);
+  }
+  return between(ground.mesh, shifted(min_m), shifted(max_m), labels);
 }
 
 }  // namespace vantage::internal::solid

@@ -17,10 +17,11 @@ struct GroundBandLabels {
 /// that reach into `near` in plan. About `origin`; `surface` and `near` are in the scene frame. Empty where there are
 /// none, or where the triangles over each other leave nothing.
 ///
-/// Exact but for rounding: triangles are shifted along z, and where a corner of one lies on a side of another one, to 8
-/// roundings of the largest coordinate of `surface`, that side is led through the corner. Triangles narrower in plan
-/// than rounding are left out: there is no ground on them. Cost: O(n log n) in the triangles near by; where some of
-/// them lie over each other, booleans of as many prisms.
+/// Exact but for rounding: triangles are shifted along z, and where a corner of one stands at a corner or on a side of
+/// another one, to 8 roundings of the largest coordinate of that other triangle, its corner or side is led there.
+/// Triangles narrower in plan than rounding are left out: there is no ground on them. Cost: O(n log n) in the triangles
+/// near by; where some of them lie over each other, or corners beside each other that this does not join, booleans of
+/// as many prisms. Throws Error(cancelled) when told to stop.
 Solid make_ground_band(const Mesh& surface, double min_m, double max_m, const Box& near, const Vec3& origin,
                        const GroundBandLabels& labels, const core::ProgressReporter& progress = {});
 
