@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
 #include "core/mend_welded.h"
 #include "core/pieces.h"
+#include "core/triangle_tree.h"
 #include "core/weld.h"
 #include "support/random.h"
 #include "support/solids.h"
@@ -112,7 +114,8 @@ TEST(Weld, SharedEdgesAreSplitUntilTwoTrianglesMeetAtEach) {
     split_where_pieces_touch(mesh);
     shared += !measure(mesh).closed;
     const std::size_t before = mesh.triangles.size();
-    const std::vector<std::uint32_t> part_of = split_shared_edges(mesh);
+    const auto [part_of, is_done] = split_shared_edges(mesh);
+    EXPECT_TRUE(is_done);
     ASSERT_EQ(mesh.triangles.size(), before + part_of.size());
     for (const std::uint32_t t : part_of) EXPECT_LT(t, before);
     EXPECT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
@@ -138,6 +141,34 @@ TEST(Weld, SurfacesThatTouchStayApartByTheirOwners) {
   }
 }
 
+TEST(Weld, FacingFacetsAreTakenOutInPairs) {
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {2, 3, 1}, {2, 1, 0}, {1, 2, 0}, {4, 1, 2}, {1, 3, 2}, {0, 2, 1}};
+  EXPECT_EQ(facing_facets(triangles), (std::vector<std::uint32_t>{0, 2, 3, 6, 1, 5}));
+  EXPECT_TRUE(facing_facets({{0, 1, 2}, {1, 2, 0}, {2, 3, 0}}).empty());
+}
+
+// As they are found in a mesh that nobody mended: the splitting says that it is not done.
+TEST(Weld, FacingFacetsAreNotSplit) {
+  Mesh mesh{{{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {1, 1, 2}}, {}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 2}, {0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  LabelledMesh labelled{mesh, {1, 2, 3, 4, 5, 6, 7, 8}};
+  EXPECT_FALSE(split_shared_edges(mesh).is_done);
+  take_out_facing_facets(labelled);
+  EXPECT_EQ(labelled.labels, (std::vector<std::uint32_t>{5, 6, 7, 8}));
+  EXPECT_TRUE(split_shared_edges(labelled));
+  EXPECT_EQ(testing::first_open_edge(labelled.mesh), "");
+}
+
+/// The first triangle gets a vertex on its first side, and beside it a facet without area.
+void add_flat_facet(Mesh& mesh) {
+  const auto [a, b, c] = mesh.triangles[0];
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+  mesh.triangles[0] = {middle, b, c};
+  mesh.triangles.push_back({a, middle, c});
+  mesh.triangles.push_back({a, b, middle});
+}
+
 // A flat facet makes the whole mesh be welded; what touches must not hang together by that.
 TEST(MendWelded, WhatTouchesStaysClosedByIndex) {
   testing::Random random(313);
@@ -149,14 +180,8 @@ TEST(MendWelded, WhatTouchesStaysClosedByIndex) {
         split_shared_edges(labelled.mesh);
       }
       const MeshMeasures before = measure(labelled.mesh);
-      // The first side of the first triangle gets a vertex, and beside it a facet without area.
       Mesh& mesh = labelled.mesh;
-      const auto [a, b, c] = mesh.triangles[0];
-      const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
-      mesh.triangles[0] = {middle, b, c};
-      mesh.triangles.push_back({a, middle, c});
-      mesh.triangles.push_back({a, b, middle});
+      add_flat_facet(mesh);
       labelled.labels.assign(mesh.triangles.size(), 7);
       ASSERT_TRUE(mend_for_doubles(labelled));
       EXPECT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
@@ -165,6 +190,61 @@ TEST(MendWelded, WhatTouchesStaysClosedByIndex) {
       if (round % 2) {
         EXPECT_EQ(measure(mesh).pieces, before.pieces);
       }
+    }
+  }
+}
+
+/// Closed: a few tetrahedra on common vertices, and pairs of facets that face each other on the same three of them.
+Mesh draw_facing_facets(testing::Random& random) {
+  Mesh mesh;
+  const int count = random.integer(5, 7);
+  for (int v = 0; v < count; ++v) mesh.vertices.push_back(random.point(0, 4));
+  std::vector<std::uint32_t> drawn(mesh.vertices.size());
+  std::iota(drawn.begin(), drawn.end(), 0u);
+  const auto draw = [&](int corners) {
+    for (int i = 0; i < corners; ++i) {
+      std::swap(drawn[static_cast<std::size_t>(i)], drawn[static_cast<std::size_t>(random.integer(i, count - 1))]);
+    }
+  };
+  for (int left = random.integer(1, 3); left > 0; --left) {
+    draw(4);
+    const Vec3& apex = mesh.vertices[drawn[3]];
+    const Vec3 a = mesh.vertices[drawn[0]] - apex, b = mesh.vertices[drawn[1]] - apex,
+               c = mesh.vertices[drawn[2]] - apex;
+    if (a.dot(b.cross(c)) < 0) std::swap(drawn[0], drawn[1]);
+    const std::uint32_t p = drawn[0], q = drawn[1], r = drawn[2], x = drawn[3];
+    mesh.triangles.insert(mesh.triangles.end(), {{p, q, r}, {q, p, x}, {r, q, x}, {p, r, x}});
+  }
+  for (int left = random.integer(0, 2); left > 0; --left) {
+    draw(3);
+    mesh.triangles.push_back({drawn[0], drawn[1], drawn[2]});
+    mesh.triangles.push_back({drawn[1], drawn[0], drawn[2]});
+  }
+  for (std::size_t t = mesh.triangles.size(); t > 1; --t) {
+    std::swap(mesh.triangles[t - 1],
+              mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(t) - 1))]);
+  }
+  return mesh;
+}
+
+TEST(MendWelded, FacetsThatFaceEachOtherEndTheSplitting) {
+  testing::Random random(331);
+  for (int round = 0; round < 6000; ++round) {
+    const Mesh whole = draw_facing_facets(random);
+    LabelledMesh labelled{whole, {}};
+    Mesh& mesh = labelled.mesh;
+    add_flat_facet(mesh);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) labelled.labels.push_back(t);
+    ASSERT_TRUE(mend_for_doubles(labelled));
+    ASSERT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
+    ASSERT_EQ(labelled.labels.size(), mesh.triangles.size());
+    ASSERT_NEAR(enclosed_volume(mesh), enclosed_volume(whole), 1e-9);
+    if (round % 10 != 0) continue;
+    const TriangleTree before(whole), after(mesh);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = random.point(0, 4);
+      if (before.distance(p) < 1e-6) continue;
+      ASSERT_EQ(after.winding_number(p), before.winding_number(p)) << "round " << round;
     }
   }
 }
@@ -215,12 +295,7 @@ TEST(MendWelded, NarrowFacetsAtASharedEdgeAreHalvedOnceAndKeepAnArea) {
   ASSERT_EQ(narrow, 4);
   EXPECT_GT(narrowest(mesh), flat);
   // And far away a facet without area, so that there is something to mend.
-  const auto [a, b, c] = mesh.triangles[0];
-  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
-  mesh.triangles[0] = {middle, b, c};
-  mesh.triangles.push_back({a, middle, c});
-  mesh.triangles.push_back({a, b, middle});
+  add_flat_facet(mesh);
   labelled.labels.assign(mesh.triangles.size(), 7);
   EXPECT_EQ(mend_for_doubles(labelled), flat);
   EXPECT_EQ(testing::first_open_edge(mesh), "");

@@ -44,6 +44,7 @@ class Mender {
   bool is_collapsed(const Triangle& t) const { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
   bool is_flat(const Triangle& t) const;
   void weld(const std::vector<std::uint32_t>& first);
+  void cancel_facing();
   void remove(std::uint32_t t);
   bool cancel(std::uint32_t t);
   std::size_t longest_side(std::uint32_t t) const;
@@ -107,6 +108,10 @@ void Mender::weld(const std::vector<std::uint32_t>& first) {
   labelled_.labels.resize(kept);
   stars_.emplace(triangles_, vertices_.size());
   gone_.assign(kept, 0);
+}
+
+void Mender::cancel_facing() {
+  for (const std::uint32_t t : facing_facets(triangles_)) remove(t);
 }
 
 /// Removes a facet together with one on the same corners that faces it, where there is one.
@@ -218,6 +223,7 @@ bool Mender::run() {
   if (!has_flaws()) return false;
   const std::vector<std::uint32_t> first = first_at_position(vertices_);
   weld(first);
+  cancel_facing();
   std::vector<char> is_welded(vertices_.size(), 0);
   for (std::uint32_t v = 0; v < first.size(); ++v) {
     if (first[v] != v) is_welded[first[v]] = 1;
@@ -235,16 +241,36 @@ bool Mender::run() {
 
 bool mend_welded(LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
 
-void split_shared_edges(LabelledMesh& labelled) {
-  for (const std::uint32_t whole : split_shared_edges(labelled.mesh)) {
+void take_out_facing_facets(LabelledMesh& labelled) {
+  std::vector<Triangle>& triangles = labelled.mesh.triangles;
+  const std::vector<std::uint32_t> facing = facing_facets(triangles);
+  if (facing.empty()) return;
+  std::vector<char> gone(triangles.size(), 0);
+  for (const std::uint32_t t : facing) gone[t] = 1;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (gone[t]) continue;
+    triangles[kept] = triangles[t];
+    labelled.labels[kept++] = labelled.labels[t];
+  }
+  triangles.resize(kept);
+  labelled.labels.resize(kept);
+  drop_unused_vertices(labelled.mesh);
+}
+
+bool split_shared_edges(LabelledMesh& labelled) {
+  const SplitEdges split = split_shared_edges(labelled.mesh);
+  for (const std::uint32_t whole : split.part_of) {
     const std::uint32_t label = labelled.labels[whole];
     labelled.labels.push_back(label);
   }
+  return split.is_done;
 }
 
 double split_on_grid(LabelledMesh& labelled, const std::function<Vec3(const Vec3&)>& place) {
   constexpr int kRounds = 4;
   double moved = 0;
+  take_out_facing_facets(labelled);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Vec3>& vertices = labelled.mesh.vertices;
     const std::size_t before = vertices.size();
@@ -268,8 +294,7 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
   mend_welded(mended, flat);
   if (!Mender(mended, flat).has_flaws()) {
     constexpr double kLeast = 0.25;  // halves are half as wide, and few are halved again
-    split_shared_edges(mended);
-    if (!Mender(mended, kLeast * flat).has_flaws()) {
+    if (split_shared_edges(mended) && !Mender(mended, kLeast * flat).has_flaws()) {
       labelled = std::move(mended);
       return flat;
     }

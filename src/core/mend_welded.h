@@ -18,16 +18,20 @@ namespace vantage::internal::core {
 /// In the result vertices in one place are one vertex where their facets hang together, and several where pieces only
 /// touch: two triangles to an edge, as far as that can be. A mesh without such facets is left as it is. Returns whether
 /// anything was changed. With `flat_m` 0 differences and products of coordinates should be exact (whole multiples,
-/// below 2^25, of a power of two). Cost: linear, but for sorting the vertices.
+/// below 2^25, of a power of two). Cost: linear, but for sorting the vertices and
+/// the facets.
 bool mend_welded(LabelledMesh& labelled, double flat_m);
 
-/// As of core/weld.h: a triangle that is split gives its label to both parts.
-void split_shared_edges(LabelledMesh& labelled);
+/// Leaves out the facing_facets() of core/weld.h, and vertices that no triangle uses then.
+void take_out_facing_facets(LabelledMesh& labelled);
 
-/// For what mend_welded() with 0 has changed on a grid: splits shared edges, puts the new vertices, in the middles of
-/// edges, to `place` of them, and mends again where that leaves facets without area. So two triangles meet at each edge
-/// by index, but for some edges as short as a step or two of the grid. Returns how far a point of the surface may have
-/// moved.
+/// As of core/weld.h: a triangle that is split gives its label to both parts. Returns whether all is done.
+bool split_shared_edges(LabelledMesh& labelled);
+
+/// For what mend_welded() with 0 has changed on a grid: takes out facing facets, splits shared edges, puts the new
+/// vertices, in the middles of edges, to `place` of them, and mends again where that leaves facets without area. So two
+/// triangles meet at each edge by index, but for some edges as short as a step or two of the grid. Returns how far a
+/// point of the surface may have moved.
 double split_on_grid(LabelledMesh& labelled, const std::function<Vec3(const Vec3&)>& place);
 
 /// mend_welded() for who reads the coordinates as doubles: no facet is narrower than flat_width(). What is changed is

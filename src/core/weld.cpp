@@ -87,7 +87,8 @@ class EdgePairs {
     const Vec3 along = (high - low).normalized(), u = along.unitOrthogonal(), v = along.cross(u);
     const auto angle = [&](const EdgeUse& use) {
       const Vec3 arm = third_corner(use) - low;
-      return portable::atan2(arm.dot(v), arm.dot(u));
+      const double turned = portable::atan2(arm.dot(v), arm.dot(u));
+      return std::isnan(turned) ? 0 : turned;  // of an edge without length
     };
     std::sort(order_.begin(), order_.end(), [&](const EdgeUse& a, const EdgeUse& b) {
       return std::tuple(angle(a), a.triangle) < std::tuple(angle(b), b.triangle);
@@ -216,8 +217,40 @@ void split_where_pieces_touch(Mesh& mesh, const std::vector<Triangle>& owners) {
   }
 }
 
-std::vector<std::uint32_t> split_shared_edges(Mesh& mesh) {
-  std::vector<std::uint32_t> part_of;
+std::vector<std::uint32_t> facing_facets(const std::vector<Triangle>& triangles) {
+  struct Facet {
+    Triangle corners;  // in order
+    bool is_odd;       // that order turned the facet round
+    std::uint32_t triangle;
+    auto key() const { return std::tie(corners, is_odd, triangle); }
+  };
+  std::vector<Facet> facets;
+  facets.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    Facet facet{triangles[t], false, t};
+    for (const std::size_t i : {0, 1, 0}) {
+      if (facet.corners[i] <= facet.corners[i + 1]) continue;
+      std::swap(facet.corners[i], facet.corners[i + 1]);
+      facet.is_odd = !facet.is_odd;
+    }
+    facets.push_back(facet);
+  }
+  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.key() < b.key(); });
+  std::vector<std::uint32_t> found;
+  for (std::size_t begin = 0, end = 0; begin < facets.size(); begin = end) {
+    while (end < facets.size() && facets[end].corners == facets[begin].corners) ++end;
+    std::size_t odd = begin;
+    while (odd < end && !facets[odd].is_odd) ++odd;
+    for (std::size_t i = 0; begin + i < odd && odd + i < end; ++i) {
+      found.push_back(facets[begin + i].triangle);
+      found.push_back(facets[odd + i].triangle);
+    }
+  }
+  return found;
+}
+
+SplitEdges split_shared_edges(Mesh& mesh) {
+  SplitEdges result;
   const std::size_t count = mesh.triangles.size();
   // The triangle's part at the vertex that it runs to becomes a new triangle.
   const auto split = [&](const EdgeUse& use, std::uint32_t middle) {
@@ -227,12 +260,19 @@ std::vector<std::uint32_t> split_shared_edges(Mesh& mesh) {
     part[place_of(t, from)] = middle;
     t[place_of(t, to)] = middle;
     mesh.triangles.push_back(part);
-    part_of.push_back(use.triangle < count ? use.triangle : part_of[use.triangle - count]);
+    result.part_of.push_back(use.triangle < count ? use.triangle : result.part_of[use.triangle - count]);
+  };
+  const auto third_corner = [&](const EdgeUse& use) {
+    const Triangle& t = mesh.triangles[use.triangle];
+    return t[0] ^ t[1] ^ t[2] ^ use.low ^ use.high;
   };
   const std::vector<Triangle> no_owners;
-  // A triangle that is split once in a round has other sides then, and waits for the next round.
-  for (bool has_shared = true; has_shared;) {
-    has_shared = false;
+  // A triangle that is split once in a round has other sides then, and waits for the next round: each of its sides once
+  // or twice. Halving a side more often would leave it without length.
+  constexpr int kRounds = 64;
+  for (int round = 0; round < kRounds; ++round) {
+    bool has_split = false;
+    result.is_done = true;
     std::vector<char> is_split(mesh.triangles.size(), 0);
     const std::vector<EdgeUse> uses = edge_uses(mesh.triangles, mesh.vertices.size());
     EdgePairs pairs(mesh, no_owners);
@@ -242,8 +282,11 @@ std::vector<std::uint32_t> split_shared_edges(Mesh& mesh) {
       pairs.for_each(edge, [&](const EdgeUse& a, const EdgeUse& b) { found.emplace_back(a, b); });
       for (std::size_t i = 1; i < found.size(); ++i) {
         const auto& [a, b] = found[i];
-        has_shared = true;
+        result.is_done = false;
         if (is_split[a.triangle] || is_split[b.triangle]) continue;
+        // The parts of two that face each other would face each other, too.
+        if (third_corner(a) == third_corner(b)) continue;
+        has_split = true;
         is_split[a.triangle] = is_split[b.triangle] = 1;
         const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.push_back((mesh.vertices[a.low] + mesh.vertices[a.high]) / 2);
@@ -251,8 +294,9 @@ std::vector<std::uint32_t> split_shared_edges(Mesh& mesh) {
         split(b, middle);
       }
     });
+    if (!has_split) break;
   }
-  return part_of;
+  return result;
 }
 
 }  // namespace vantage::internal::core

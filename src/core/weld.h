@@ -22,10 +22,20 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices,
 /// but for sorting the edges at each vertex.
 void split_where_pieces_touch(Mesh& mesh, const std::vector<Triangle>& owners = {});
 
+/// Pairs of triangles on the same three vertices, by index, that face each other, one after the other; no triangle
+/// twice. Of a closed mesh both may go: that changes neither whether it is closed, nor what it encloses. Cost: O(n log
+/// n).
+std::vector<std::uint32_t> facing_facets(const std::vector<Triangle>& triangles);
+
+struct SplitEdges {
+  std::vector<std::uint32_t> part_of;  ///< for each triangle that is new the one that it is a part of
+  bool is_done = true;                 ///< two triangles meet at every edge
+};
 /// Where an edge of a closed mesh has more than two triangles each pair of them but one gets a vertex of its own in the
 /// middle of the edge, to rounding: then two triangles meet at every edge by index, in opposite directions. Vertices
-/// and triangles that are new come last; returns for each such triangle the one that it is a part of. No point of the
-/// surface moves by more than a rounding of its coordinates. Cost: linear.
-std::vector<std::uint32_t> split_shared_edges(Mesh& mesh);
+/// and triangles that are new come last. No point of the surface moves by more than a rounding of its coordinates. Not
+/// done is what triangles that face each other on the same vertices hinder: take out facing_facets() first. What is not
+/// done is closed all the same. Cost: linear.
+SplitEdges split_shared_edges(Mesh& mesh);
 
 }  // namespace vantage::internal::core
