@@ -138,7 +138,14 @@ void StageFolder::check_replaceable() const {
   if (error) fail("the folder of the stages cannot be read", error.value());
   if (!files.empty() && !has_story) refuse(std::string("no ") + kStory);
   std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) check_derived_output(file);  // others' files may have such names
+  for (const fs::path& file : files) {  // others' files may have such names
+    try {
+      check_derived_output(file);
+    } catch (const Error& refused) {
+      if (refused.code() != ErrorCode::output_of_others) throw;
+      refuse(file.filename().string() + ", which vantage did not write");
+    }
+  }
 }
 
 StageSink StageFolder::sink() {
