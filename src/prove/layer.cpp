@@ -88,7 +88,8 @@ LayerProof prove_less_layer(const OpenVolume& volume, const View& view, const Sc
   std::vector<Triangle> facets;
   for (const std::uint32_t number : numbers) facets.push_back(volume.facets[number]);
   const std::vector<OpenFacet> pairs =
-      prove_sight(volume.vertices, facets, view, scene, obstacles, {.most_pieces = kMostPairs}, progress.part(0, 0.5)).open;
+      prove_sight(volume.vertices, facets, view, scene, obstacles, {.most_pieces = kMostPairs}, progress.part(0, 0.5))
+          .open;
   if (pairs.size() > kMostPairs) return all_open();
   const LayerDepth depth(volume, view, obstacles);
   std::vector<double> depths(pairs.size(), std::numeric_limits<double>::infinity());

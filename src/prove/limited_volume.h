@@ -80,12 +80,13 @@ class LimitedVolume {
   bool is_there(const Vec3& point, double within_m) const;
 
   /// Looks at every facet, with all threads; or at the first ones, where more than `most_open` of these are open.
-  std::vector<FacetFinding> look_at_facets(
-      const std::function<void(const Corners&, FacetFinding&)>& look, const core::ProgressReporter& progress,
-      std::size_t most_open = std::numeric_limits<std::size_t>::max()) const;
+  std::vector<FacetFinding> look_at_facets(const std::function<void(const Corners&, FacetFinding&)>& look,
+                                           const core::ProgressReporter& progress,
+                                           std::size_t most_open = std::numeric_limits<std::size_t>::max()) const;
 
   /// The verdict on a limit: wrong where a place breaks it by more than the facet's tolerance, else not proved where a
-  /// facet is open. `findings`: of look_at_facets. `how`: by what it is proved. `limit`: what a place breaks, for the text.
+  /// facet is open. `findings`: of look_at_facets. `how`: by what it is proved. `limit`: what a place breaks, for the
+  /// text.
   ClaimProof judged(const std::string& name, const std::vector<FacetFinding>& findings, const std::string& how,
                     const std::string& limit) const;
 

@@ -238,9 +238,10 @@ void put_at_heights(Mission& mission, const std::vector<TargetOutline>& outlines
     // What is cut in plan is rounded there to 0.12 mm: along a steeper plane that is more than a millimetre.
     constexpr double kSteepest = 8;
     if (plane.slope.norm() > kSteepest) {
-      throw Error(ErrorCode::target_not_planar,
-                  "the target's outline is not convex and nearly upright, steeper than " + shortest(kSteepest) + " to 1",
-                  mission.as_written.places.target, std::string("for a wall, ") + kUprightAdvice);
+      throw Error(
+          ErrorCode::target_not_planar,
+          "the target's outline is not convex and nearly upright, steeper than " + shortest(kSteepest) + " to 1",
+          mission.as_written.places.target, std::string("for a wall, ") + kUprightAdvice);
     }
     for (const city::ConvexArea& area : city::convex_areas(drawn({outline}), city::Outlines::rough)) {
       for (const city::Ring& piece : area.pieces) {
