@@ -198,6 +198,33 @@ def test_results_of_something_else(scene, tmp_path):
     assert (tmp_path / "results.parquet").read_bytes() == before
 
 
+def test_meshes_to_stay_in_count_by_their_content(scene, tmp_path):
+    from vantage.batch import _manifest
+
+    def volume(height):
+        return vt.Volume.from_arrays(*box((-90, -90, -1), (90, 90, height)))
+
+    path = tmp_path / "box.ply"
+    volume(50).save(path)
+    for number, (meshes, later) in enumerate((([str(path)], [str(path)]), ([path], [path]), ([{"mesh": path}], [{"mesh": path}]),
+                                              ([volume(50)], [volume(30)]))):
+        for kind in (dict, vt.Navigation):
+            volume(50).save(path)
+            asked = {"max_range": 60, "workers": 1}
+            folder = tmp_path / f"{kind.__name__}-{number}"
+            batch.run(triangles(1), scene, folder, **asked, navigation=kind(meshes=meshes))
+            batch.run(triangles(1), scene, folder, **asked, navigation=kind(meshes=meshes))
+            volume(30).save(path)
+            error = refused(triangles(1), scene, folder, **asked, navigation=kind(meshes=later))
+            assert error.code == "folder-in-use" and "other limits" in error.problem
+        assert _manifest._plain({"meshes": meshes}) == _manifest._plain(vt.Navigation(meshes=meshes))
+    assert _manifest._plain({"meshes": None}) == {"meshes": None}
+    result = vt.compute(scene, triangles(1)[0]["vertices"], max_range=60)
+    assert _manifest._plain({"meshes": [result]}) == _manifest._plain({"meshes": [result.volume]})
+    for meshes in ("box.ply", [3], 3):
+        assert refused(triangles(1), scene, tmp_path / "wrong", **asked, navigation={"meshes": meshes}).code == "wrong-type"
+
+
 def test_rows_of_another_run(scene, tmp_path):
     asked = {"max_range": 60, "workers": 1}
     batch.run(triangles(1), scene, tmp_path / "a", **asked)

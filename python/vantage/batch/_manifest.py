@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from .._checks import items, shown
 from .._core import version
 from .._errors import Error, input_error, make
 from .._extras import require
 from .._requests import given
+from .._result import Result
 from .._scene import Scene
 from .._volume import Volume
 from ._scenes import ARRAYS
@@ -92,9 +94,9 @@ def _in_use(problem: str, where: str) -> Error:
 def _plain(value: Any) -> Any:
     """What is asked, as JSON; files and meshes by the hash of their content."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {key: _meshes(item) if key == "meshes" else _plain(item) for key, item in given(value).items()}
+        return _plain(given(value))
     if isinstance(value, Mapping):
-        return {key: _file_hash(item) if key in ("file", "mesh") else _plain(item) for key, item in value.items()}
+        return {key: _of_key(key, item) for key, item in value.items()}
     if isinstance(value, np.ndarray):
         return _plain(value.tolist())
     if isinstance(value, np.generic):
@@ -106,15 +108,29 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, (bool, float, str)) or value is None else os.fspath(value)
 
 
+def _of_key(key: Any, value: Any) -> Any:
+    if value is None:
+        return None
+    if key == "meshes":
+        return _meshes(value)
+    return _file_hash(value) if key in ("file", "mesh") else _plain(value)
+
+
 def _meshes(meshes: Any) -> list[Any]:
     told: list[Any] = []
-    for mesh in meshes:
+    for number, mesh in enumerate(items(meshes, "navigation.meshes", "meshes")):
+        if isinstance(mesh, Result):
+            mesh = mesh.volume
         if isinstance(mesh, (str, os.PathLike)):
             told.append(_file_hash(mesh))
         elif isinstance(mesh, Mapping):
             told.append(_plain(mesh))
         elif isinstance(mesh, Volume):
             told.append(mesh.hash)
+        elif not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
+            name = f"navigation.meshes[{number}]"
+            raise input_error("wrong-type", f"{name} is {shown(mesh)}", name,
+                              "pass a path, a vt.Volume, or anything with vertices and faces")
         else:
             both = np.ascontiguousarray(mesh.vertices, np.float64), np.ascontiguousarray(mesh.faces, np.int64)
             told.append(hashlib.sha256(both[0].tobytes() + both[1].tobytes()).hexdigest())
