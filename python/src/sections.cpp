@@ -75,6 +75,8 @@ void bind_sections(nb::module_& module) {
         return plan_view(scene_positions(place_at(latitude_deg, longitude_deg), crs, plan_points(array)));
       },
       "latitude_deg"_a, "longitude_deg"_a, "crs"_a, "points"_a.noconvert());
+  module.def(
+      "vertical_unit_m", [](const std::string& crs) { return vertical_unit_m(crs); }, "crs"_a);
 }
 
 }  // namespace vantage::python

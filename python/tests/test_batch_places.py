@@ -141,6 +141,21 @@ def test_heights_are_those_given(city):
     assert raised[0].shape == (4, 3)
 
 
+def test_heights_are_in_the_unit_of_the_crs(city, tmp_path):
+    """EPSG:8228 counts in feet, EPSG:5715 downwards; of EPSG:25832 alone z is metres."""
+    for crs, unit in (("EPSG:25832+8228", 0.3048), ("EPSG:25832+5715", -1), ("EPSG:25832+7837", 1), ("EPSG:25832", 1)):
+        flat = in_crs(city, [(-50, 10), (-40, 10), (-40, 20)], "EPSG:25832")
+        shape = shapely.Polygon([(x, y, 6 / unit) for x, y in flat.exterior.coords])
+        point = shapely.Point(shape.exterior.coords[0])
+        frame = geopandas.GeoDataFrame({"id": [1, 2]}, geometry=[shape, point], crs=crs)
+        places = _geometry.Places(city, _table.read(frame).crs)
+        polygon, single = (_geometry.targets_of(row, places)[0] for row in rows_of(frame))
+        assert np.array(polygon.vertices)[:, 2] == pytest.approx([6, 6, 6]), crs
+        assert single.point[2] == pytest.approx(6), crs
+        table = batch.run(frame, city, tmp_path / crs, max_range=60, workers=1).table()
+        assert shapely.get_coordinates(table.geometry, include_z=True)[:, 2] == pytest.approx(6), crs
+
+
 @pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
 def test_geometries_that_are_none(city, tmp_path):
     bow_tie = shapely.Polygon([(0, 0), (9, 9), (9, 0), (0, 9)])

@@ -199,6 +199,35 @@ def test_tables_with_a_crs():
     assert raised.value.code == "conflicting-keys"
 
 
+FEET = 1200 / 3937
+
+
+@pytest.mark.parametrize("crs, unit", [("EPSG:2263+6360", FEET), ("EPSG:32618+5715", -1), ("EPSG:2263+5703", 1),
+                                       ("EPSG:2263", 1), ("EPSG:4979", 1)])
+def test_heights_of_tables_are_in_the_unit_of_their_crs(crs, unit):
+    """As those of the same target with the mission's crs."""
+    geopandas, shapely = pytest.importorskip("geopandas"), pytest.importorskip("shapely")
+    plain = yard()
+    scene = vt.Scene.from_arrays(plain.vertices, plain.faces, object_of=plain.object_of, objects=plain.objects,
+                                 georeference=vt.Georeference(40.7484, -73.9857, "flat ground"))
+    plan = geopandas.GeoSeries([shapely.box(40, -60, 50, -40)], crs=scene.crs).to_crs(crs)[0]
+    corners = [(x, y, 15 / unit) for x, y, *_ in plan.exterior.coords]
+    by_crs = vt.Mission.of(scene, vt.Target(vertices=corners[:-1]), max_range=120, crs=crs)
+    assert by_crs.target_parts[0][:, 2] == pytest.approx([15] * 4, abs=1e-9)
+    bent = [corners[0], corners[1], corners[2], tuple(0.7 * np.array(corners[0]) + 0.15 * np.array(corners[1])
+                                                      + 0.15 * np.array(corners[2]))]
+    shapes = [shapely.Polygon(corners), shapely.Point(corners[0]), shapely.Polygon(bent),
+              shapely.Polygon(corners, [[0.25 * np.array(corners[k]) + 0.75 * np.mean(corners[:4], axis=0)
+                                         for k in range(4)]])]
+    table = geopandas.GeoSeries(shapes, crs=crs)
+    missions = [vt.Mission.of(scene, table[k:k + 1], max_range=120) for k in range(len(shapes))]
+    assert missions[0].target_parts[0] == pytest.approx(by_crs.target_parts[0], abs=1e-9)
+    for mission in missions:
+        assert np.concatenate(mission.target_parts)[:, 2] == pytest.approx(15, abs=2e-3)
+    flat = geopandas.GeoSeries([plan], crs=crs)
+    assert np.abs(vt.Mission.of(scene, flat, max_range=120).target_parts[0][:, 2]).max() < 3e-3  # on the ground
+
+
 def test_files_of_targets(tmp_path, monkeypatch):
     plain = yard()
     scene = vt.Scene.from_arrays(plain.vertices, plain.faces, object_of=plain.object_of, objects=plain.objects,

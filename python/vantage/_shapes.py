@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Protocol, Union
 
@@ -228,10 +229,12 @@ def _mover(of_table: Any, scene: Scene | None, crs: str | None, name: str) -> Ca
     text = crs_text(of_table)
     latitude, longitude = place.latitude_deg, place.longitude_deg
 
+    unit_m = functools.cache(lambda: _core.vertical_unit_m(text))
+
     def moved(corners: Any) -> list[list[float]]:
         given = np.asarray(corners, np.float64)
         plan = _core.from_crs(latitude, longitude, text, np.ascontiguousarray(given[:, :2]))
-        return np.column_stack([plan, given[:, 2:]]).tolist()
+        return plan.tolist() if given.shape[1] == 2 else np.column_stack([plan, given[:, 2] * unit_m()]).tolist()
 
     def move(target: Target) -> Target:
         if target.vertices is not None:

@@ -73,6 +73,10 @@ std::vector<Eigen::Vector2d> scene_positions(const Georeference& georeference, c
   return positions;
 }
 
+double vertical_unit_m(const std::string& crs) {
+  return internal::geo::CoordinateSystem(crs, "crs").vertical_unit_m().value_or(1);
+}
+
 std::vector<Eigen::Vector2d> positions_in_crs(const Georeference& georeference, const std::string& crs,
                                               std::span<const Eigen::Vector2d> points) {
   const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from .. import _core
 from .._errors import Error, input_error
 from .._extras import require
 from .._requests import Target
@@ -53,6 +53,17 @@ class Places:
         self._scene = scene
         self._lonlat = _converter(crs, LONLAT) if crs is not None and crs != "scene" else None
         self._back: Any = None
+        self._crs = crs
+        self._unit_m: float | None = None
+
+    def heights(self, z: Corners) -> Corners:
+        """z of the table's CRS in the frame: metres, upwards. Where there are none, nothing is asked of the CRS."""
+        if self._lonlat is None or not z.size:
+            return z
+        if self._unit_m is None:
+            assert self._crs is not None
+            self._unit_m = _core.vertical_unit_m(self._crs)
+        return z * self._unit_m
 
     def to_scene(self, corners: Corners) -> Corners:
         """(n, 2) of the table's CRS into the frame."""
@@ -130,7 +141,7 @@ def _of_part(part: Any, keys: dict[str, Any], places: Places) -> list[Target]:
         if not part.has_z:
             raise input_error("missing-key", "the point has no height", "geometry", "give it a z")
         x, y = places.to_scene(np.array([[part.x, part.y]]))[0]
-        return [Target(**keys, point=[x, y, part.z])]
+        return [Target(**keys, point=[x, y, float(places.heights(np.array(part.z)))])]
     rings = [_ring(ring, places) for ring in (part.exterior, *part.interiors)]
     if not part.has_z:
         holes = [ring.tolist() for ring in rings[1:]] or None
@@ -141,14 +152,14 @@ def _of_part(part: Any, keys: dict[str, Any], places: Places) -> list[Target]:
 
 
 def _ring(ring: Any, places: Places) -> Corners:
-    """Open, without corners that stand twice in a row, in the frame; z as it is."""
+    """Open, without corners that stand twice in a row, in the frame."""
     corners = np.array(ring.coords, float)[:-1]
     if not np.isfinite(corners).all():
         raise input_error("coordinate-not-finite", "the geometry has a coordinate that is not finite", "geometry",
                           "write finite numbers")
     kept = (corners != np.roll(corners, 1, axis=0)).any(axis=1)
     corners = corners[kept] if kept.any() else corners[:1]
-    return np.column_stack([places.to_scene(corners[:, :2]), corners[:, 2:]])
+    return np.column_stack([places.to_scene(corners[:, :2]), places.heights(corners[:, 2:])])
 
 
 def _turns_one_way(ring: Corners) -> bool:
@@ -181,7 +192,7 @@ def footprint(row: Row, parts: list[Corners] | None, places: Places) -> bytes | 
     shapely = require("shapely", "geo")
     if row.geometry is not None:
         try:
-            return bytes(shapely.to_wkb(_moved(shapely.from_wkb(row.geometry), places.to_output)))
+            return bytes(shapely.to_wkb(_moved(shapely.from_wkb(row.geometry), places)))
         except (Error, shapely.errors.ShapelyError):
             return None
     assert parts is not None
@@ -192,10 +203,10 @@ def footprint(row: Row, parts: list[Corners] | None, places: Places) -> bytes | 
     return bytes(shapely.to_wkb(shapes[0] if len(shapes) == 1 else shapely.MultiPolygon(shapes)))
 
 
-def _moved(geometry: Any, move: Callable[[Corners], Corners]) -> Any:
+def _moved(geometry: Any, places: Places) -> Any:
     shapely = require("shapely", "geo")
 
     def of(corners: Corners) -> Corners:
-        return np.column_stack([move(corners[:, :2]), corners[:, 2:]])
+        return np.column_stack([places.to_output(corners[:, :2]), places.heights(corners[:, 2:])])
 
     return shapely.transform(geometry, of, include_z=geometry.has_z)
