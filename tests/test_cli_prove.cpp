@@ -347,6 +347,21 @@ TEST_F(CliProve, WritesNoCertificateOfAMeshThatWasMoved) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+/// It may have come there during the proof, which may take long.
+TEST_F(CliProve, ACertificateReplacesNoSceneOfOthers) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
+  const VolumeFile read = read_volume(folder_ / "v.ply", mission.scene());
+  check_certificate_files(folder_ / "v.cert", folder_ / "v.ply", {});
+  write("v.scene.ply", "mine");
+  testing::expect_error([&] { write_certificate({}, mission, read, folder_ / "v.cert"); }, ErrorCode::output_of_others,
+                        "v.scene.ply");
+  EXPECT_EQ(testing::content(folder_ / "v.scene.ply"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "v.cert"));
+  std::filesystem::remove(folder_ / "v.scene.ply");
+  for (int time = 0; time < 2; ++time) write_certificate({}, mission, read, folder_ / "v.cert");
+}
+
 TEST_F(CliProve, WritesNoCertificateOfWhatIsWrong) {
   output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
   write_mission("navigation: {altitude: [1, 20]}\n");

@@ -1,5 +1,6 @@
 // Missions of several targets: all, any, each; and targets that are seen from either side.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -528,6 +529,37 @@ TEST_F(CliTargets, NoFileOfTheUsersOwnIsReplaced) {
     write(name, own);
   }
   output_of({"compute", "mission.yaml", "-q", "-o", "made.ply"});
+}
+
+/// Nor one that came while the run took long.
+TEST_F(CliTargets, NoFileThatCameDuringTheRunIsReplaced) {
+  std::string targets;
+  for (int i = 10; i < 50; ++i)
+    targets += "  - {name: t" + std::to_string(i) + ", point: [0, 0, " + std::to_string(i) + "]}\n";
+  write("mission.yaml", std::string(testing::kScene) + testing::kSensor + "combine: each\ntargets:\n" + targets);
+  for (const std::string name : {"made.t10.ply", "made.t49.ply", "made.t49.report.json", "made.table.csv"}) {
+    bool was_late = false;
+    testing::RunOptions options = options_;
+    options.shows_progress = true;
+    options.signal = SIGCONT;  // is never sent
+    options.signal_when = [&](const std::string& err) {
+      const std::filesystem::path file = folder_ / name;
+      if (err.find("vantage: targets") == std::string::npos || was_late || testing::content(file) == "mine")
+        return false;
+      was_late = std::filesystem::exists(file);
+      if (!was_late) testing::write_bytes(file, "mine");
+      return false;
+    };
+    const testing::ProgramRun refused = testing::run_program(
+        testing::program_file(), {"compute", "mission.yaml", "-o", "made.ply", "--progress"}, options);
+    ASSERT_FALSE(was_late) << name;
+    EXPECT_EQ(refused.exit_code, 2) << name << refused.err;
+    EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
+    EXPECT_EQ(testing::content(folder_ / name), "mine");
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      if (entry.path().filename().string().starts_with("made.")) std::filesystem::remove(entry.path());
+    }
+  }
 }
 
 TEST(VolumeFiles, HaveNamesOfTheirOwn) {

@@ -52,6 +52,7 @@ struct ResultRequest {
   UpAxis obj_up = UpAxis::z;                   ///< as Scene::up
   double obj_scale = 1.0;                      ///< as Scene::scale
   ReportSource source = {};                    ///< `volume` is filled in for each report
+  bool are_names_derived = false;              ///< nobody gave the names of `volumes`: only own files are replaced
 };
 
 /// Of a mission's result: an OBJ is written in the axes and the unit of the scene's file.
@@ -98,8 +99,8 @@ VANTAGE_API std::filesystem::path report_file(const std::filesystem::path& volum
 /// Writes the volume to every file that is asked for, and a report beside each; only the reports when there is no
 /// volume. First of all it is measured. All files are written or none: when anything fails, old ones stay as they were.
 /// Fills Volume::seconds.write (until all is ready on the disk) and adds it to the total. Throws Error(internal) for a
-/// volume that is not closed and oriented, Error(cancelled) when told to stop, as check_derived_output for a report
-/// that it would replace, and as write_volume does.
+/// volume that is not closed and oriented, Error(cancelled) when told to stop, as check_derived_output for a report or,
+/// where their names are derived, a volume that it would replace, and as write_volume does.
 VANTAGE_API WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress = {});
 
 /// A volume, or any other mesh, as its file says.

@@ -240,6 +240,7 @@ void write_certificate(const Certificate& certificate, const Mission& mission, c
   auto files = stage_scene(scene, scene_file).files;
   files.push_back(std::make_unique<AtomicFile>(certificate_file));
   files.back()->write(certificate_text(certificate, about));
+  check_derived_output(scene_file);  // the proof may have taken long
   commit_all(files);
 }
 

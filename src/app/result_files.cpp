@@ -73,10 +73,14 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
     const std::filesystem::path report = report_file(file);
     const auto is_same = [&](const auto& other) { return other.lexically_normal() == report.lexically_normal(); };
     if (std::any_of(result.reports.begin(), result.reports.end(), is_same)) continue;
-    check_derived_output(report);
     files.push_back(std::make_unique<AtomicFile>(report));
     files.back()->write(text);
     result.reports.push_back(report);
+  }
+  // Last: the run may have taken long, and writing, too.
+  for (const std::filesystem::path& report : result.reports) check_derived_output(report);
+  if (request.are_names_derived && has_volume) {
+    for (const std::filesystem::path& file : request.volumes) check_derived_output(file);
   }
   commit_all(files);
   return result;

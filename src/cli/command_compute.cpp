@@ -422,6 +422,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     for (std::size_t i = 0; i < results.size(); ++i) {
       ResultRequest request = result_request(mission, results[i], files[i]);
       request.source.target = names[i];
+      request.are_names_derived = true;
       written.push_back(write_results(results[i].volume, request, progress.callback()));
     }
     for (std::size_t i = 0; i < results.size(); ++i) {

@@ -90,7 +90,9 @@ std::vector<fs::path> draw(const RenderArguments& options, Mission mission, cons
   std::vector<fs::path> files = volume_files(output, target_names(mission));
   for (const fs::path& one : files) check_derived_output(one);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    write_png(picture(options, one_volume(mission, i), results[i].volume, view, size, progress), files[i], progress);
+    const Picture drawn = picture(options, one_volume(mission, i), results[i].volume, view, size, progress);
+    check_derived_output(files[i]);  // drawing may have taken long
+    write_png(drawn, files[i], progress);
   }
   return files;
 }
