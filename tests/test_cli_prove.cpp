@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/cli_fixture.h"
+#include "support/pipe.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
@@ -360,6 +361,27 @@ TEST_F(CliProve, ACertificateReplacesNoSceneOfOthers) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "v.cert"));
   std::filesystem::remove(folder_ / "v.scene.ply");
   for (int time = 0; time < 2; ++time) write_certificate({}, mission, read, folder_ / "v.cert");
+}
+
+TEST_F(CliProve, APipeInThePlaceOfTheReportIsNotOpened) {
+  write("v.ply",  // which says nothing of how it was made
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 5\n2 0 5\n0 2 5\n0 0 7\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  const testing::Pipe pipe(folder_ / "v.report.json");
+  for (const char* const command : {"prove", "verify"}) {
+    const auto result = run({command, "mission.yaml", "v.ply", "-q"});
+    EXPECT_EQ(result.exit_code, 2) << command << result.err;
+    EXPECT_NE(result.err.find("v.report.json"), std::string::npos) << result.err;
+  }
+  EXPECT_FALSE(pipe.was_opened());
+}
+
+TEST_F(CliProve, APipeIsNoVolumeForACertificate) {
+  const testing::Pipe pipe(folder_ / "v.ply");
+  testing::expect_code([&] { check_certificate_files(folder_ / "v.cert", pipe.file(), {}); }, ErrorCode::not_a_file,
+                       "v.ply");
+  EXPECT_FALSE(pipe.was_opened());
 }
 
 TEST_F(CliProve, WritesNoCertificateOfWhatIsWrong) {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "maps/terrain/gdal_library.h"
 #include "maps/terrain/height_grid.h"
 #include "maps/terrain/raster_file.h"
+#include "support/pipe.h"
 #include "support/raster_writer.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -161,6 +163,37 @@ TEST(RasterFiles, FilesBesideARasterAreNotOpened) {
   write_bytes(file.string() + ".msk", virtual_text);
   testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
   EXPECT_FALSE(listener.was_called());
+}
+
+/// Opening a pipe that nobody writes to would wait for ever: whoever opens one of these is let go, and noted.
+TEST(RasterFiles, PipesBesideARasterAreNotOpened) {
+  for (const char* const name : {"dem.tif.aux.xml", "DEM.TIF.aux.xml", "dem.tif.msk"}) {
+    const TemporaryDirectory folder;
+    const fs::path file = write_raster(folder.path(), "dem", small_raster());
+    const testing::Pipe pipe(folder / name);
+    testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
+    EXPECT_FALSE(pipe.was_opened()) << name;
+  }
+  const TemporaryDirectory folder;
+  const fs::path file = write_raster(folder.path(), "dem", small_raster());
+  convert_raster(file, folder / "grid.asc", "AAIGrid");
+  std::vector<std::unique_ptr<testing::Pipe>> pipes;
+  for (const char* const name :
+       {"dem.tif.ovr", "dem.ovr", "dem.tfw", "dem.tifw", "dem.wld", "dem.TAB", "dem.tab", "dem.aux", "dem.rrd",
+        "dem.imd", "dem.IMD", "dem.rpb", "dem.RPB", "dem.xml", "dem.XML"}) {
+    pipes.push_back(std::make_unique<testing::Pipe>(folder / name));
+  }
+  EXPECT_EQ(read_height_grid(file).voids, 0u);
+  for (const auto& pipe : pipes) EXPECT_FALSE(pipe->was_opened()) << pipe->file();
+  // The reference system of a grid has a file of its own.
+  EXPECT_EQ(read_height_grid(folder / "grid.asc").voids, 0u);
+  fs::remove(folder / "grid.prj");
+  for (const char* const name : {"grid.prj", "grid.PRJ"}) {
+    const testing::Pipe system(folder / name);
+    testing::expect_error([&] { read_height_grid(folder / "grid.asc"); }, ErrorCode::raster_unreadable, "grid.asc");
+    EXPECT_FALSE(system.was_opened()) << name;
+    fs::remove(folder / name);
+  }
 }
 
 TEST(RasterFiles, WhatChangesHeightsMayNotLieBeside) {

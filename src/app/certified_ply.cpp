@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -119,6 +120,7 @@ bool is_as_written(std::istream& in, std::uint64_t file_size) {
 }  // namespace
 
 void check_certified_ply(const std::filesystem::path& file) {
+  check_readable(file, "the volume");
   std::ifstream in(file, std::ios::binary);
   std::error_code ignored;
   if (in && is_as_written(in, std::filesystem::file_size(file, ignored))) return;

@@ -10,6 +10,7 @@
 #include "app/combine_targets.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
+#include "vantage/input.h"
 #include "vantage/result.h"
 
 namespace vantage {
@@ -22,8 +23,10 @@ std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) 
   std::filesystem::path volume = volume_file;
   if (volume.extension() == ".gz") volume.replace_extension();
   const std::filesystem::path report = report_file(volume);
+  std::error_code ignored;
+  if (!std::filesystem::exists(report, ignored)) return std::nullopt;
+  check_readable(report, "the report beside the volume");
   std::ifstream in(report);
-  if (!in) return std::nullopt;
   const auto json = nlohmann::json::parse(in, nullptr, false);
   const double lift =
       json.is_object() && json.contains("lift_m") && json["lift_m"].is_number() ? json["lift_m"].get<double>() : -1;

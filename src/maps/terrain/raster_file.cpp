@@ -70,9 +70,25 @@ void check_metadata_text(const fs::path& file, const std::string& text, const st
   }
 }
 
+/// Whether there is such a file. Refuses what is none: opening a pipe that nobody writes to would wait for ever.
+bool is_file_beside(const fs::path& file, const fs::path& beside) {
+  std::error_code error;
+  const fs::file_status status = fs::status(beside, error);
+  if (!fs::exists(status)) return false;
+  if (fs::is_regular_file(status)) return true;
+  throw Error(ErrorCode::raster_unreadable,
+              "what lies beside the raster is not a regular file: " + beside.filename().string(), file.string(),
+              "move it away");
+}
+
 void check_metadata(const fs::path& file, const fs::path& metadata) {
+  if (!is_file_beside(file, metadata)) return;
   std::string text(kMostMetadata + 1, '\0');
   std::ifstream stream(metadata, std::ios::binary);
+  if (!stream) {
+    throw Error(ErrorCode::raster_unreadable, "the raster's metadata cannot be read: " + metadata.filename().string(),
+                file.string(), "change its permissions, or move it away");
+  }
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
   check_metadata_text(file, text, metadata.filename().string());
@@ -94,20 +110,25 @@ void check_metadata_in_archive(const GdalLibrary& library, const fs::path& file,
   check_metadata_text(file, text, name);
 }
 
-/// Masks, overviews and metadata in files of their own are not read: GDAL opens them by any driver that knows them.
+/// Masks, overviews and metadata in files of their own are not read: GDAL opens them by any driver that knows them. It
+/// reads the .prj of a grid, which may have any extension.
 void check_beside(const fs::path& file) {
   const std::string own = in_lower_case(file.filename().string());
+  const std::string system = in_lower_case(file.stem().string()) + ".prj";
   std::error_code error;
   const fs::path folder = fs::absolute(file).parent_path();
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string(), lower = in_lower_case(name);
     if (lower == own + ".msk") refuse_for_beside(file, "its mask", name);
     if (lower == own + ".aux.xml") check_metadata(file, entry->path());
+    if (lower == system) is_file_beside(file, entry->path());
   }
   if (!error) return;
   // A folder that may be passed through and not be listed.
   if (fs::exists(file.string() + ".msk", error)) refuse_for_beside(file, "its mask", file.filename().string() + ".msk");
   check_metadata(file, file.string() + ".aux.xml");
+  for (const char* const extension : {".prj", ".PRJ"})
+    is_file_beside(file, fs::path(file).replace_extension(extension));
 }
 
 /// The only file in an archive that may be a raster, by its extension.
