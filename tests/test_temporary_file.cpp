@@ -369,6 +369,64 @@ TEST(TemporaryFolder, TakesThePlaceOfAnother) {
   EXPECT_EQ(names_in(folder.path()), Names{kTemporaryMark}) << "it is still a temporary one";
 }
 
+/// Whenever it is killed, the next one removes all that is left, but for a folder in which there is nothing yet.
+TEST(TemporaryFolder, NoKillWhileItTakesThePlaceOfAnotherLeavesAFolder) {
+  testing::Random random(2027);
+  for (int kill = 0; kill < 60; ++kill) {
+    const TemporaryDirectory directory;
+    {
+      Process mover([&] {
+        std::thread([&] {
+          for (;;) {
+            TemporaryFolder folder(directory.path(), ".x-");
+            write_bytes(folder.path() / "file", "x");
+            folder.move_to(directory / "place");
+          }
+        }).detach();
+      });
+      std::this_thread::sleep_for(std::chrono::microseconds(random.integer(0, 5'000)));
+    }
+    {
+      TemporaryFolder next(directory.path(), ".x-");
+      write_bytes(next.path() / "file", "y");
+      ASSERT_TRUE(next.move_to(directory / "place"));
+    }
+    EXPECT_EQ(names_in(directory / "place"), Names{"file"}) << "after kill " << kill;
+    EXPECT_EQ(read_bytes(directory / "place/file"), "y");
+    for (const std::string& name : directory.names()) {
+      EXPECT_TRUE(name == "place" || !fs::exists(directory / name / "file")) << name << " after kill " << kill;
+    }
+  }
+}
+
+/// A finished folder may keep the mark where the process was killed: it must not be taken for a temporary one.
+TEST(TemporaryFolder, DoesNotMoveToANameOfItsOwnKind) {
+  const TemporaryDirectory directory;
+  for (const char* const name : {".x-abcdef", ".x-abcdef-old"}) {
+    TemporaryFolder folder(directory.path(), ".x-");
+    EXPECT_FALSE(folder.move_to(directory / name));
+    EXPECT_EQ(errno, EINVAL);
+    EXPECT_FALSE(fs::exists(directory / name));
+  }
+  EXPECT_EQ(directory.names(), Names{});
+}
+
+TEST(TemporaryFolder, AMarkThatWasLeftInAFinishedFolderIsTakenAway) {
+  const TemporaryDirectory directory;
+  make_marked(directory / "place");
+  write_bytes(directory / "place/stages.json",
+              R"({"version": "0.0.1", "mission": "", "outcome": "computed", "run": {}, "stages": []})");
+  { const StageFolder accepted(directory / "place"); }
+  {
+    TemporaryFolder folder(directory.path(), ".x-");
+    write_bytes(folder.path() / "file", "x");
+    EXPECT_FALSE(folder.move_to(directory / "none/place"));
+    ASSERT_TRUE(folder.move_to(directory / "place"));
+  }
+  EXPECT_EQ(directory.names(), Names{"place"});
+  EXPECT_EQ(names_in(directory / "place"), Names{"file"});
+}
+
 /// Without an exchange in one step, as on some network file systems.
 TEST(TemporaryFolder, TakesThePlaceOfAnotherInTwoSteps) {
   const TemporaryDirectory directory;

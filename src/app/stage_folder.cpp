@@ -13,6 +13,7 @@
 
 #include "app/point_json.h"
 #include "core/format.h"
+#include "core/temporary_mark.h"
 #include "core/text.h"
 #include "io/json_text.h"
 #include "vantage/atomic_file.h"
@@ -77,6 +78,12 @@ bool is_stage_file(const fs::directory_entry& entry) {
   return (is_mesh || name == kStory) && entry.is_regular_file(error);
 }
 
+/// What a killed process may leave in a folder that it has put in place.
+bool is_left_mark(const fs::directory_entry& entry) {
+  std::error_code error;
+  return entry.path().filename() == internal::core::kTemporaryMark && entry.is_regular_file(error);
+}
+
 /// Without a slash at the end, which would make the folder its own parent.
 fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
 
@@ -131,6 +138,7 @@ void StageFolder::check_replaceable() const {
   std::vector<fs::path> files;
   bool has_story = false;
   for (; entry != fs::directory_iterator(); entry.increment(error)) {
+    if (is_left_mark(*entry)) continue;
     if (!is_stage_file(*entry)) refuse(entry->path().filename().string());
     files.push_back(entry->path());
     has_story |= files.back().filename() == kStory;

@@ -28,21 +28,21 @@ bool exchange_folders(const fs::path& folder, const fs::path& place) {
 /// The old one steps aside, and comes back if the new one does not take its place.
 bool replace_in_two_steps(const fs::path& folder, const fs::path& place) {
   const fs::path aside = folder.string() + "-old";
-  const int old = ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (old >= 0) (void)lock_with_others(old);  // nobody takes it for one that was left
-  bool is_done = ::rename(place.c_str(), aside.c_str()) == 0;
-  int reason = errno;
-  if (is_done && old >= 0) (void)put_temporary_mark(old);  // it is found by that if the process is killed
-  if (is_done && ::rename(folder.c_str(), place.c_str()) != 0) {
-    reason = errno;
-    is_done = false;
-    if (old >= 0) (void)take_temporary_mark(old);
+  if (::rename(place.c_str(), aside.c_str()) != 0) return false;
+  if (::rename(folder.c_str(), place.c_str()) != 0) {
+    const int reason = errno;
     ::rename(aside.c_str(), place.c_str());
+    errno = reason;
+    return false;
   }
-  if (is_done) remove_temporary_folder(aside);
-  if (old >= 0) ::close(old);
-  errno = reason;
-  return is_done;
+  remove_temporary_folder(aside);
+  return true;
+}
+
+bool replace(const fs::path& folder, const fs::path& place, bool try_in_one_step) {
+  if (try_in_one_step && exchange_folders(folder, place)) return true;
+  if (try_in_one_step && errno != EINVAL && errno != ENOSYS) return false;
+  return replace_in_two_steps(folder, place);
 }
 
 }  // namespace
@@ -50,9 +50,18 @@ bool replace_in_two_steps(const fs::path& folder, const fs::path& place) {
 bool replace_folder(const fs::path& folder, const fs::path& place, bool try_in_one_step) {
   std::error_code error;
   if (!fs::exists(place, error)) return ::rename(folder.c_str(), place.c_str()) == 0;
-  if (try_in_one_step && exchange_folders(folder, place)) return true;
-  if (try_in_one_step && errno != EINVAL && errno != ENOSYS) return false;
-  return replace_in_two_steps(folder, place);
+  // The old one is marked first, so that it is found by that whenever the process is killed.
+  const int old = ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (old >= 0) {
+    (void)lock_with_others(old);  // nobody takes it for one that was left
+    if (!has_temporary_mark(old)) (void)put_temporary_mark(old);
+  }
+  const bool is_done = replace(folder, place, try_in_one_step);
+  const int reason = errno;
+  if (!is_done && old >= 0) (void)take_temporary_mark(old);
+  if (old >= 0) ::close(old);
+  errno = reason;
+  return is_done;
 }
 
 }  // namespace vantage::internal::core

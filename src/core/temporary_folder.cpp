@@ -34,15 +34,19 @@ fs::path folder_for_temporary_files() {
   return error ? fs::path("/tmp") : folder;
 }
 
+/// Whether it is PREFIXxxxxxx and an ending.
+bool is_named_so(const std::string& name, std::string_view prefix, std::string_view ending) {
+  return name.size() == prefix.size() + kRandomCharacters + ending.size() && name.starts_with(prefix) &&
+         name.ends_with(ending);
+}
+
 /// Removes those that were left by processes that have ended: PREFIXxxxxxx and an ending. A name shows nothing, since
 /// others may give it too: the mark does.
 void remove_abandoned(const fs::path& parent, std::string_view prefix, std::string_view ending) {
   std::error_code error;
   for (fs::directory_iterator entry(parent, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (name.size() != prefix.size() + kRandomCharacters + ending.size()) continue;
-    if (!name.starts_with(prefix) || !name.ends_with(ending)) continue;
+    if (!is_named_so(entry->path().filename().string(), prefix, ending)) continue;
     const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0) continue;
     struct stat status {};
@@ -54,13 +58,7 @@ void remove_abandoned(const fs::path& parent, std::string_view prefix, std::stri
   }
 }
 
-/// What stood in the place of a folder is where that one was, and goes with it, also if the process is killed now.
-void mark_replaced(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) return;
-  (void)put_temporary_mark(descriptor);
-  ::close(descriptor);
-}
+constexpr std::string_view kAside = "-old";
 
 }  // namespace
 
@@ -96,18 +94,18 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 bool TemporaryFolder::move_to(const fs::path& place) {
-  if (!internal::core::take_temporary_mark(descriptor_)) return false;  // what is in place is there to stay
-  if (!internal::core::replace_folder(path_, place)) {
-    const int reason = errno;
-    (void)put_temporary_mark(descriptor_);
-    errno = reason;
+  const std::string own = path_.filename().string(), prefix = own.substr(0, own.size() - kRandomCharacters);
+  const std::string name = place.filename().string();
+  if (is_named_so(name, prefix, "") || is_named_so(name, prefix, kAside)) {
+    errno = EINVAL;
     return false;
   }
-  mark_replaced(path_);
+  // Both are marked while they change places: what has a temporary name then is known for one whenever the process is
+  // killed, and the name of `place` is none.
+  if (!internal::core::replace_folder(path_, place)) return false;
+  (void)internal::core::take_temporary_mark(descriptor_);
   // What a killed process left beside is older than what is in place now.
-  const std::string name = path_.filename().string();
-  remove_abandoned(path_.has_parent_path() ? path_.parent_path() : fs::path("."),
-                   name.substr(0, name.size() - kRandomCharacters), "-old");
+  remove_abandoned(path_.has_parent_path() ? path_.parent_path() : fs::path("."), prefix, kAside);
   return true;  // where a folder is at path_ now, it was at `place`, and goes with this object
 }
 
