@@ -246,6 +246,37 @@ def test_bad_places(field, tmp_path):
     assert (tmp_path / "others.zarr" / ".zgroup").exists()
 
 
+def test_only_fields_that_vantage_wrote_are_replaced(field, tmp_path):
+    """Not those of other programs that have a variable of that name, nor what somebody put into the folder."""
+    path = tmp_path / "field.zarr"
+
+    def refused():
+        before = {file.relative_to(path): file.read_bytes() for file in path.rglob("*") if file.is_file()}
+        with pytest.raises(vt.OutputError) as raised:
+            field.vantage.save(path)
+        assert raised.value.code == "folder-in-use"
+        assert {file.relative_to(path): file.read_bytes() for file in path.rglob("*") if file.is_file()} == before
+
+    cloud = xarray.DataArray(np.zeros((2, 3)), dims=("y", "x"), name="fraction").to_dataset()
+    for format, attributes in ((2, {}), (3, {}), (2, {"Conventions": "CF-1.11", "source": "a model of clouds"}),
+                               (3, {"Conventions": "CF-1.11"})):
+        cloud.assign_attrs(attributes).to_zarr(path, mode="w", zarr_format=format)
+        refused()
+    field.to_dataset().assign_attrs(Conventions="CF-1.11").to_zarr(path, mode="w", zarr_format=2)
+    field.vantage.save(path)  # as version 0.1 wrote them
+    for name in ("notes.txt", "mine/notes.txt"):
+        (path / name).parent.mkdir(exist_ok=True)
+        (path / name).write_text("mine")
+        refused()
+        (path / name).unlink()
+    (path / "mine").rmdir()
+    field.vantage.save(path)
+    own = xarray.DataArray(np.ones((2, 3, 4)), {name: np.arange(float(size)) for name, size in zip("zyx", (2, 3, 4))},
+                           ("z", "y", "x"), attrs={"step_m": 1.0})
+    for _ in range(2):
+        own.vantage.save(tmp_path / "own.zarr")
+
+
 def test_the_older_field_stays_where_the_new_one_cannot_take_its_place(field, tmp_path, monkeypatch):
     """Nor does it lie meanwhile where the next process removes it, if this one is killed."""
     from vantage import _folders, fields

@@ -7,9 +7,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ import numpy.typing as npt
 
 from . import _arrays
 from ._checks import path as checked_path
+from ._core import version
 from ._errors import Error, input_error, make
 from ._extras import require
 from ._folders import BESIDE, Folder
@@ -27,6 +29,9 @@ from ._volume import Volume
 _xarray: Any = require("xarray", "fields")
 
 CONVENTIONS = "CF-1.11"
+SOURCE = "vantage "
+"""What is followed by the version, in the attribute "source" of fields and files."""
+
 AXES = {"x": ("projection_x_coordinate", "east"), "y": ("projection_y_coordinate", "north")}
 
 
@@ -154,7 +159,7 @@ class FractionField:
 
     def _dataset(self) -> Any:
         dataset = self._array.to_dataset(name="fraction")
-        dataset.attrs["Conventions"] = CONVENTIONS
+        dataset.attrs |= {"Conventions": CONVENTIONS, "source": f"{SOURCE}{version}"}  # by which it may be replaced
         return dataset
 
     def _netcdf(self, file: str) -> None:
@@ -206,15 +211,39 @@ def _written_whole(file: str, write: Callable[[str], None]) -> None:
             os.replace(made, file)
 
 
+_ARRAYS = {"fraction", "x", "y", "z", "spatial_ref"}
+
+
+def _is_own_store(folder: str, names: Collection[str]) -> bool:
+    """Whether vantage wrote it, and nothing is in it but what has one of the names."""
+    if not os.path.isdir(folder) or not set(os.listdir(folder)) <= set(names):
+        return False
+    group, field = (_attributes(os.path.join(folder, *inside)) for inside in ((), ("fraction",)))
+    return str(group.get("Conventions")).startswith("CF-") and \
+        any(str(told.get("source")).startswith(SOURCE) for told in (group, field))  # version 0.1 said it of the field alone
+
+
+def _attributes(folder: str) -> dict[str, Any]:
+    """Of a group or an array of Zarr 2; none where they cannot be read."""
+    file = os.path.join(folder, ".zattrs")
+    try:
+        if not os.path.isfile(file):  # a pipe would be waited for
+            return {}
+        with open(file, encoding="utf-8") as stream:
+            told = json.load(stream)
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return told if isinstance(told, dict) else {}
+
+
 def _replace_store(made: str, file: str, folder: str) -> None:
     """A folder takes the place of an older field, and of nothing else."""
     if not os.path.lexists(file):
         os.replace(made, file)
         return
-    if not os.path.isdir(os.path.join(file, "fraction")) or \
-            not any(os.path.isfile(os.path.join(file, name)) for name in ("zarr.json", ".zgroup")):
-        raise make("output", "folder-in-use", "another thing stands in the place of the field", file,
-                   "choose another place", None)
+    if not _is_own_store(file, {*_ARRAYS, *os.listdir(made)}):
+        raise make("output", "folder-in-use", "what stands in the place of the field is none that vantage wrote, or holds "
+                   "other things, too", file, "choose another place, or move it away", None)
     aside = folder + "-old"  # not into the folder: that goes with this process, be it killed
     shutil.move(file, aside)
     try:
