@@ -348,6 +348,22 @@ TEST_F(CliQuery, HeightsMayBeAboveTheSeaOrTheGround) {
   refused("x,y,agl\n50,0,10\n", "bare.yaml", "points.csv");
 }
 
+/// Which one is meant, nobody knows. Of a column that is not used, nothing is asked.
+TEST_F(CliQuery, OfOneMeaningThereIsOneColumn) {
+  write_hill(folder_ / "hill.obj");
+  write("hill.yaml", "scene: {mesh: hill.obj, sea_level: 20}\ntarget: {point: [0, 0, 515]}\n" + std::string(kSensor));
+  for (const char* const header : {"x,y,alt,altitude", "Altitude,ALT,x,y", "x,y,agl,agl", "x,X,y,z",
+                                   "lon,lat,longitude,z", "lat,lon,z,latitude", "x,y,z,z"}) {
+    write("points.csv", std::string(header) + "\n50,0,505,10\n");
+    expect_bad({"query", "hill.yaml", "points.csv", "-q"}, "points.csv:1");
+  }
+  options_.input = "x,y,z,lon,longitude,alt,altitude\n50,0,525,1,2,3,4\n";
+  const ProgramRun taken = run({"query", "hill.yaml", "-"});
+  EXPECT_EQ(taken.exit_code, 0) << taken.err;
+  EXPECT_NE(taken.err.find("z and alt:"), std::string::npos) << taken.err;
+  EXPECT_NE(taken.err.find("z and altitude:"), std::string::npos) << taken.err;
+}
+
 TEST_F(CliQuery, OneHeightMayHaveAUnit) {
   options_.input = "0 0\n";
   const std::string metres = output_of({"query", "mission.yaml", "-", "--z", "30.48"});

@@ -29,13 +29,20 @@ bool is_word(const std::string& field) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c >= 0x80;
 }
 
-std::optional<std::size_t> find_column(const std::vector<std::string>& names,
-                                       std::initializer_list<const char*> wanted) {
+/// The columns of one of these names.
+std::vector<std::size_t> columns_of(const std::vector<std::string>& names, std::initializer_list<const char*> wanted) {
+  std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = lower_case(names[i]);
-    if (std::any_of(wanted.begin(), wanted.end(), [&](const char* word) { return name == word; })) return i;
+    if (std::any_of(wanted.begin(), wanted.end(), [&](const char* word) { return name == word; })) columns.push_back(i);
   }
-  return std::nullopt;
+  return columns;
+}
+
+std::optional<std::size_t> find_column(const std::vector<std::string>& names,
+                                       std::initializer_list<const char*> wanted) {
+  const std::vector<std::size_t> columns = columns_of(names, wanted);
+  return columns.empty() ? std::nullopt : std::optional(columns.front());
 }
 
 /// The plain cases at once; what is left is parse_number's.
@@ -134,6 +141,8 @@ void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
   is_lonlat_ = options_.lonlat || (lon && lat && !(x && y));
   is_ambiguous_ = !options_.lonlat && lon && lat && x && y;
   column_ = {is_lonlat_ ? lon : x, is_lonlat_ ? lat : y, std::nullopt};
+  check_only_one(is_lonlat_ ? columns_of(names_, {"lon", "longitude"}) : columns_of(names_, {"x"}), row);
+  check_only_one(is_lonlat_ ? columns_of(names_, {"lat", "latitude"}) : columns_of(names_, {"y"}), row);
   take_height(row);
   for (const auto& column : column_) {
     if (column && !is_lonlat_) names_[*column] = lower_case(names_[*column]);
@@ -150,32 +159,39 @@ void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
   }
 }
 
+/// Which of two is meant, nobody knows.
+void PointTable::check_only_one(const std::vector<std::size_t>& columns, const Row& row) const {
+  if (columns.size() < 2) return;
+  fail(ErrorCode::conflicting_keys, "the points have the columns " + names_[columns[0]] + " and " + names_[columns[1]],
+       row, "leave one of them out, or give another name to it");
+}
+
 /// z comes first, as before there were others. Of alt and agl only one can be meant.
 void PointTable::take_height(const Row& row) {
   struct Known {
     HeightColumn height;
-    std::optional<std::size_t> column;
+    std::vector<std::size_t> columns;
   };
-  const std::array<Known, 3> all = {Known{HeightColumn::z, find_column(names_, {"z"})},
-                                    {HeightColumn::alt, find_column(names_, {"alt", "altitude"})},
-                                    {HeightColumn::agl, find_column(names_, {"agl"})}};
-  for (const Known& known : all) {
-    if (!known.column) continue;
-    const std::string& name = names_[*known.column];
+  const std::array<Known, 3> all = {Known{HeightColumn::z, columns_of(names_, {"z"})},
+                                    {HeightColumn::alt, columns_of(names_, {"alt", "altitude"})},
+                                    {HeightColumn::agl, columns_of(names_, {"agl"})}};
+  std::vector<std::size_t> meant;
+  for (const auto& [height, columns] : all) {
+    if (columns.empty()) continue;
     if (options_.z) {
-      fail(ErrorCode::conflicting_keys, "the points have a column " + name + ", and --z gives another height", row,
+      fail(ErrorCode::conflicting_keys,
+           "the points have a column " + names_[columns.front()] + ", and --z gives another height", row,
            "leave one of them out");
     }
-    if (!column_[2]) {
-      column_[2] = known.column;
-      height_ = known.height;
-    } else if (height_ == HeightColumn::z) {
-      unused_heights_.push_back(name);
-    } else {
-      fail(ErrorCode::conflicting_keys, "the points have the columns " + names_[*column_[2]] + " and " + name, row,
-           "leave one of them out, or give another name to it");
+    if (column_[2] && height_ == HeightColumn::z) {
+      for (const std::size_t column : columns) unused_heights_.push_back(names_[column]);
+      continue;
     }
+    meant.insert(meant.end(), columns.begin(), columns.end());
+    column_[2] = meant.front();
+    height_ = height;
   }
+  check_only_one(meant, row);
 }
 
 Vec3 PointTable::coordinates(const Row& row) {

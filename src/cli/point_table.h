@@ -91,6 +91,7 @@ class PointTable {
                    const std::optional<double>& fraction, const std::string& target);
   std::optional<std::size_t> axis_of(std::size_t column) const;
   void take_height(const Row& row);
+  void check_only_one(const std::vector<std::size_t>& columns, const Row& row) const;
   double scene_height(const Vec3& coordinates, const Eigen::Vector2d& at, const PointFrame& frame,
                       const Row& row) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const;
