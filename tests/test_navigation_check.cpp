@@ -237,26 +237,23 @@ TEST(NavigationCheck, MissionFilesAreToldTheSame) {
     set(navigation);
     return error_of([&] { check_navigation(navigation); });
   };
-  const auto expect_same = [](const Error& file, const Error& memory) {
+  const auto expect_same = [&](const std::string& text, const std::function<void(Navigation&)>& set) {
+    const Error memory = checked(set), file = told(text);  // in this order, as their words are noted
     EXPECT_EQ(file.code(), memory.code());
     EXPECT_EQ(file.problem(), memory.problem());
     EXPECT_EQ(file.fix(), memory.fix());
     EXPECT_EQ(file.where().rfind("mission.yaml:3:", 0), 0u) << file.where();
   };
-  expect_same(told("altitude: [5, 3]"), checked([](Navigation& n) { n.altitude = {5, 3}; }));
-  expect_same(told("altitude: [5, 5]"), checked([](Navigation& n) { n.altitude = {5, 5}; }));
-  expect_same(told("altitude: {agl: [5, 3]}"), checked([](Navigation& n) {
-                n.above_ground = AboveGround{5, 3, {0, nullptr}};
-              }));
-  expect_same(told("keep_in: [{min: [0, 9, 0], max: [1, 2, 3]}]"), checked([](Navigation& n) {
-                n.keep_in = {Box{{0, 9, 0}, {1, 2, 3}}};
-              }));
-  expect_same(told("keep_out: [{min: [0, 0, 0], max: [1, 0, 3]}]"), checked([](Navigation& n) {
-                n.keep_out = {Box{{0, 0, 0}, {1, 0, 3}}};
-              }));
-  expect_same(told("clearance: -2"), checked([](Navigation& n) {
-                n.clearance = {-2, std::make_shared<const Mesh>()};
-              }));
+  expect_same("altitude: [5, 3]", [](Navigation& n) { n.altitude = {5, 3}; });
+  expect_same("altitude: [5, 5]", [](Navigation& n) { n.altitude = {5, 5}; });
+  expect_same("altitude: {agl: [5, 3]}", [](Navigation& n) { n.above_ground = AboveGround{5, 3, {0, nullptr}}; });
+  expect_same("keep_in: [{min: [0, 9, 0], max: [1, 2, 3]}]", [](Navigation& n) {
+    n.keep_in = {Box{{0, 9, 0}, {1, 2, 3}}};
+  });
+  expect_same("keep_out: [{min: [0, 0, 0], max: [1, 0, 3]}]", [](Navigation& n) {
+    n.keep_out = {Box{{0, 0, 0}, {1, 0, 3}}};
+  });
+  expect_same("clearance: -2", [](Navigation& n) { n.clearance = {-2, std::make_shared<const Mesh>()}; });
 }
 
 }  // namespace
