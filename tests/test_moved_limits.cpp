@@ -334,8 +334,9 @@ class MovedLimits : public ::testing::TestWithParam<std::size_t> {
   World draw(Random& random) const {
     World world;
     world.scene = draw_scene(random);
-    world.target =
-        testing::random_target(random, random.integer(3, 6), random.uniform(1, 3), Vec3::Zero(), Vec3(0, 0, 1));
+    const int corners = random.integer(3, 6);
+    const double radius = random.uniform(1, 3);
+    world.target = testing::random_target(random, corners, radius, Vec3::Zero(), Vec3(0, 0, 1));
     world.target.front = Vec3(0, 0, 1);
     world.sensor.max_range_m = kRangeOfMoved;
     limit().add(world, random);

@@ -62,6 +62,28 @@ TEST(VerifySegment, ATriangleWithoutAreaIsNeverMet) {
   EXPECT_EQ(meet(Segment({1, 1, 2}, {1, 1, 0}), needle).contact, Contact::none);
 }
 
+TEST(VerifySegment, ANeedleIsMissedBesideIt) {
+  // Rounding leaves its plane open, for any segment within its box.
+  const FlatTriangle needle({-100, -100, -100}, {100, 100, 100}, {0, 1e-10, 0});
+  ASSERT_GT(needle.normal_length, 0);
+  const std::uint64_t seed = 21;
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> in(-90, 90);
+  int missed = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Segment segment({in(random), in(random), in(random)}, {in(random), in(random), in(random)});
+    const Vec3 normal = segment.direction.cross(needle.edge1).normalized();
+    const double away = std::abs(normal.dot(segment.from - needle.corner));  // of the two lines
+    if (away < 1e-9) continue;
+    EXPECT_EQ(meet(segment, needle).contact, Contact::none) << i << ": " << away << " m";
+    ++missed;
+  }
+  EXPECT_GT(missed, 9000);
+  EXPECT_NE(meet(Segment({1, 1, 3}, {1, 1, -1}), needle).contact, Contact::none);  // through it
+  EXPECT_NE(meet(Segment({5, 5, 5}, {6, 6, 6}), needle).contact, Contact::none);   // along it
+}
+
 TEST(VerifySegment, NeverCertainlyWrongNearBorders) {
   // Hits a few roundoffs to either side of an edge, where plain arithmetic errs: the answer may be unsure, never wrong.
   const std::uint64_t seed = 20;
@@ -118,6 +140,17 @@ TEST(VerifyClosedMesh, KnowsInsideFromOutside) {
   EXPECT_NEAR(solid.distance_to_surface({0.75, 0, 0}), 0.25, 1e-9);
   EXPECT_NEAR(solid.distance_to_surface({0, 0, 0.2}), 0.3, 1e-9);
   EXPECT_NEAR(solid.distance_to_surface({1000, 0, 3}), 999, 1e-9);
+}
+
+TEST(VerifyClosedMesh, KnowsInsideFromOutsideInTheBoxOfANeedle) {
+  // A box of which one edge is a triangle: from corner to corner of the bounds run two needles.
+  Mesh mesh = make_box_mesh({-100, -100, -100}, {0, 0, 0});
+  append(mesh, Mesh{{{-100, -100, -100}, {100, 100, 100}, {0, 1e-10, 0}, {1e-10, 0, 0}},
+                    {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}});
+  const ClosedMesh closed(mesh, Vec3::Zero(), "needle");
+  EXPECT_EQ(closed.contains({-90, -10, -30}), true);
+  EXPECT_EQ(closed.contains({90, 10, 30}), false);
+  EXPECT_EQ(closed.contains({-50, 60, 30}), false);
 }
 
 TEST(VerifyClosedMesh, CountsParityWhereTrianglesRunEitherWay) {

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "verify/tolerances.h"
 
@@ -23,6 +25,39 @@ Box FlatTriangle::bounds() const {
   return box;
 }
 
+namespace {
+
+/// From a point of the segment to the nearest point of an edge, for about the nearest one of them (Ericson 2004, 5.1.9).
+Vec3 way_to_edge(const Segment& segment, const Vec3& start, const Vec3& edge) {
+  const Vec3 offset = segment.from - start;
+  const double a = segment.direction.squaredNorm(), e = edge.squaredNorm(), b = segment.direction.dot(edge);
+  const double c = segment.direction.dot(offset), f = edge.dot(offset), crossed = a * e - b * b;
+  double along = crossed > 0 ? std::clamp((b * f - c * e) / crossed, 0.0, 1.0) : 0.0;
+  const double on_edge = e > 0 ? std::clamp((b * along + f) / e, 0.0, 1.0) : 0.0;
+  if (a > 0) along = std::clamp((b * on_edge - c) / a, 0.0, 1.0);
+  return start + on_edge * edge - segment.at(along);
+}
+
+/// Whether a plane between them shows that the two are apart. That is found for needles too, whose own plane rounding
+/// leaves open: the plane is across the way from the segment to one of the edges, and need not be exact.
+bool are_certainly_apart(const Segment& segment, const FlatTriangle& triangle, double magnitude) {
+  const Vec3 from = segment.from - triangle.corner;
+  const double error = kApartError * (magnitude + triangle.longest);
+  const std::array<std::pair<Vec3, Vec3>, 3> edges = {{{triangle.corner, triangle.edge1},
+                                                       {triangle.corner, triangle.edge2},
+                                                       {triangle.second(), triangle.edge2 - triangle.edge1}}};
+  return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    const Vec3 way = way_to_edge(segment, edge.first, edge.second);
+    const double length = way.norm();
+    if (!(length > 0)) return false;
+    const Vec3 axis = way / length;
+    const double nearest = std::min({0.0, axis.dot(triangle.edge1), axis.dot(triangle.edge2)});
+    return nearest - (axis.dot(from) + std::max(0.0, axis.dot(segment.direction))) > error;
+  });
+}
+
+}  // namespace
+
 Meeting meet(const Segment& segment, const FlatTriangle& triangle) {
   if (triangle.normal_length == 0) return {};
   const Vec3 from = segment.from - triangle.corner;
@@ -34,7 +69,9 @@ Meeting meet(const Segment& segment, const FlatTriangle& triangle) {
   if ((side_from > side_error && side_to > side_error) || (side_from < -side_error && side_to < -side_error)) return {};
 
   const double gap = side_from - side_to;
-  if (std::abs(gap) <= 4 * side_error) return {Contact::unsure, 0, 0, 0};  // runs (almost) in the plane
+  if (std::abs(gap) <= 4 * side_error) {  // runs (almost) in the plane
+    return {are_certainly_apart(segment, triangle, magnitude) ? Contact::none : Contact::unsure, 0, 0, 0};
+  }
   Meeting meeting;
   meeting.position = side_from / gap;
   const Vec3 hit = from + meeting.position * segment.direction;
@@ -50,7 +87,9 @@ Meeting meet(const Segment& segment, const FlatTriangle& triangle) {
   if (border < -border_error) return {};
 
   const bool sides_certain = std::abs(side_from) > side_error && std::abs(side_to) > side_error;
-  meeting.contact = sides_certain && border > border_error ? Contact::crossing : Contact::unsure;
+  const bool crosses = sides_certain && border > border_error;
+  if (!crosses && are_certainly_apart(segment, triangle, magnitude)) return {};
+  meeting.contact = crosses ? Contact::crossing : Contact::unsure;
   meeting.border = border - border_error;
   meeting.turn = gap < 0 ? 1 : -1;
   return meeting;

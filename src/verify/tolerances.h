@@ -19,6 +19,10 @@ inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 /// of two.
 inline constexpr double kPlaneError = 64 * kRoundoff;
 
+/// Bound on the rounding error of the place of a point along a unit axis, in units of the lengths in it: differences,
+/// dot products and the axis' own length lose less than 12 roundoffs together; rounded up to a power of two.
+inline constexpr double kApartError = 32 * kRoundoff;
+
 /// A triangle thinner than this, relative to its longest edge, has a normal that is mostly rounding error: it hides
 /// nothing.
 inline constexpr double kThinnest = 64 * kRoundoff;
