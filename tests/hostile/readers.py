@@ -2,11 +2,13 @@
 
 import bz2
 import gzip
+import io
 import json
 import pathlib
 import struct
 import sys
 import xml.etree.ElementTree as ElementTree
+import zipfile
 import zlib
 from collections.abc import Callable
 from typing import NamedTuple
@@ -73,6 +75,22 @@ target: {osm: way/1}
 sensor: {max_range: 40}
 navigation: {altitude: [2, 60], KEY: [{file: ZONES, heights: any}]}
 exact: {tolerance: 0.5}
+"""
+TARGET_MISSION = """scene: {osm: town.osm, center: [48.0, 11.0], radius: 100}
+target: {file: TARGET, feature: square}
+sensor: {max_range: 40}
+exact: {tolerance: 0.5}
+"""
+TARGET_GEOJSON = b"""{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"name": "square"}, "geometry": {"type": "Polygon", "coordinates":
+  [[[11.0001, 48.0001], [11.0003, 48.0001], [11.0003, 48.0003], [11.0001, 48.0001]]]}},
+ {"type": "Feature", "id": 7, "properties": {}, "geometry": {"type": "Point", "coordinates": [11, 48, 3.5]}}]}
+"""
+TARGET_KML = b"""<?xml version="1.0" encoding="UTF-8"?>
+<kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>square</name><Polygon>
+<altitudeMode>relativeToGround</altitudeMode><outerBoundaryIs><LinearRing><coordinates>
+11.0001,48.0001,1 11.0003,48.0001,1 11.0003,48.0003,1 11.0001,48.0001,1
+</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>
 """
 CONFIG = """mesh:
   filename: city.obj
@@ -159,6 +177,16 @@ def pbf_block(xml: bytes) -> bytes:
     return field(1, b"".join(field(1, text.encode()) for text in texts)) + b"".join(field(2, g) for g in groups)
 
 
+def zipped(name: str) -> Callable[[bytes], bytes]:
+    """What packs a file as the only one of an archive."""
+    def pack(content: bytes) -> bytes:
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, 1)
+        return buffer.getvalue()
+    return pack
+
+
 def geotiff(columns: int, rows: int, heights: bytes) -> bytes:
     """Of floats, in degrees; `heights` may be shorter than it says."""
     tags = [(256, 4, 1, columns), (257, 4, 1, rows), (258, 3, 1, 32), (259, 3, 1, 1), (262, 3, 1, 1), (273, 4, 1, -1),
@@ -195,7 +223,10 @@ def prepare(folder: pathlib.Path, run: Callable[[list[str]], None]) -> None:
     (folder / "mission.yaml").write_text(MISSION, encoding="utf-8")
     (folder / "grid.prj").write_text(SYSTEM, encoding="utf-8")
     (folder / "town.osm").write_bytes((ROOT / "examples/town/town.osm").read_bytes())
-    for key, zones in (("keep_out", "zones.json"), ("keep_out", "zones.kml"), ("keep_in", "fence.plan")):
+    for target in ("target.geojson", "target.kml", "target.kmz"):
+        (folder / f"{target}.yaml").write_text(TARGET_MISSION.replace("TARGET", target), encoding="utf-8")
+    for key, zones in (("keep_out", "zones.json"), ("keep_out", "zones.kml"), ("keep_out", "zones.kmz"),
+                       ("keep_in", "fence.plan")):
         mission = TOWN_MISSION.replace("KEY", key).replace("ZONES", zones)
         (folder / f"{zones}.yaml").write_text(mission, encoding="utf-8")
     run(["compute", "mission.yaml", "-q", *(word for end in ("ply", "obj", "glb", "stl")
@@ -234,7 +265,10 @@ def raster_readers() -> list[Reader]:
     read = ["inspect", "FILE", "--threads", "1"]
     return [Reader("geotiff", "dem.tif", read, [geotiff(12, 10, heights)]),
             Reader("ascii grid", "grid.asc", read, [grid_text()]),
-            Reader("srtm", "N43E007.hgt", [*read, "--window", "3,4,40,30"], [tile])]
+            Reader("srtm", "N43E007.hgt", [*read, "--window", "3,4,40,30"], [tile]),
+            Reader("srtm, zip", "N43E007.hgt.zip", [*read, "--window", "3,4,40,30"], [tile], zipped("N43E007.hgt")),
+            Reader("srtm, zip outside", "N43E007.hgt.zip", [*read, "--window", "3,4,40,30"],
+                   [zipped("N43E007.hgt")(tile)])]
 
 
 def mission_readers() -> list[Reader]:
@@ -244,13 +278,21 @@ def mission_readers() -> list[Reader]:
     kml = [data for data in zones if b"<kml" in data]
     others = [data for data in zones if data not in plans + kml]
 
-    def with_zones(file: str) -> list[str]:
+    def with_mission(file: str) -> list[str]:
         return ["compute", f"{file}.yaml", "-o", "out.ply", "--threads", "1"]
 
+    kmz, target_kmz = zipped("doc.kml")(kml[0]), zipped("doc.kml")(TARGET_KML)
+
     return [Reader("mission", "changed.yaml", compute, [text.encode() for text in MISSIONS]),
-            Reader("zones, json", "zones.json", with_zones("zones.json"), others),
-            Reader("zones, kml", "zones.kml", with_zones("zones.kml"), kml),
-            Reader("zones, plan", "fence.plan", with_zones("fence.plan"), plans),
+            Reader("zones, json", "zones.json", with_mission("zones.json"), others),
+            Reader("zones, kml", "zones.kml", with_mission("zones.kml"), kml),
+            Reader("zones, kmz", "zones.kmz", with_mission("zones.kmz"), kml, zipped("doc.kml")),
+            Reader("zones, kmz outside", "zones.kmz", with_mission("zones.kmz"), [kmz]),
+            Reader("target, geojson", "target.geojson", with_mission("target.geojson"), [TARGET_GEOJSON]),
+            Reader("target, kml", "target.kml", with_mission("target.kml"), [TARGET_KML]),
+            Reader("target, kmz", "target.kmz", with_mission("target.kmz"), [TARGET_KML], zipped("doc.kml")),
+            Reader("target, kmz outside", "target.kmz", with_mission("target.kmz"), [target_kmz]),
+            Reader("zones, plan", "fence.plan", with_mission("fence.plan"), plans),
             Reader("cameras", "cameras.json", ["cameras", "FILE"], seeds("camera_list")),
             Reader("points", "points.csv", ["query", "mission.yaml", "FILE", "--threads", "1"],
                    [(ROOT / "examples/plaza/points.csv").read_bytes(), b"x;y;z;id\n1.5;2e0;3.5;a\n",
