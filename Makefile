@@ -65,7 +65,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: tested benchmarks  ## what takes too long for every change: lint and sanitizers over all, static builds, attack
+nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, static builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
@@ -81,6 +81,7 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	python3 tests/forge/forge_certificates.py --mutants $(or $(MUTANTS),5000) --seed $(or $(SEED),$(shell date +%Y%m%d))
 	build/bin/vantage_attack --missions $(or $(MISSIONS),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
+	VANTAGE_BATCH_KILLS=20 PYTHONPATH=build/python .deps/python/bin/python -m pytest -q python/tests/test_batch_faults.py
 
 .PHONY: install
 install: build  ## into PREFIX (/usr/local)

@@ -90,6 +90,18 @@ TEST(ProveForged, NoRoundingIsBelievedForTrianglesWithoutArea) {
   }
 }
 
+/// Beyond facets that are moved out by 230 m nothing is in range: a small volume would hold all that there is.
+TEST(ProveForged, NoRoundingIsBelievedOfWhatIsMissing) {
+  const Scene scene = SceneBuilder().ground("ground", 60).box("wall", {8, -10, 0}, {10, 10, 20});
+  const Sensor sensor{.max_range_m = 50};
+  Mesh small = make_box_mesh({-3, -3, 5}, {3, 3, 9});
+  testing::append(small, Mesh{{{9e8, 0, 4e8}, {9e8 + 64, 0, 4e8}, {9e8 + 128, 0, 4e8}}, {{0, 1, 2}, {1, 0, 2}}});
+  const MaximalProof told = prove_maximal(scene, low_square(), sensor, {}, small, {.rounding_m = 230});
+  const MaximalProof plain = prove_maximal(scene, low_square(), sensor, {}, small, {});
+  EXPECT_GE(told.open.size(), 10u);
+  EXPECT_EQ(told.open, plain.open);
+}
+
 /// The line of sight to a facade passes 0.8 degrees beside the sun: its direction is inside the cone.
 TEST(ProveForged, ASunInsideTheViewIsNotProved) {
   const Scene scene = SceneBuilder().ground("ground", 60).box("house", {-10, 0, 0}, {10, 5, 12});
