@@ -126,7 +126,7 @@ Verdicts prove(const MeshCase& c) {
     for (const Target& side : sides_of(c)) {
       ProveOptions options{.shrink = c.shrink, .rounding_m = c.rounding_m};
       if (c.lift_m > 0) options.lift_m.assign(side.parts.size(), c.lift_m);
-      if (c.both_sides) options.other_side_m = 0;
+      if (c.both_sides) options.other_side_m = 2 * c.lift_m;
       verdicts.reports.push_back(prove_volume(c.scene, side, c.sensor, c.navigation, c.volume, options));
     }
   } catch (const Error& error) {
