@@ -236,6 +236,57 @@ TEST(ProveLimits, HeightsAboveTerrain) {
   }
 }
 
+/// Ground at 0 up to x = 0.37, and 2 lower beyond.
+std::shared_ptr<Mesh> ground_with_a_step(const World& world) {
+  auto surface = std::make_shared<Mesh>();
+  surface->vertices = {world.at(-20, -20, 0), world.at(0.37, -20, 0),  world.at(0.37, 20, 0),  world.at(-20, 20, 0),
+                       world.at(0.37, -20, -2), world.at(20, -20, -2), world.at(20, 20, -2), world.at(0.37, 20, -2)};
+  surface->triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  return surface;
+}
+
+/// The volume has a wall straight above the step: on the border of both grounds, where the lower one counts.
+TEST(ProveLimits, TerrainWithAStep) {
+  for (const World& world : worlds()) {
+    Navigation navigation;
+    navigation.above_ground = AboveGround{5 * world.scale, 20 * world.scale, {0, ground_with_a_step(world)}};
+    const auto over_both = [&](double border, double low, double high) {
+      Mesh mesh = world.mesh({-9, -9, 5}, {0.37, 9, 10});
+      testing::append(mesh, world.mesh({border, -9, low}, {9, 9, high}));
+      return mesh;
+    };
+    expect_proved(world, navigation, over_both(0.37, 3, 10));
+    expect_wrong(world, navigation, over_both(0.3, 3, 10),
+                 [](const Vec3& p) { return std::min(5 - p.z(), 0.37 - p.x()); });
+    expect_wrong(world, navigation, over_both(0.37, 2.99, 10), [](const Vec3& p) { return 3 - p.z(); });
+    expect_wrong(world, navigation, over_both(0.37, 3, 18.1), [](const Vec3& p) { return p.z() - 18; });
+    if (world.shift != Vec3::Zero()) continue;
+    // Hardly wider than nothing: its walls are at once beside both grounds, and keep the limit for neither.
+    const auto thin = [&](double low, double high) {
+      return world.mesh({0.37 - 1e-6, -9, low}, {0.37 + 1e-6, 9, high});
+    };
+    expect_proved(world, navigation, thin(3, 18));
+    EXPECT_NE(claim_of(world, navigation, thin(2.9, 18)).verdict, ProofVerdict::proved);
+    EXPECT_NE(claim_of(world, navigation, thin(3, 20.1)).verdict, ProofVerdict::proved);
+    navigation.above_ground->max_m = 6 * world.scale;  // between 4 and 5 it is too high for one, too low for the other
+    EXPECT_NE(claim_of(world, navigation, thin(3, 6)).verdict, ProofVerdict::proved);
+  }
+}
+
+/// The lower ground goes on below the upper one: both count there.
+TEST(ProveLimits, TerrainWithAStepInLayers) {
+  const World world;
+  auto surface = ground_with_a_step(world);
+  surface->vertices[4].x() = surface->vertices[7].x() = -20;
+  Navigation navigation;
+  navigation.above_ground = AboveGround{5, 20, {0, surface}};
+  Mesh volume = world.mesh({-9, -9, 5}, {0.37, 9, 10});
+  testing::append(volume, world.mesh({0.37, -9, 3}, {9, 9, 10}));
+  expect_proved(world, navigation, volume);
+  testing::append(volume, world.mesh({0.3, -9, 3}, {0.38, 9, 10}));
+  expect_wrong(world, navigation, volume, [](const Vec3& p) { return std::min(5 - p.z(), 0.37 - p.x()); });
+}
+
 /// Only one corner of the volume is too near to the ground, whichever it is.
 TEST(ProveLimits, TerrainBelowOneCorner) {
   const World world;

@@ -38,7 +38,8 @@ struct GroundPiece {
 
   /// Square to it, metres above what is `height` over it.
   double above(const Vec3& point, double height) const { return normal.dot(point - corners[0]) - height * normal.z(); }
-  double outside_in_plan(const Vec3& point) const {
+  /// To the border, in plan; negative outside.
+  double inside_in_plan(const Vec3& point) const {
     bool is_inside = true;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,8 +47,9 @@ struct GroundPiece {
       is_inside = is_inside && turn_in_plan_of(a, b, point) >= 0;
       least = std::min(least, distance_in_plan_to(point, a, b));
     }
-    return is_inside ? 0 : least;
+    return is_inside ? least : -least;
   }
+  double outside_in_plan(const Vec3& point) const { return std::max(0.0, -inside_in_plan(point)); }
   /// What lies straight above and below, with sides moved out.
   std::vector<HalfSpace> column(double grown) const {
     std::vector<HalfSpace> sides;
@@ -94,18 +96,15 @@ class GroundSheet {
     std::vector<ConvexPolygon> bare = {{corners.begin(), corners.end()}};  // not covered by any piece so far
     const ConvexPolygon facet = bare.front();
     std::vector<std::uint32_t> near;
-    visit_near(box_of(facet), tolerance, [&](std::uint32_t index) {
-      near.push_back(index);
+    visit_near(box_of(facet), tolerance, [&](std::uint32_t index) { near.push_back(index); });
+    for (const std::uint32_t index : near) {
       const GroundPiece& piece = pieces_[index];
       const std::vector<HalfSpace> column = piece.column(volume_.unsure_m());
       const ConvexPolygon over = part_within(facet, column);
-      if (over.empty()) return;
-      look_over(piece, over, tolerance, finding);
-      if (piece.thinness < kCovering) return;
-      std::vector<ConvexPolygon> left;
-      for (const ConvexPolygon& one : bare) subtract(one, column, left);
-      bare = std::move(left);
-    });
+      if (over.empty()) continue;
+      if (!keeps_over(index, over, near, tolerance)) see_corners(over, finding);
+      if (piece.thinness >= kCovering) take_away(column, bare);
+    }
     for (const ConvexPolygon& one : bare) {
       const bool is_beside_one = std::any_of(near.begin(), near.end(), [&](std::uint32_t index) {
         return std::all_of(one.begin(), one.end(),
@@ -114,6 +113,25 @@ class GroundSheet {
       if (is_beside_one) continue;
       finding.is_open = true;
       see(middle_of(one), finding);
+    }
+  }
+
+  /// Beside a step of the ground what breaks the limit over one piece may be all but over the next one, where it keeps
+  /// it. Of what was found only the worst place remains that is not so near to one that keeps the limit; the facets stay
+  /// open.
+  void confirm(std::vector<FacetFinding>& findings) const {
+    std::vector<std::size_t> broken;
+    for (std::size_t f = 0; f < findings.size(); ++f) {
+      if (findings[f].broken.by_m > volume_.least_m()) broken.push_back(f);
+    }
+    std::stable_sort(broken.begin(), broken.end(), [&](std::size_t a, std::size_t b) {
+      return findings[a].broken.by_m > findings[b].broken.by_m;
+    });
+    bool is_found = false;
+    for (const std::size_t f : broken) {
+      Broken& one = findings[f].broken;
+      one.by_m = is_found ? -std::numeric_limits<double>::infinity() : to_kept_m(one.at, one.by_m);
+      is_found = is_found || one.by_m > volume_.tolerance_of(volume_.facets()[f]);
     }
   }
 
@@ -130,15 +148,66 @@ class GroundSheet {
         [&](std::uint32_t i) { visit(tree_.pieces[i].of); });
   }
 
-  void look_over(const GroundPiece& piece, const ConvexPolygon& over, double tolerance, FacetFinding& finding) const {
-    bool is_kept = true;
-    for (const Vec3& corner : over) is_kept = is_kept && too_far_by(piece, corner) <= tolerance;
-    if (is_kept) return;
+  static void take_away(const std::vector<HalfSpace>& column, std::vector<ConvexPolygon>& polygons) {
+    std::vector<ConvexPolygon> left;
+    for (const ConvexPolygon& one : polygons) subtract(one, column, left);
+    polygons = std::move(left);
+  }
+
+  bool keeps(const GroundPiece& piece, const ConvexPolygon& polygon, double tolerance) const {
+    return std::all_of(polygon.begin(), polygon.end(),
+                       [&](const Vec3& corner) { return too_far_by(piece, corner) <= tolerance; });
+  }
+
+  /// Whether a part of a facet that is over a piece, or all but over it, keeps the limit. Nearer to the piece's border
+  /// than the tolerance, it may do so for what lies beside it: the other side of a step.
+  bool keeps_over(std::uint32_t index, const ConvexPolygon& over, const std::vector<std::uint32_t>& near,
+                  double tolerance) const {
+    const GroundPiece& piece = pieces_[index];
+    if (keeps(piece, over, tolerance)) return true;
+    const std::vector<HalfSpace> inner = piece.column(-tolerance);
+    if (!keeps(piece, part_within(over, inner), tolerance)) return false;
+    std::vector<ConvexPolygon> border = {over};
+    take_away(inner, border);
+    for (const std::uint32_t other : near) {
+      if (other == index || pieces_[other].thinness < kCovering) continue;
+      const std::vector<HalfSpace> column = pieces_[other].column(tolerance);
+      std::vector<ConvexPolygon> left;
+      for (const ConvexPolygon& one : border) {
+        const ConvexPolygon part = part_within(one, column);
+        if (part.empty() || !keeps(pieces_[other], part, tolerance)) {
+          left.push_back(one);
+        } else {
+          subtract(one, column, left);
+        }
+      }
+      border = std::move(left);
+    }
+    return border.empty();
+  }
+
+  /// Corners may lie just beside the piece that they are over, and the limit may be broken next to one only.
+  void see_corners(const ConvexPolygon& over, FacetFinding& finding) const {
     finding.is_open = true;
-    // Corners may lie just beside the piece, and the limit may be broken next to one only.
     const Vec3 middle = middle_of(over);
     for (const double inwards : {1e-3, 1e-5, 1e-7}) {
       for (const Vec3& corner : over) see(corner + inwards * (middle - corner), finding);
+    }
+  }
+
+  /// How far a place is at least from any that keeps the limit. That is over one of the pieces, and as high as this one
+  /// asks for; and it is not over a piece that asks for another height. `most_m`: where it is known not to be farther.
+  double to_kept_m(const Vec3& point, double most_m) const {
+    Box here;
+    here.extend(point);
+    double to_any = most_m, out_of_one = -std::numeric_limits<double>::infinity();
+    for (double reach = volume_.tolerance_m();; reach *= 4) {
+      visit_near(here, std::min(reach, to_any), [&](std::uint32_t index) {
+        const double inside = pieces_[index].inside_in_plan(point), by = too_far_by(pieces_[index], point);
+        to_any = std::min(to_any, std::max(-inside, by));
+        out_of_one = std::max(out_of_one, std::min(inside, by));
+      });
+      if (to_any <= reach) return std::max(to_any, out_of_one);
     }
   }
 
@@ -199,8 +268,9 @@ ClaimProof prove_above_ground(const std::string& name, const LimitedVolume& volu
         [&](const Vec3& vertex) { return volume.rounded_at(vertex); });
   }
   const GroundSheet sheet(volume, limit);
-  const auto findings = volume.look_at_facets(
+  auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& corners, FacetFinding& finding) { sheet.look(corners, finding); }, progress);
+  sheet.confirm(findings);
   return volume.judged(name, findings, "every facet is over ground and between the heights, triangle by triangle",
                        "the height above the ground");
 }
