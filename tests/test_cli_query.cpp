@@ -370,6 +370,8 @@ TEST_F(CliQuery, OneHeightMayHaveAUnit) {
   EXPECT_EQ(output_of({"query", "mission.yaml", "-", "--z", "100 ft"}), metres);
   write("points.csv", "0 0\n");
   expect_bad({"query", "mission.yaml", "points.csv", "--z", "100 yd"}, "--z");
+  write("feet.csv", "x,y,z\n0,0,60 ft\n");
+  expect_bad({"query", "mission.yaml", "feet.csv"}, "feet.csv:2");
 }
 
 TEST_F(CliQuery, SaysThatLongitudeAndLatitudeSeemSwapped) {

@@ -375,6 +375,25 @@ TEST_F(LiveSession, ShowsTheVolumeOfSeveralTargets) {
   EXPECT_EQ(causes[0]["kind"], "unknown");
 }
 
+TEST_F(LiveSession, WarnsOfAVolumeThatIsShownAsWhenItIsComputed) {
+  write("far.yaml",
+        "scene: {mesh: city.obj}\ntarget: {vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\n"
+        "sensor: {max_range: 3000, camera: {width: 4000, height: 3000, focal_length: 35, sensor_width: 36},\n"
+        "  pixel: {size: 2, kind: perpendicular}}\n");
+  Session computed, shown;
+  computed.open_file(folder_ / "far.yaml");
+  computed.run();
+  computed.save("ply");
+  write("far.ply", computed.bytes());
+  shown.open_file(folder_ / "far.yaml");
+  shown.show_volume(folder_ / "far.ply");
+  const std::vector<Warning>& notes = computed.result()->volume.notes;
+  EXPECT_NE(
+      std::find_if(notes.begin(), notes.end(), [](const Warning& w) { return w.code == WarningCode::pixel_in_metres; }),
+      notes.end());
+  EXPECT_EQ(shown.result()->volume.notes, notes);
+}
+
 TEST_F(LiveSession, AVolumeIsKeptWhileALimitIsDragged) {
   std::string text = kSquare;
   ask({{"call", "compute"}, {"text", text}});

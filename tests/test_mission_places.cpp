@@ -198,6 +198,23 @@ TEST_F(MissionPlaces, LimitsInReferenceSystems) {
   }
 }
 
+TEST_F(MissionPlaces, LimitsInDegreesNeedTheSystem) {
+  const std::string target = "target: {osm: way/2}\nnavigation:\n";
+  const std::string polygon = "{polygon: [[11.575, 48.137], [11.576, 48.137], [11.576, 48.138]], heights: any}";
+  const std::string box = "{min: [11.575, 48.137, 0], max: [11.576, 48.138, 30]}";
+  for (const std::string list : {"keep_in", "keep_out"}) {
+    for (const std::string& limit : {polygon, box}) {
+      SCOPED_TRACE(list + limit);
+      const Error error = expect_error([&] { placed(map_scene(), target + "  " + list + ": [" + limit + "]\n"); },
+                                       ErrorCode::value_out_of_range);
+      EXPECT_NE(error.where().find("mission.yaml"), std::string::npos) << error.where();
+    }
+  }
+  EXPECT_EQ(placed(map_scene(), "crs: EPSG:4326\n" + target + "  keep_out: [" + polygon + "]\n")
+                .navigation.keep_out_zones.size(),
+            1U);
+}
+
 // ---- targets by name ----
 
 TEST_F(MissionPlaces, AConvexAreaIsTheTargetAsItIs) {

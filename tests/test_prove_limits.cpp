@@ -239,8 +239,8 @@ TEST(ProveLimits, HeightsAboveTerrain) {
 /// Ground at 0 up to x = 0.37, and 2 lower beyond.
 std::shared_ptr<Mesh> ground_with_a_step(const World& world) {
   auto surface = std::make_shared<Mesh>();
-  surface->vertices = {world.at(-20, -20, 0), world.at(0.37, -20, 0),  world.at(0.37, 20, 0),  world.at(-20, 20, 0),
-                       world.at(0.37, -20, -2), world.at(20, -20, -2), world.at(20, 20, -2), world.at(0.37, 20, -2)};
+  surface->vertices = {world.at(-20, -20, 0),   world.at(0.37, -20, 0), world.at(0.37, 20, 0), world.at(-20, 20, 0),
+                       world.at(0.37, -20, -2), world.at(20, -20, -2),  world.at(20, 20, -2),  world.at(0.37, 20, -2)};
   surface->triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
   return surface;
 }

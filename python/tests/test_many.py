@@ -227,7 +227,7 @@ def test_a_stop_is_not_collected(scene):
 
     half = {"max_range": 60, "visible": 0.5, "cells": 256}
     with pytest.raises(vt.CancelledError):
-        vt.compute_many(scene, [SQUARE, beside(0)], sensor=half, errors="collect", progress=progress)
+        vt.compute_many(scene, [SQUARE, beside(0)], sensor=half, work_limit=1e12, errors="collect", progress=progress)
     assert told[-1] != "checking targets"
 
 

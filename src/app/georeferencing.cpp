@@ -1,6 +1,6 @@
 #include "app/georeferencing.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +17,7 @@
 #include "app/places.h"
 #include "app/target_files.h"
 #include "app/zone_places.h"
+#include "core/format.h"
 #include "core/progress_reporter.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
@@ -188,6 +189,34 @@ void convert_limits(Navigation& navigation, const CrsConverter& converter, const
   }
 }
 
+/// A limit that is hardly a centimetre across keeps nothing out: its corners are most likely meant in degrees.
+void check_not_in_degrees(const Eigen::AlignedBox2d& limit, const std::string& name, const std::string& place) {
+  constexpr double kTinyM = 0.01, kLargestDegree = 180;
+  const double across = limit.diagonal().norm();
+  if (across >= kTinyM ||
+      std::max(limit.min().cwiseAbs().maxCoeff(), limit.max().cwiseAbs().maxCoeff()) > kLargestDegree)
+    return;
+  throw Error(ErrorCode::value_out_of_range, core::format("{} is {:.2g} mm across", name, across * 1000), place,
+              "if its corners are longitudes and latitudes, say so with 'crs: EPSG:4326'");
+}
+
+void check_limits_not_in_degrees(const Navigation& navigation, const MissionFile& file) {
+  const auto check = [&](const std::vector<Box>& boxes, const std::vector<Zone>& zones,
+                         const std::vector<std::string>& places, const std::string& list) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Eigen::AlignedBox2d limit(Vec2(boxes[i].min.head<2>()), Vec2(boxes[i].max.head<2>()));
+      check_not_in_degrees(limit, "box " + std::to_string(i) + " of navigation." + list, file.file.string());
+    }
+    for (std::size_t i = 0; i < zones.size(); ++i) {
+      Eigen::AlignedBox2d limit;
+      for (const Vec2& corner : zones[i].outer) limit.extend(corner);
+      check_not_in_degrees(limit, list + " zone " + zones[i].name, i < places.size() ? places[i] : file.file.string());
+    }
+  };
+  check(navigation.keep_in, navigation.keep_in_zones, file.places.keep_in_zones, "keep_in");
+  check(navigation.keep_out, navigation.keep_out_zones, file.places.keep_out_zones, "keep_out");
+}
+
 void place_sun(Mission& mission) {
   const SunTime& time = *mission.as_written.sun_time;
   const std::string& place = mission.as_written.places.sensor;
@@ -308,6 +337,7 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
     if (!given[i].face_target) continue;
     const OneTarget one(mission, given[i]);
     const bool together = mission.as_written.combine == Combine::all && !given[i].both_sides;
+    core::ProgressReporter(progress).begin("finding faces");
     FaceTargets faces = face_targets(mission, *given[i].face_target, given[i].target, frame, together);
     targets[i] = std::move(faces.targets);
     if (faces.note) mission.notes.push_back(std::move(*faces.note));
@@ -340,6 +370,8 @@ void georeference(Mission& mission, const Progress& progress) {
     const CrsConverter converter(mission, *frame);
     for (MissionTarget& target : given) convert_positions(converter, target);
     convert_limits(mission.navigation, converter, file);
+  } else if (mission.scene().georeference) {
+    check_limits_not_in_degrees(mission.navigation, file);
   }
   const core::ProgressReporter reporter(progress);
   for (MissionTarget& target : given) {

@@ -76,6 +76,9 @@ const SectionKeys* owner_of(std::string_view key, Section section) {
   const std::string_view nearest = nearest_name(entry.key, keys);
   const std::string known = " (keys of " + std::string(row(section).name) + ": " + joined(keys) + ")";
   std::string fix = "did you mean '" + std::string(nearest) + "'?" + known;
+  // What {max_range: 1,000} holds.
+  if (!entry.key.empty() && entry.key.find_first_not_of("0123456789") == std::string::npos)
+    fix = "write numbers without a comma: 1000" + known;
   // A key that is right elsewhere is more likely misplaced than misspelt, unless it is one slip from a key of this
   // place.
   if (const SectionKeys* owner = owner_of(entry.key, section); owner && edit_distance(entry.key, nearest) > 1) {
@@ -101,9 +104,10 @@ const YamlNode* find(const YamlNode& map, std::string_view key) {
 
 void check_keys(const YamlNode& node, Section section, const std::string& file) {
   if (node.kind != YamlNode::Kind::map) {
+    std::string fix = "write its keys, indented, as 'key: value': " + joined(known_keys(section));
+    if (section == Section::camera) fix = "for a camera by name write {model: NAME}; else " + fix;
     fail_at(ErrorCode::wrong_type, node, file,
-            std::string(section_name(section)) + " must be a mapping of keys, not " + describe(node),
-            "write its keys, indented, as 'key: value': " + joined(known_keys(section)));
+            std::string(section_name(section)) + " must be a mapping of keys, not " + describe(node), fix);
   }
   for (const YamlEntry& entry : node.entries) {
     const std::vector<std::string_view>& keys = known_keys(section);

@@ -57,11 +57,11 @@ std::string exit_code_table() {
   return "\n"
          "EXIT CODES\n"
          "  0      done\n"
-         "  1      a check failed: verify, prove, compute --prove: wrong; compute --fail-empty: no volume;\n"
+         "  1      a check failed: verify, prove, report, compute --prove: wrong; --fail-empty: no volume;\n"
          "         simplify: too many facets\n"
          "  2      bad input, bad arguments, or a result that could not be written\n"
          "  3      a defect of vantage: please report it together with the input\n"
-         "  4      prove or compute --prove neither proved nor refuted the volume\n"
+         "  4      prove, report or compute --prove neither proved nor refuted the volume\n"
          "  128+n  stopped by signal n. 130: Ctrl-C. 141: whoever read the output stopped reading\n"
          "  After 2, 3 and 128+n existing files are as they were. A second Ctrl-C ends the program at once.\n";
 }

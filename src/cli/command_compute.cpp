@@ -362,7 +362,9 @@ int judge(const ComputeArguments& options, const Mission& mission, const Volume&
   for (const ClaimProof& claim : report.claims) {
     if (claim.verdict != ProofVerdict::proved) note(claim.name + ": " + name_of(claim.verdict) + ": " + claim.text);
   }
-  return report.verdict() == ProofVerdict::wrong ? kCheckFailed : kUndecided;
+  if (report.verdict() == ProofVerdict::wrong) return kCheckFailed;
+  note("to try points: compute it without --prove, then 'vantage verify'");
+  return kUndecided;
 }
 
 /// All are judged, so that all are told that stand in the way.

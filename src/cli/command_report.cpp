@@ -77,6 +77,7 @@ int run_report(const ReportArguments& options) {
     } else {
       session.show_volume(options.volume, progress.callback());
     }
+    if (!options.common.quiet) notes(session.result()->volume.notes);
     if (!options.no_proof) verdict = judge(session, progress.callback());
     write_whole_file(options.output, live::report_page(session, page, !options.no_proof, progress.callback()));
   }

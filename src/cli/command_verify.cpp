@@ -121,8 +121,7 @@ std::string table_text(const VerifyReport& report, const Proof& proof, const std
     table.row("bound", fixed(100 * report.over_claim_bound, 4) + " %",
               "at most this share of the volume is over-claimed, with 95 % confidence");
     table.row("bound's points", count(report.bound_points),
-              "uniform over the volume; the count of over-claims also has points near the surface, which this leaves "
-              "out");
+              "spread evenly over the volume: the bound counts these alone, not those near the surface");
   }
   table.heading(report.is_right() && !proof.is_wrong()
                     ? "nothing wrong was found"

@@ -93,6 +93,13 @@ void append_names(std::string& text, const std::vector<std::string>& names) {
 /// Bytes that are not UTF-8 are replaced rather than refused.
 const char* truth(bool value) { return value ? "true" : "false"; }
 
+/// A height with a unit is told in metres, which is what its column has.
+std::string advice_for(std::string_view text, NumberFault fault, std::size_t axis) {
+  const ParsedNumber metres = parse_length(text);
+  const bool is_length = axis == 2 && fault == NumberFault::not_a_number && metres.fault == NumberFault::none;
+  return is_length ? "write metres, without a unit: " + shortest(metres.value) : number_advice(text, fault);
+}
+
 }  // namespace
 
 PointTable::PointTable(const RowReader& reader, const Row& first, const TableOptions& options)
@@ -221,7 +228,7 @@ Vec3 PointTable::coordinates(const Row& row) {
       fail(ErrorCode::not_a_number,
            name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
                in_quotes(text),
-           row, number_advice(text, parsed.fault));
+           row, advice_for(text, parsed.fault, axis));
     }
     point[static_cast<Eigen::Index>(axis)] = parsed.value;
   }

@@ -228,6 +228,8 @@ void Session::show_volume(const std::filesystem::path& volume, const Progress& p
   const VerifyOptions known = verify_options(file, mission);
   const std::vector<Warning> warnings = volume_warnings(file, mission);
   Volume& read = file.volume;
+  read.notes = mission_warnings(mission, &read);
+  compute_ms_ = 0;
   read.notes.insert(read.notes.end(), file.notes.begin(), file.notes.end());
   read.notes.insert(read.notes.end(), warnings.begin(), warnings.end());
   if (const OpenEdges open = find_open_edges(read.mesh); open.count > 0) {

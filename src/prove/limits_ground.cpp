@@ -117,16 +117,15 @@ class GroundSheet {
   }
 
   /// Beside a step of the ground what breaks the limit over one piece may be all but over the next one, where it keeps
-  /// it. Of what was found only the worst place remains that is not so near to one that keeps the limit; the facets stay
-  /// open.
+  /// it. Of what was found only the worst place remains that is not so near to one that keeps the limit; the facets
+  /// stay open.
   void confirm(std::vector<FacetFinding>& findings) const {
     std::vector<std::size_t> broken;
     for (std::size_t f = 0; f < findings.size(); ++f) {
       if (findings[f].broken.by_m > volume_.least_m()) broken.push_back(f);
     }
-    std::stable_sort(broken.begin(), broken.end(), [&](std::size_t a, std::size_t b) {
-      return findings[a].broken.by_m > findings[b].broken.by_m;
-    });
+    std::stable_sort(broken.begin(), broken.end(),
+                     [&](std::size_t a, std::size_t b) { return findings[a].broken.by_m > findings[b].broken.by_m; });
     bool is_found = false;
     for (const std::size_t f : broken) {
       Broken& one = findings[f].broken;

@@ -504,6 +504,7 @@ void Prover::add_front(const prove::LimitedVolume& volume) {
                                         behind_.by)));
   } else {
     std::string how = "every vertex is in front of the target";
+    if (other_side_m_) how = "what is on this side of the target is in front of it";
     if (behind_.by > 0) how += internal::core::format(", but for {:.3g} m that roundings explain", behind_.by);
     report_.claims.push_back(prove::proved("front", how));
   }

@@ -27,7 +27,8 @@ Box FlatTriangle::bounds() const {
 
 namespace {
 
-/// From a point of the segment to the nearest point of an edge, for about the nearest one of them (Ericson 2004, 5.1.9).
+/// From a point of the segment to the nearest point of an edge, for about the nearest one of them (Ericson
+/// 2004, 5.1.9).
 Vec3 way_to_edge(const Segment& segment, const Vec3& start, const Vec3& edge) {
   const Vec3 offset = segment.from - start;
   const double a = segment.direction.squaredNorm(), e = edge.squaredNorm(), b = segment.direction.dot(edge);

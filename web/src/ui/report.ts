@@ -21,6 +21,7 @@ function show(app: App, text: string, proof?: Proof): void {
   const isProved = proof?.verdict === "proved";
   title.textContent = isEmpty ? "No volume" : proof === undefined ? "No proof" : (VERDICTS[proof.verdict] ?? proof.verdict);
   title.className = isEmpty || proof === undefined ? "" : isProved ? "good" : "bad";
+  element("claim").hidden = isEmpty || (proof !== undefined && !isProved);
   const open = (proof?.claims ?? []).filter(({ verdict }) => verdict !== "proved").map((one) => `${one.name}: ${one.verdict}: ${one.text}`);
   element("verdict-text").textContent = isEmpty ? `No position sees ${seenFrom(info)}: ${info.reason}.` : isProved ? text : open.join(". ") || text;
 }

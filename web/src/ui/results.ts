@@ -91,7 +91,8 @@ export class Results {
     status.textContent = this.app.wasStopped ? `Not computed, since it was stopped${volume ? ": the volume shown is the last one" : ""}`
       : failure !== "" ? `There is no volume of this target${shown}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
-    element("claim").textContent = `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
+    element("claim").textContent = volume && volume.info.outcome !== "computed" ? ""
+      : `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
     this.showNumbers();
     this.showLegend();
     element("notes").replaceChildren(...(volume?.info.notes ?? []).map(({ text }) => {
@@ -122,8 +123,9 @@ export class Results {
       const [low, high] = this.app.volumeView.heights();
       rows.push(["Volume", `${large(volume.info.volume_m3)} m³`]);
       if (volume.info.facets > 0) rows.push(["Heights", `${metres(low)} to ${metres(high)}`]);
-      rows.push(["Facets", `${large(volume.info.facets)}${this.app.isDraft ? ", while it is dragged" : ""}`],
-        ["Computed in", `${Math.max(0.1, volume.info.resolve_ms + volume.info.compute_ms).toFixed(1)} ms`]);
+      rows.push(["Facets", `${large(volume.info.facets)}${this.app.isDraft ? ", while it is dragged" : ""}`]);
+      // Not of a volume that was read from a file.
+      if (volume.info.compute_ms > 0) rows.push(["Computed in", `${Math.max(0.1, volume.info.resolve_ms + volume.info.compute_ms).toFixed(1)} ms`]);
     }
     if (scene) rows.push(["Scene", `${large(scene.triangles)} triangles`]);
     element("numbers").replaceChildren(...terms(rows));
