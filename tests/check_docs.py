@@ -7,6 +7,7 @@
 - No line has more than 120 characters, web addresses not counted.
 - Every link within the project leads to a file that exists, and to a heading that it has.
 - Words that readers do not know are not used: see WORDS.
+- The tests that tests/attacks.md names are there.
 """
 
 import argparse
@@ -75,8 +76,25 @@ def header_problems(root: pathlib.Path) -> list[str]:
             for name in sorted(names ^ there)]
 
 
+def attack_problems(root: pathlib.Path) -> list[str]:
+    """Tests that tests/attacks.md names, and that are not there."""
+    table = root / "tests" / "attacks.md"
+    if not table.is_file():
+        return []
+    text = table.read_text(encoding="utf-8")
+    named = {f"{suite}.{name}" for suite, name in re.findall(r"`([A-Z]\w*)\.([A-Z]\w*)`", text)}
+    named |= set(re.findall(r"`(test_\w+)[`\[]", text))
+    there: set[str] = set()
+    for file in (root / "tests").glob("*.cpp"):
+        there |= {f"{suite}.{name}" for suite, name in
+                  re.findall(r"^TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)", file.read_text(encoding="utf-8"), re.MULTILINE)}
+    for file in [*(root / "tests").glob("*.py"), *(root / "python" / "tests").glob("*.py")]:
+        there |= set(re.findall(r"^ *def (test_\w+)", file.read_text(encoding="utf-8"), re.MULTILINE))
+    return [f"tests/attacks.md: there is no test {name}" for name in sorted(named - there)]
+
+
 def problems(root: pathlib.Path) -> list[str]:
-    found = header_problems(root)
+    found = header_problems(root) + attack_problems(root)
     for file in documents(root):
         place = file.relative_to(root).as_posix()
         text = file.read_text(encoding="utf-8")
@@ -130,6 +148,15 @@ def self_test() -> list[str]:
         expected = ["include/vantage/vantage.h: two.h is left out", "docs/libraries.md: none.h is named, and is not there"]
         if problems(root) != expected:
             wrong.append(f"headers: expected {expected}, got {problems(root)}")
+    with tempfile.TemporaryDirectory() as scratch:
+        root = pathlib.Path(scratch)
+        (root / "tests").mkdir()
+        (root / "tests" / "attacks.md").write_text("| a | `Good.One`, `Bad.One`, `test_good[a]`, `test_bad` |\n", encoding="utf-8")
+        (root / "tests" / "test_good.cpp").write_text("TEST_F(Good, One) {}\n", encoding="utf-8")
+        (root / "tests" / "check.py").write_text("def test_good(a):\n    pass\n", encoding="utf-8")
+        expected = ["tests/attacks.md: there is no test Bad.One", "tests/attacks.md: there is no test test_bad"]
+        if problems(root) != expected:
+            wrong.append(f"attacks: expected {expected}, got {problems(root)}")
     return wrong
 
 
