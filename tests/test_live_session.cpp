@@ -375,7 +375,7 @@ TEST_F(LiveSession, ShowsTheVolumeOfSeveralTargets) {
   EXPECT_EQ(causes[0]["kind"], "unknown");
 }
 
-TEST_F(LiveSession, WarnsOfAVolumeThatIsShownAsWhenItIsComputed) {
+TEST_F(LiveSession, AVolumeOfAFileHasTheWarningsOfAComputedOne) {
   write("far.yaml",
         "scene: {mesh: city.obj}\ntarget: {vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\n"
         "sensor: {max_range: 3000, camera: {width: 4000, height: 3000, focal_length: 35, sensor_width: 36},\n"
