@@ -227,6 +227,8 @@ TEST_F(CliBadMission, KeysAndTypes) {
   expect_bad_mission(start + "sensor: {}\n", "mission.yaml:5:9");
   expect_bad_mission(start + "sensor: {max_range: 0}\n", "mission.yaml:5:21");
   expect_bad_mission(start + "sensor: {max_range: -60}\n", "mission.yaml:5:21");
+  expect_bad_mission(start + "sensor: {max_range: 1,000}\n", "mission.yaml:5:23");
+  expect_bad_mission(start + "sensor: {max_range: 60, camera: dji_mini_4_pro}\n", "mission.yaml:5:33");
   expect_bad_mission(start + kSensor + "navigation: {altitude: [120, 20]}\n", "mission.yaml:6:24");
   expect_bad_mission(start + kSensor + "navigation: {boxes: [{min: [0, 0, 9], max: [1, 1, 8]}]}\n",
                      "mission.yaml:6:22");

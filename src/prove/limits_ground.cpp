@@ -194,8 +194,8 @@ class GroundSheet {
     }
   }
 
-  /// How far a place is at least from any that keeps the limit. That is over one of the pieces, and as high as this one
-  /// asks for; and it is not over a piece that asks for another height. `most_m`: where it is known not to be farther.
+  /// How far a place is at least from any in the volume's box that keeps the limit: a place over one of the pieces, as
+  /// high as that piece asks for, and over no piece that asks for another height. `most_m`: it is not farther.
   double to_kept_m(const Vec3& point, double most_m) const {
     Box here;
     here.extend(point);
