@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "app/mission_parser.h"
@@ -601,81 +599,6 @@ TEST(NearestName, CountsSlips) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
   EXPECT_EQ(nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
   EXPECT_EQ(nearest_name("x", {}), "");
-}
-
-/// A folder that goes away with the test.
-class MissionFiles : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "vantage-mission-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override {
-    std::error_code error;
-    fs::remove_all(folder_, error);
-  }
-
-  fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
-
-  void expect_refusal_of(const fs::path& file, ErrorCode code, const std::string& where) {
-    testing::expect_error([&] { read_mission(file); }, code, where);
-  }
-
-  static constexpr const char* kTetrahedron =
-      "o zone\nv 0 0 0\nv 0 0 50\nv 0 50 0\nv 50 0 0\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
-
-  fs::path folder_;
-};
-
-TEST_F(MissionFiles, AreReadRelativeToTheMission) {
-  fs::create_directory(folder_ / "meshes");
-  write("meshes/city.obj", kTetrahedron);
-  write("meshes/zone.obj", kTetrahedron);
-  const fs::path file = write("mission.yaml", text_of_mission("navigation: {meshes: [meshes/zone.obj]}", kTarget,
-                                                              kSensor, "scene: {mesh: meshes/city.obj, up: y}\n"));
-  const MissionFile written = read_mission(file);
-  const Mission mission = resolve_mission(written);
-  const fs::path folder = fs::canonical(folder_) / "meshes";
-  ASSERT_EQ(mission.navigation.meshes.size(), 1U);
-  EXPECT_EQ(folder.parent_path() / mission.navigation.meshes[0].name, folder / "zone.obj");
-  EXPECT_EQ(mission.navigation.meshes[0].mesh.triangles.size(), 4U);
-  EXPECT_EQ(mission.navigation.meshes[0].mesh.vertices.size(), 4U);
-  EXPECT_NEAR(enclosed_volume(mission.navigation.meshes[0].mesh), 50.0 * 50 * 50 / 6, 1e-6);
-  EXPECT_EQ(bounding_box(mission.navigation.meshes[0].mesh).min, Vec3(0, -50, 0)) << "y up, as the scene's file";
-  EXPECT_EQ(written.scene.file, folder / "city.obj");
-  ASSERT_EQ(written.navigation_meshes.size(), 1U);
-  EXPECT_EQ(written.navigation_meshes[0].file, folder / "zone.obj");
-}
-
-TEST_F(MissionFiles, MayLieInALinkedFolder) {
-  fs::create_directories(folder_ / "data/missions");
-  write("data/city.obj", kTetrahedron);
-  write("data/missions/mission.yaml", text_of_mission("", kTarget, kSensor, "scene: {mesh: ../city.obj}\n"));
-  fs::create_directory_symlink(folder_ / "data/missions", folder_ / "here");
-  const MissionFile mission = read_mission(folder_ / "here/mission.yaml");
-  EXPECT_EQ(mission.scene.file, fs::canonical(folder_ / "data") / "city.obj");
-}
-
-TEST_F(MissionFiles, ThatAreMissing) {
-  expect_refusal_of(folder_ / "none.yaml", ErrorCode::file_not_found, "none.yaml");
-  expect_refusal_of(folder_, ErrorCode::not_a_file, folder_.string());
-  expect_refusal_of("/dev/null", ErrorCode::not_a_file, "/dev/null");
-  const fs::path file = write("mission.yaml", text_of_mission("navigation: {meshes: [zone.obj]}"));
-  expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:2:9 (" + folder_.string());
-  write("city.obj", kTetrahedron);
-  expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:7:23 (" + folder_.string());
-  fs::create_directory(folder_ / "zone.obj");
-  expect_refusal_of(file, ErrorCode::not_a_file, "mission.yaml:7:23");
-}
-
-TEST_F(MissionFiles, ThatAreTooLarge) {
-  const fs::path file = write("mission.yaml", "a: 1\n");
-  fs::resize_file(file, std::uintmax_t{1} << 40);  // sparse: a terabyte that takes no room
-  expect_refusal_of(file, ErrorCode::file_too_large, "mission.yaml");
 }
 
 }  // namespace

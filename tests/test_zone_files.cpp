@@ -14,6 +14,7 @@
 #include "support/map_text.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
+#include "support/zone_texts.h"
 #include "vantage/ground.h"
 #include "vantage/input.h"
 #include "vantage/mission.h"
@@ -25,40 +26,9 @@ using app::HeightReference;
 using app::ListedZone;
 using app::ZoneList;
 
-const std::string kSquare = "[[[11, 48], [11.001, 48], [11.001, 48.001], [11, 48.001], [11, 48]]]";
+using namespace zone_texts;
 
 ZoneList parsed(const std::string& text) { return app::parse_zones(text, "/data/zones"); }
-
-std::string feature(const std::string& geometry, const std::string& properties = "{}") {
-  return "{\"type\": \"Feature\", \"properties\": " + properties + ", \"geometry\": " + geometry + "}";
-}
-std::string polygon(const std::string& more = "") {
-  return "{\"type\": \"Polygon\", \"coordinates\": " + kSquare + more + "}";
-}
-std::string collection(const std::string& features) {
-  return "{\"type\": \"FeatureCollection\", \"features\": [" + features + "]}";
-}
-/// A feature of ED-269 with one volume.
-std::string volume(const std::string& projection, const std::string& heights) {
-  return "{\"features\": [{\"identifier\": \"Z1\", \"geometry\": [{" + heights +
-         ", \"horizontalProjection\": " + projection + "}]}]}";
-}
-const std::string kMetres =
-    "\"uomDimensions\": \"M\", \"lowerLimit\": 10, \"lowerVerticalReference\": \"AMSL\", \"upperLimit\": 120, "
-    "\"upperVerticalReference\": \"AGL\"";
-std::string plan(const std::string& polygons, const std::string& circles = "") {
-  return "{\"fileType\": \"Plan\", \"geoFence\": {\"version\": 2, \"polygons\": [" + polygons + "], \"circles\": [" +
-         circles + "]}}";
-}
-std::string kml(const std::string& body) {
-  return "<?xml version=\"1.0\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document>" + body +
-         "</Document></kml>";
-}
-std::string placemark(const std::string& more, const std::string& altitude = "") {
-  return "<Placemark><name>park</name><Polygon>" + more + "<outerBoundaryIs><LinearRing><coordinates>11,48" + altitude +
-         " 11.001,48" + altitude + "\n11.001,48.001" + altitude + " 11,48" + altitude +
-         "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>";
-}
 
 TEST(ZoneFiles, ReadsAllAreasOfGeoJson) {
   const std::string hole =
