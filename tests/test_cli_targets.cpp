@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/cli_fixture.h"
+#include "support/temporary_directory.h"
 #include "support/wording.h"
 
 namespace vantage {
