@@ -287,6 +287,141 @@ TEST(ProveLimits, TerrainWithAStepInLayers) {
   expect_wrong(world, navigation, volume, [](const Vec3& p) { return std::min(5 - p.z(), 0.37 - p.x()); });
 }
 
+void add_rectangle(Mesh& surface, const Eigen::Vector2d& low, const Eigen::Vector2d& high, double z) {
+  const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+  for (const Vec3& corner : {Vec3(low.x(), low.y(), z), Vec3(high.x(), low.y(), z), Vec3(high.x(), high.y(), z),
+                             Vec3(low.x(), high.y(), z)}) {
+    surface.vertices.push_back(corner);
+  }
+  surface.triangles.push_back({first, first + 1, first + 2});
+  surface.triangles.push_back({first, first + 2, first + 3});
+}
+
+void add_strip(Mesh& surface, double left, double right, double z) {
+  add_rectangle(surface, {left, -20}, {right, 20}, z);
+}
+
+Navigation above_surface(Mesh surface, double min_m, double max_m) {
+  Navigation navigation;
+  navigation.above_ground = AboveGround{min_m, max_m, {0, std::make_shared<Mesh>(std::move(surface))}};
+  return navigation;
+}
+
+/// A box whose walls are cut at these heights.
+Mesh box_in_storeys(const Vec3& low, const Vec3& high, std::vector<double> heights) {
+  heights.insert(heights.begin(), low.z());
+  heights.push_back(high.z());
+  Mesh mesh;
+  for (const double z : heights) {
+    for (const Vec3& corner : {Vec3(low.x(), low.y(), z), Vec3(high.x(), low.y(), z), Vec3(high.x(), high.y(), z),
+                               Vec3(low.x(), high.y(), z)}) {
+      mesh.vertices.push_back(corner);
+    }
+  }
+  const auto top = static_cast<std::uint32_t>(mesh.vertices.size()) - 4;
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {top, top + 1, top + 2}, {top, top + 2, top + 3}};
+  for (std::uint32_t floor = 0; floor < top; floor += 4) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = floor + i, b = floor + (i + 1) % 4;
+      mesh.triangles.push_back({a, b, b + 4});
+      mesh.triangles.push_back({a, b + 4, a + 4});
+    }
+  }
+  return mesh;
+}
+
+/// Where a deck lies over other ground nothing keeps the heights of both. A fin straight below the side that two of its
+/// triangles share is as near to the lower ground alone as one at the deck's border is.
+TEST(ProveLimits, TerrainUnderADeck) {
+  const World world;
+  Mesh surface;
+  add_strip(surface, -40, 40, 0);
+  add_strip(surface, -20, 0, 100);
+  add_strip(surface, 0, 20, 100);
+  const Navigation navigation = above_surface(std::move(surface), 10, 60);
+  for (const double half_width : {1e-7, 1e-6, 1e-5, 1e-3}) {
+    const Mesh fin = world.mesh({-half_width, -9, 10}, {half_width, 9, 40});
+    EXPECT_NE(claim_of(world, navigation, fin).verdict, ProofVerdict::proved) << half_width;
+  }
+  const Mesh body = world.mesh({-8, -9, 10}, {8, 9, 40});
+  expect_wrong(world, navigation, body, [](const Vec3& p) { return 110 - p.z(); });
+}
+
+/// Strips that are narrower than the tolerance, of two heights in turn, in a plain between them: what both allow leaves
+/// heights between that neither does.
+TEST(ProveLimits, TerrainOfNarrowStrips) {
+  const World world;
+  const double left = -0.1, width = 4e-4, right = left + 500 * width;
+  Mesh surface;
+  add_rectangle(surface, {-60, -60}, {left, 60}, -1);
+  add_rectangle(surface, {right, -60}, {60, 60}, -1);
+  add_rectangle(surface, {left, -60}, {right, -3}, -1);
+  add_rectangle(surface, {left, 3}, {right, 60}, -1);
+  for (int i = 0; i < 500; ++i) {
+    add_rectangle(surface, {left + i * width, -3}, {left + (i + 1) * width, 3}, i % 2 == 0 ? -2 : 0);
+  }
+  const auto storeys = [&](double low, double high, const std::vector<double>& heights) {
+    return box_in_storeys({left, -3, low}, {right, 3, high}, heights);
+  };
+  const Navigation narrow = above_surface(surface, 500, 501);
+  EXPECT_NE(claim_of(world, narrow, storeys(498.5, 500.5, {499, 500})).verdict, ProofVerdict::proved);
+  EXPECT_NE(claim_of(world, narrow, storeys(498, 501, {499, 500})).verdict, ProofVerdict::proved);
+  expect_proved(world, above_surface(surface, 498, 501), storeys(498, 499, {498.5}));
+}
+
+/// A lens over two such strips: its rim keeps the plain's heights, what is below those of one strip, what is above
+/// those of the other. Its middle keeps none.
+TEST(ProveLimits, TerrainOfTwoNarrowStrips) {
+  const World world;
+  const double width = 2e-4;
+  Mesh surface;
+  add_rectangle(surface, {-60, -60}, {-width, 60}, -1);
+  add_rectangle(surface, {width, -60}, {60, 60}, -1);
+  add_rectangle(surface, {-width, -60}, {width, -3}, -1);
+  add_rectangle(surface, {-width, 3}, {width, 60}, -1);
+  add_rectangle(surface, {-width, -3}, {0, 3}, -2);
+  add_rectangle(surface, {0, -3}, {width, 3}, 0);
+  Mesh lens = box_in_storeys({-width, -3, 498.5}, {width, 3, 500.5}, {499.1, 499.9});
+  for (Vec3& vertex : lens.vertices) {
+    if (vertex.z() == 498.5 || vertex.z() == 500.5) vertex.head<2>() *= 0.5;
+  }
+  EXPECT_NE(claim_of(world, above_surface(surface, 500, 501), lens).verdict, ProofVerdict::proved);
+}
+
+/// The tip of a sliver of lower ground lies at the end of a side of the upper one. Its sides, moved out by the
+/// tolerance, meet many metres beyond the tip.
+TEST(ProveLimits, TerrainWithTheTipOfASliver) {
+  const World world;
+  Mesh surface;
+  add_rectangle(surface, {-20, 20}, {0, 60}, 100);
+  add_rectangle(surface, {0, 20}, {20, 60}, 100);
+  add_rectangle(surface, {-60, -60}, {60, 10}, 0);
+  const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+  for (const Vec3& corner : {Vec3(-2e-5, 10, 0), Vec3(2e-5, 10, 0), Vec3(0, 20, 0)}) surface.vertices.push_back(corner);
+  surface.triangles.push_back({first, first + 1, first + 2});
+  const Navigation navigation = above_surface(std::move(surface), 10, 60);
+  for (const double length : {1e-3, 1.0, 15.0}) {
+    const Mesh fin = world.mesh({-1e-6, 20, 30}, {1e-6, 20 + length, 50});
+    EXPECT_NE(claim_of(world, navigation, fin).verdict, ProofVerdict::proved) << length;
+  }
+}
+
+/// Between two grounds that do not meet there is no ground: what hangs there, at whatever height, is beside no place
+/// that keeps the limit.
+TEST(ProveLimits, TerrainWithASlot) {
+  const World world;
+  Mesh surface;
+  add_strip(surface, -20, -1e-6, 0);
+  add_strip(surface, 1e-6, 20, 0);
+  const Navigation navigation = above_surface(std::move(surface), 5, 20);
+  expect_proved(world, navigation, world.mesh({-9, -9, 5}, {9, 9, 20}));
+  expect_proved(world, navigation, world.mesh({-5e-7, -9, 5}, {5e-7, 9, 20}));
+  for (const double low : {4.9, 1.0}) {
+    const Mesh fin = world.mesh({-5e-7, -9, low}, {5e-7, 9, 20});
+    EXPECT_NE(claim_of(world, navigation, fin).verdict, ProofVerdict::proved) << low;
+  }
+}
+
 /// Only one corner of the volume is too near to the ground, whichever it is.
 TEST(ProveLimits, TerrainBelowOneCorner) {
   const World world;

@@ -1,6 +1,10 @@
 // A position that is too low stays so straight down to a facet, one that is too high straight up, and one without
 // ground below it both ways. So facets decide; and over one triangle of the ground the height is linear on a facet: the
 // corners of what overlaps in plan decide.
+//
+// A part of a facet that breaks the limit may do so by the tolerance sideways, too: where all of it, moved across the
+// side of a triangle, keeps the limit over whatever is there. What is between two facets, straight above each other and
+// each moved its own way, keeps it with one of them where the heights that both grounds allow overlap.
 #include "prove/limits_ground.h"
 
 #include <Eigen/Geometry>
@@ -50,13 +54,19 @@ struct GroundPiece {
     return is_inside ? least : -least;
   }
   double outside_in_plan(const Vec3& point) const { return std::max(0.0, -inside_in_plan(point)); }
-  /// What lies straight above and below, with sides moved out.
+  /// What lies straight above and below, with sides moved out; and cut square to each corner, so that beyond a sharp
+  /// one nothing of it is farther from the piece than twice that.
   std::vector<HalfSpace> column(double grown) const {
-    std::vector<HalfSpace> sides;
+    std::array<Vec3, 3> outward;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-      const Vec3 outward = Vec3(b.y() - a.y(), a.x() - b.x(), 0).normalized();
-      sides.push_back({outward, outward.dot(a) + grown});
+      outward[k] = Vec3(b.y() - a.y(), a.x() - b.x(), 0).normalized();
+    }
+    std::vector<HalfSpace> sides;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 across = (outward[k] + outward[(k + 2) % 3]).normalized();
+      sides.push_back({outward[k], outward[k].dot(corners[k]) + grown});
+      sides.push_back({across, across.dot(corners[k]) + grown});
     }
     return sides;
   }
@@ -93,43 +103,38 @@ class GroundSheet {
 
   void look(const LimitedVolume::Corners& corners, FacetFinding& finding) const {
     const double tolerance = volume_.tolerance_of(corners);
-    std::vector<ConvexPolygon> bare = {{corners.begin(), corners.end()}};  // not covered by any piece so far
-    const ConvexPolygon facet = bare.front();
-    std::vector<std::uint32_t> near;
-    visit_near(box_of(facet), tolerance, [&](std::uint32_t index) { near.push_back(index); });
-    for (const std::uint32_t index : near) {
+    const ConvexPolygon facet(corners.begin(), corners.end());
+    std::vector<ConvexPolygon> bare = {facet};  // not covered by any piece so far
+    visit_near(box_of(facet), volume_.unsure_m(), [&](std::uint32_t index) {
       const GroundPiece& piece = pieces_[index];
       const std::vector<HalfSpace> column = piece.column(volume_.unsure_m());
       const ConvexPolygon over = part_within(facet, column);
-      if (over.empty()) continue;
-      if (!keeps_over(index, over, near, tolerance)) see_corners(over, finding);
+      if (over.empty()) return;
+      if (!keeps_over(piece, over, tolerance)) see_corners(over, finding);
       if (piece.thinness >= kCovering) take_away(column, bare);
-    }
+    });
     for (const ConvexPolygon& one : bare) {
-      const bool is_beside_one = std::any_of(near.begin(), near.end(), [&](std::uint32_t index) {
-        return std::all_of(one.begin(), one.end(),
-                           [&](const Vec3& corner) { return pieces_[index].outside_in_plan(corner) <= tolerance; });
-      });
-      if (is_beside_one) continue;
+      const auto shifts = [&](const ConvexPolygon& part) { return shifts_onto_ground(part, tolerance); };
+      if (keeps_beside(one, shifts, tolerance)) continue;
       finding.is_open = true;
       see(middle_of(one), finding);
     }
   }
 
   /// Beside a step of the ground what breaks the limit over one piece may be all but over the next one, where it keeps
-  /// it. Of what was found only the worst place remains that is not so near to one that keeps the limit; the facets
-  /// stay open.
+  /// it. Of what was found only the worst place remains that is surely not so near to one that keeps the limit; the
+  /// facets stay open.
   void confirm(std::vector<FacetFinding>& findings) const {
     std::vector<std::size_t> broken;
     for (std::size_t f = 0; f < findings.size(); ++f) {
-      if (findings[f].broken.by_m > volume_.least_m()) broken.push_back(f);
+      if (findings[f].broken.by_m > 0) broken.push_back(f);
     }
     std::stable_sort(broken.begin(), broken.end(),
                      [&](std::size_t a, std::size_t b) { return findings[a].broken.by_m > findings[b].broken.by_m; });
     bool is_found = false;
     for (const std::size_t f : broken) {
       Broken& one = findings[f].broken;
-      one.by_m = is_found ? -std::numeric_limits<double>::infinity() : to_kept_m(one.at, one.by_m);
+      one.by_m = is_found ? -std::numeric_limits<double>::infinity() : to_kept_m(one.at);
       is_found = is_found || one.by_m > volume_.tolerance_of(volume_.facets()[f]);
     }
   }
@@ -158,55 +163,163 @@ class GroundSheet {
                        [&](const Vec3& corner) { return too_far_by(piece, corner) <= tolerance; });
   }
 
-  /// Whether a part of a facet that is over a piece, or all but over it, keeps the limit. Nearer to the piece's border
-  /// than the tolerance, it may do so for what lies beside it: the other side of a step.
-  bool keeps_over(std::uint32_t index, const ConvexPolygon& over, const std::vector<std::uint32_t>& near,
-                  double tolerance) const {
-    const GroundPiece& piece = pieces_[index];
+  /// Whether a part of a facet that is over a piece, or all but over it, keeps the limit there or beside the piece.
+  bool keeps_over(const GroundPiece& piece, const ConvexPolygon& over, double tolerance) const {
     if (keeps(piece, over, tolerance)) return true;
-    const std::vector<HalfSpace> inner = piece.column(-tolerance);
-    if (!keeps(piece, part_within(over, inner), tolerance)) return false;
-    std::vector<ConvexPolygon> border = {over};
-    take_away(inner, border);
-    for (const std::uint32_t other : near) {
-      if (other == index || pieces_[other].thinness < kCovering) continue;
-      const std::vector<HalfSpace> column = pieces_[other].column(tolerance);
-      std::vector<ConvexPolygon> left;
-      for (const ConvexPolygon& one : border) {
-        const ConvexPolygon part = part_within(one, column);
-        if (part.empty() || !keeps(pieces_[other], part, tolerance)) {
-          left.push_back(one);
-        } else {
-          subtract(one, column, left);
+    std::vector<ConvexPolygon> broken;
+    add_broken(piece, over, tolerance, broken);
+    return std::all_of(broken.begin(), broken.end(), [&](const ConvexPolygon& part) {
+      return keeps_beside(
+          part, [&](const ConvexPolygon& one) { return shifts_off(piece, one, tolerance); }, tolerance);
+    });
+  }
+
+  /// The parts of a polygon that are too low or too high over a piece by more than `allowed`.
+  void add_broken(const GroundPiece& piece, const ConvexPolygon& over, double allowed,
+                  std::vector<ConvexPolygon>& broken) const {
+    const double level = piece.normal.dot(piece.corners[0]);
+    const auto add = [&](const HalfSpace& side) {
+      ConvexPolygon part = part_within(over, {side});
+      if (!part.empty()) broken.push_back(std::move(part));
+    };
+    if (std::isfinite(limit_.min_m)) add({piece.normal, level + limit_.min_m * piece.normal.z() - allowed});
+    if (std::isfinite(limit_.max_m)) add({-piece.normal, -(level + limit_.max_m * piece.normal.z() + allowed)});
+  }
+
+  /// Whether each place of a polygon keeps the limit where a shift moves it. `shifts_of(part)`: to be tried, shorter
+  /// than the tolerance; what no shift serves as a whole is tried in parts.
+  template <typename ShiftsOf>
+  bool keeps_beside(const ConvexPolygon& polygon, const ShiftsOf& shifts_of, double tolerance) const {
+    constexpr int kRounds = 3;
+    constexpr std::size_t kMostParts = 100;
+    if (!do_heights_overlap(polygon, tolerance)) return false;
+    std::vector<ConvexPolygon> broken = {polygon};
+    for (int round = 0; round < kRounds && broken.size() < kMostParts; ++round) {
+      std::vector<ConvexPolygon> next;
+      for (const ConvexPolygon& one : broken) {
+        std::vector<ConvexPolygon> left = {one};
+        for (const Vec3& shift : shifts_of(one)) {
+          std::vector<ConvexPolygon> rest;
+          for (const ConvexPolygon& part : left) add_broken_at(part, shift, tolerance - shift.norm(), rest);
+          left = std::move(rest);
+          if (left.empty()) break;
         }
+        next.insert(next.end(), left.begin(), left.end());
       }
-      border = std::move(left);
+      broken = std::move(next);
+      if (broken.empty()) return true;
     }
-    return border.empty();
+    return false;
+  }
+
+  /// The parts of a polygon that, moved by a shift, are not over ground, or break the limit over some piece of it by
+  /// more than `allowed`; where they are without it.
+  void add_broken_at(const ConvexPolygon& polygon, const Vec3& shift, double allowed,
+                     std::vector<ConvexPolygon>& left) const {
+    ConvexPolygon moved = polygon;
+    for (Vec3& corner : moved) corner += shift;
+    std::vector<ConvexPolygon> broken, bare = {moved};
+    visit_near(box_of(moved), beside_m(), [&](std::uint32_t index) {
+      const GroundPiece& piece = pieces_[index];
+      const std::vector<HalfSpace> column = piece.column(beside_m());
+      const ConvexPolygon over = part_within(moved, column);
+      if (over.empty()) return;
+      if (!keeps(piece, over, allowed)) add_broken(piece, over, allowed, broken);
+      if (piece.thinness >= kCovering) take_away(column, bare);
+    });
+    broken.insert(broken.end(), bare.begin(), bare.end());
+    for (ConvexPolygon& one : broken) {
+      for (Vec3& corner : one) corner -= shift;
+      left.push_back(std::move(one));
+    }
+  }
+
+  /// Horizontal, shorter than the tolerance: each takes all of a polygon across a side of the piece that it is over, or
+  /// of another one that some of it is over.
+  std::vector<Vec3> shifts_off(const GroundPiece& piece, const ConvexPolygon& polygon, double tolerance) const {
+    std::vector<Vec3> shifts;
+    add_shifts_off(piece, polygon, tolerance, shifts);
+    visit_near(box_of(polygon), volume_.unsure_m(), [&](std::uint32_t index) {
+      const GroundPiece& other = pieces_[index];
+      if (&other == &piece || part_within(polygon, other.column(volume_.unsure_m())).empty()) return;
+      add_shifts_off(other, polygon, tolerance, shifts);
+    });
+    return shifts;
+  }
+
+  void add_shifts_off(const GroundPiece& piece, const ConvexPolygon& polygon, double tolerance,
+                      std::vector<Vec3>& shifts) const {
+    for (const HalfSpace& side : piece.column(0)) {
+      double inside = 0;
+      for (const Vec3& corner : polygon) inside = std::max(inside, -side.over(corner));
+      add_shift(side.normal, inside, tolerance, shifts);
+    }
+  }
+
+  /// The other way round, to the pieces that are near.
+  std::vector<Vec3> shifts_onto_ground(const ConvexPolygon& polygon, double tolerance) const {
+    std::vector<Vec3> shifts;
+    visit_near(box_of(polygon), tolerance, [&](std::uint32_t index) {
+      if (pieces_[index].thinness < kCovering) return;
+      for (const HalfSpace& side : pieces_[index].column(0)) {
+        double outside = 0;
+        for (const Vec3& corner : polygon) outside = std::max(outside, side.over(corner));
+        if (outside > 0) add_shift(-side.normal, outside, tolerance, shifts);
+      }
+    });
+    return shifts;
+  }
+
+  /// What is farther than this beside a piece is surely not over it: four roundings. All that is unsure, four times
+  /// that, may be as much as the tolerance.
+  double beside_m() const { return 0.25 * volume_.unsure_m(); }
+
+  void add_shift(const Vec3& direction, double length, double tolerance, std::vector<Vec3>& shifts) const {
+    const double longer = length + 2 * beside_m();
+    if (longer < tolerance) shifts.push_back(longer * direction);
+  }
+
+  /// Whether any two pieces of ground within the tolerance of a polygon, in plan, allow some height in common.
+  bool do_heights_overlap(const ConvexPolygon& polygon, double tolerance) const {
+    if (!std::isfinite(limit_.min_m) || !std::isfinite(limit_.max_m)) return true;
+    const Box box = box_of(polygon);
+    const std::vector<HalfSpace> around = {{Vec3::UnitX(), box.max.x() + tolerance},
+                                           {-Vec3::UnitX(), tolerance - box.min.x()},
+                                           {Vec3::UnitY(), box.max.y() + tolerance},
+                                           {-Vec3::UnitY(), tolerance - box.min.y()}};
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    visit_near(box, tolerance, [&](std::uint32_t index) {
+      const auto& corners = pieces_[index].corners;
+      for (const Vec3& corner : part_within({corners.begin(), corners.end()}, around)) {
+        lowest = std::min(lowest, corner.z());
+        highest = std::max(highest, corner.z());
+      }
+    });
+    return highest + limit_.min_m <= lowest + limit_.max_m;
   }
 
   /// Corners may lie just beside the piece that they are over, and the limit may be broken next to one only.
   void see_corners(const ConvexPolygon& over, FacetFinding& finding) const {
     finding.is_open = true;
     const Vec3 middle = middle_of(over);
-    for (const double inwards : {1e-3, 1e-5, 1e-7}) {
+    see(middle, finding);
+    for (const double inwards : {1e-1, 1e-3, 1e-5, 1e-7}) {
       for (const Vec3& corner : over) see(corner + inwards * (middle - corner), finding);
     }
   }
 
   /// How far a place is at least from any in the volume's box that keeps the limit: a place over one of the pieces, as
-  /// high as that piece asks for, and over no piece that asks for another height. `most_m`: it is not farther.
-  double to_kept_m(const Vec3& point, double most_m) const {
+  /// high as that piece asks for, and over no piece that asks for another height.
+  double to_kept_m(const Vec3& point) const {
+    const double by = broken_by(point);
+    double to_any = std::max(by, most_broken_by(point));
     Box here;
     here.extend(point);
-    double to_any = most_m, out_of_one = -std::numeric_limits<double>::infinity();
     for (double reach = volume_.tolerance_m();; reach *= 4) {
       visit_near(here, std::min(reach, to_any), [&](std::uint32_t index) {
-        const double inside = pieces_[index].inside_in_plan(point), by = too_far_by(pieces_[index], point);
-        to_any = std::min(to_any, std::max(-inside, by));
-        out_of_one = std::max(out_of_one, std::min(inside, by));
+        to_any = std::min(to_any, std::max(pieces_[index].outside_in_plan(point), too_far_by(pieces_[index], point)));
       });
-      if (to_any <= reach) return std::max(to_any, out_of_one);
+      if (to_any <= reach) return std::max(to_any, by);
     }
   }
 
@@ -217,17 +330,34 @@ class GroundSheet {
     return by;
   }
 
-  /// By how much a place breaks the limit, by its definition.
-  void see(const Vec3& point, FacetFinding& finding) const {
+  void see(const Vec3& point, FacetFinding& finding) const { finding.broken.see(broken_by(point), point); }
+
+  /// Calls visit(piece) for those that a place is over.
+  template <typename Visit>
+  void visit_under(const Vec3& point, const Visit& visit) const {
     Box here;
     here.extend(point);
-    bool is_over_ground = false;
     visit_near(here, 0, [&](std::uint32_t index) {
-      if (pieces_[index].outside_in_plan(point) > 0) return;
-      is_over_ground = true;
-      finding.broken.see(too_far_by(pieces_[index], point), point);
+      if (pieces_[index].inside_in_plan(point) >= 0) visit(pieces_[index]);
     });
-    if (!is_over_ground) finding.broken.see(beside_ground_by(point), point);
+  }
+
+  /// How far a place is at least from one that keeps the limit: over one piece, until it is beside it.
+  double broken_by(const Vec3& point) const {
+    bool is_over_ground = false;
+    double by = -std::numeric_limits<double>::infinity();
+    visit_under(point, [&](const GroundPiece& piece) {
+      is_over_ground = true;
+      by = std::max(by, std::min(piece.inside_in_plan(point), too_far_by(piece, point)));
+    });
+    return is_over_ground ? by : beside_ground_by(point);
+  }
+
+  /// By how much it breaks the limit straight up or down.
+  double most_broken_by(const Vec3& point) const {
+    double by = -std::numeric_limits<double>::infinity();
+    visit_under(point, [&](const GroundPiece& piece) { by = std::max(by, too_far_by(piece, point)); });
+    return by;
   }
 
   /// Metres in plan to the nearest ground, at least.
