@@ -35,6 +35,14 @@ double distance_in_plan_to(const Vec3& point, const Vec3& from, const Vec3& to) 
   return (p - a - share * along).norm();
 }
 
+double size_of(const ConvexPolygon& polygon) {
+  Vec3 twice = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    twice += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
+  }
+  return 0.5 * twice.norm();
+}
+
 struct GroundPiece {
   std::array<Vec3, 3> corners;  ///< counter-clockwise in plan
   Vec3 normal;                  ///< upward, unit length
@@ -187,29 +195,39 @@ class GroundSheet {
   }
 
   /// Whether each place of a polygon keeps the limit where a shift moves it. `shifts_of(part)`: to be tried, shorter
-  /// than the tolerance; what no shift serves as a whole is tried in parts.
+  /// than the tolerance; what no shift serves as a whole is tried in parts. "No" where these are many.
   template <typename ShiftsOf>
   bool keeps_beside(const ConvexPolygon& polygon, const ShiftsOf& shifts_of, double tolerance) const {
-    constexpr int kRounds = 3;
-    constexpr std::size_t kMostParts = 100;
+    constexpr std::size_t kMostParts = 200;
     if (!do_heights_overlap(polygon, tolerance)) return false;
-    std::vector<ConvexPolygon> broken = {polygon};
-    for (int round = 0; round < kRounds && broken.size() < kMostParts; ++round) {
-      std::vector<ConvexPolygon> next;
-      for (const ConvexPolygon& one : broken) {
-        std::vector<ConvexPolygon> left = {one};
-        for (const Vec3& shift : shifts_of(one)) {
-          std::vector<ConvexPolygon> rest;
-          for (const ConvexPolygon& part : left) add_broken_at(part, shift, tolerance - shift.norm(), rest);
-          left = std::move(rest);
-          if (left.empty()) break;
-        }
-        next.insert(next.end(), left.begin(), left.end());
-      }
-      broken = std::move(next);
-      if (broken.empty()) return true;
+    std::vector<ConvexPolygon> waiting = {polygon};
+    for (std::size_t tried = 0; !waiting.empty(); ++tried) {
+      if (tried == kMostParts) return false;
+      const ConvexPolygon part = waiting.back();
+      waiting.pop_back();
+      if (!add_what_shifts_leave(part, shifts_of(part), tolerance, waiting)) return false;
     }
-    return false;
+    return true;
+  }
+
+  /// Adds what is left of a part by the shift that leaves the least parts. Whether one of them serves some of it.
+  bool add_what_shifts_leave(const ConvexPolygon& part, const std::vector<Vec3>& shifts, double tolerance,
+                             std::vector<ConvexPolygon>& waiting) const {
+    const double whole = size_of(part);
+    double least = whole;
+    std::vector<ConvexPolygon> best;
+    for (const Vec3& shift : shifts) {
+      std::vector<ConvexPolygon> left;
+      add_broken_at(part, shift, tolerance - shift.norm(), left);
+      if (left.empty()) return true;
+      double size = 0;
+      for (const ConvexPolygon& one : left) size += size_of(one);
+      if (size >= least) continue;
+      least = size;
+      best = std::move(left);
+    }
+    waiting.insert(waiting.end(), best.begin(), best.end());
+    return least < whole;
   }
 
   /// The parts of a polygon that, moved by a shift, are not over ground, or break the limit over some piece of it by
@@ -275,8 +293,9 @@ class GroundSheet {
   double beside_m() const { return 0.25 * volume_.unsure_m(); }
 
   void add_shift(const Vec3& direction, double length, double tolerance, std::vector<Vec3>& shifts) const {
+    constexpr std::size_t kMostShifts = 48;
     const double longer = length + 2 * beside_m();
-    if (longer < tolerance) shifts.push_back(longer * direction);
+    if (longer < tolerance && shifts.size() < kMostShifts) shifts.push_back(longer * direction);
   }
 
   /// Whether any two pieces of ground within the tolerance of a polygon, in plan, allow some height in common.
