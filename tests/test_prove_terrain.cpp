@@ -76,6 +76,9 @@ TEST(ProveTerrain, WithAStep) {
                  [](const Vec3& p) { return std::min(5 - p.z(), 0.37 - p.x()); });
     expect_wrong(world, navigation, over_both(0.37, 2.99, 10), [](const Vec3& p) { return 3 - p.z(); });
     expect_wrong(world, navigation, over_both(0.37, 3, 18.1), [](const Vec3& p) { return p.z() - 18; });
+    // What keeps the limit next to it is over ground beside the volume's box.
+    expect_wrong(world, navigation, world.mesh({0.2, -9, 3}, {0.36, 9, 10}),
+                 [](const Vec3& p) { return std::min(5 - p.z(), 0.37 - p.x()); });
     if (world.shift != Vec3::Zero()) continue;
     // Hardly wider than nothing: its walls are at once beside both grounds, and keep the limit for neither.
     const auto thin = [&](double low, double high) {

@@ -82,9 +82,12 @@ struct GroundPiece {
 
 class GroundSheet {
  public:
-  GroundSheet(const LimitedVolume& volume, const AboveGround& limit) : volume_(volume), limit_(limit) {
+  GroundSheet(const LimitedVolume& volume, const AboveGround& limit)
+      : volume_(volume),
+        limit_(limit),
+        room_m_(volume.tolerance_m() + 0.1 * (volume.box().max - volume.box().min).norm()) {
     const Mesh& surface = *limit.ground.surface;
-    const Vec3 by = Vec3::Constant(volume.tolerance_m());
+    const Vec3 by = Vec3::Constant(room_m_);
     const Box near{volume.box().min - by, volume.box().max + by};
     std::vector<Piece> flat;
     for (const Triangle& t : surface.triangles) {
@@ -327,11 +330,11 @@ class GroundSheet {
     }
   }
 
-  /// How far a place is at least from any in the volume's box that keeps the limit: a place over one of the pieces, as
-  /// high as that piece asks for, and over no piece that asks for another height.
+  /// How far a place is at least from any that keeps the limit: a place over one of the pieces, as high as that piece
+  /// asks for, and over no piece that asks for another height.
   double to_kept_m(const Vec3& point) const {
     const double by = broken_by(point);
-    double to_any = std::max(by, most_broken_by(point));
+    double to_any = std::min(std::max(by, most_broken_by(point)), to_other_ground_m(point));
     Box here;
     here.extend(point);
     for (double reach = volume_.tolerance_m();; reach *= 4) {
@@ -379,12 +382,16 @@ class GroundSheet {
     return by;
   }
 
+  /// Ground that was left out is farther away in plan.
+  double to_other_ground_m(const Vec3& point) const {
+    const Box& box = volume_.box();
+    return room_m_ + std::min({point.x() - box.min.x(), box.max.x() - point.x(), point.y() - box.min.y(),
+                               box.max.y() - point.y()});
+  }
+
   /// Metres in plan to the nearest ground, at least.
   double beside_ground_by(const Vec3& point) const {
-    const Box& box = volume_.box();
-    // Ground that was left out lies farther away than this.
-    double nearest = volume_.tolerance_m() + std::min({point.x() - box.min.x(), box.max.x() - point.x(),
-                                                       point.y() - box.min.y(), box.max.y() - point.y()});
+    double nearest = to_other_ground_m(point);
     Box here;
     here.extend(point);
     for (double reach = volume_.tolerance_m();; reach *= 4) {
@@ -397,6 +404,7 @@ class GroundSheet {
 
   const LimitedVolume& volume_;
   const AboveGround& limit_;
+  double room_m_;  ///< ground that is farther than this from the volume's box, in plan, is left out
   std::vector<GroundPiece> pieces_;
   SceneTree tree_;
 };
