@@ -213,7 +213,7 @@ class GroundSheet {
     return true;
   }
 
-  /// Adds what is left of a part by the shift that leaves the least parts. Whether one of them serves some of it.
+  /// Adds what is left of a part by the shift that leaves least. False where no shift serves any of it.
   bool add_what_shifts_leave(const ConvexPolygon& part, const std::vector<Vec3>& shifts, double tolerance,
                              std::vector<ConvexPolygon>& waiting) const {
     const double whole = size_of(part);
@@ -255,8 +255,8 @@ class GroundSheet {
     }
   }
 
-  /// Horizontal, shorter than the tolerance: each takes all of a polygon across a side of the piece that it is over, or
-  /// of another one that some of it is over.
+  /// Horizontal moves, shorter than the tolerance. Each takes all of a polygon across a side of the piece that it is
+  /// over, or of another piece that some of it is over.
   std::vector<Vec3> shifts_off(const GroundPiece& piece, const ConvexPolygon& polygon, double tolerance) const {
     std::vector<Vec3> shifts;
     add_shifts_off(piece, polygon, tolerance, shifts);
@@ -277,7 +277,7 @@ class GroundSheet {
     }
   }
 
-  /// The other way round, to the pieces that are near.
+  /// Horizontal moves of a polygon beside the ground that take it across a side of a piece nearby, onto that piece.
   std::vector<Vec3> shifts_onto_ground(const ConvexPolygon& polygon, double tolerance) const {
     std::vector<Vec3> shifts;
     visit_near(box_of(polygon), tolerance, [&](std::uint32_t index) {
