@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/geometry.h"
@@ -17,21 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes away with the test.
 class MissionFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "vantage-mission-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override {
-    std::error_code error;
-    fs::remove_all(folder_, error);
-  }
-
   fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    testing::write_bytes(folder_ / name, text);
     return folder_ / name;
   }
 
@@ -47,7 +35,7 @@ class MissionFiles : public ::testing::Test {
   static constexpr const char* kTetrahedron =
       "o zone\nv 0 0 0\nv 0 0 50\nv 0 50 0\nv 50 0 0\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
 
-  fs::path folder_;
+  testing::TemporaryDirectory folder_;
 };
 
 TEST_F(MissionFiles, AreReadRelativeToTheMission) {
@@ -58,7 +46,7 @@ TEST_F(MissionFiles, AreReadRelativeToTheMission) {
       "mission.yaml", text_of("navigation: {meshes: [meshes/zone.obj]}", "scene: {mesh: meshes/city.obj, up: y}\n"));
   const MissionFile written = read_mission(file);
   const Mission mission = resolve_mission(written);
-  const fs::path folder = fs::canonical(folder_) / "meshes";
+  const fs::path folder = fs::canonical(folder_.path()) / "meshes";
   ASSERT_EQ(mission.navigation.meshes.size(), 1U);
   EXPECT_EQ(folder.parent_path() / mission.navigation.meshes[0].name, folder / "zone.obj");
   EXPECT_EQ(mission.navigation.meshes[0].mesh.triangles.size(), 4U);
@@ -81,12 +69,12 @@ TEST_F(MissionFiles, MayLieInALinkedFolder) {
 
 TEST_F(MissionFiles, ThatAreMissing) {
   expect_refusal_of(folder_ / "none.yaml", ErrorCode::file_not_found, "none.yaml");
-  expect_refusal_of(folder_, ErrorCode::not_a_file, folder_.string());
+  expect_refusal_of(folder_.path(), ErrorCode::not_a_file, folder_.path().string());
   expect_refusal_of("/dev/null", ErrorCode::not_a_file, "/dev/null");
   const fs::path file = write("mission.yaml", text_of("navigation: {meshes: [zone.obj]}"));
-  expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:2:9 (" + folder_.string());
+  expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:2:9 (" + folder_.path().string());
   write("city.obj", kTetrahedron);
-  expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:7:23 (" + folder_.string());
+  expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:7:23 (" + folder_.path().string());
   fs::create_directory(folder_ / "zone.obj");
   expect_refusal_of(file, ErrorCode::not_a_file, "mission.yaml:7:23");
 }
