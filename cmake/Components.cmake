@@ -162,6 +162,10 @@ if(VANTAGE_WITH_APP)
   vantage_component(app MODULES app SOURCES ${app_sources} LINK ${app_libraries} BUILD nlohmann_json::nlohmann_json
                     REQUIRES ${app_requires})
 endif()
+if(VANTAGE_WITH_FLIGHT)
+  vantage_component(flight
+    MODULES flight LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json REQUIRES core app)
+endif()
 get_property(VANTAGE_BUILT_COMPONENTS GLOBAL PROPERTY VANTAGE_BUILT_COMPONENTS)
 
 # All that is hidden, for tests and fuzz targets only.

@@ -1,5 +1,5 @@
 # Which components are built: those of VANTAGE_COMPONENTS, and what they stand on.
-set(VANTAGE_ALL_COMPONENTS core solid maps depth picture verify app)
+set(VANTAGE_ALL_COMPONENTS core solid maps depth picture verify app flight)
 set(wanted ${VANTAGE_COMPONENTS})
 if(wanted STREQUAL "all")
   set(wanted ${VANTAGE_ALL_COMPONENTS})
@@ -10,6 +10,9 @@ foreach(component IN LISTS wanted)
     message(FATAL_ERROR "VANTAGE_COMPONENTS names \"${component}\": choose among ${known}, or all")
   endif()
 endforeach()
+if("flight" IN_LIST wanted)
+  list(APPEND wanted app)
+endif()
 if("picture" IN_LIST wanted)
   list(APPEND wanted depth)
 endif()
@@ -79,11 +82,14 @@ else()
   set(VANTAGE_PROJ_DEFINITIONS "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
 endif()
 
+if(VANTAGE_WITH_MAPS OR VANTAGE_WITH_FLIGHT)
+  find_package(EXPAT REQUIRED)  # KML and GPX too
+endif()
+
 # libosmium is headers; it reads XML with Expat and unpacks with zlib and bzip2 (src/maps/osm only). Clipper 6.4: outlines in
 # the plane (src/maps/city/clipping.cpp only); its package file tells no version.
 if(VANTAGE_WITH_MAPS)
   pkg_check_modules(VANTAGE_CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
-  find_package(EXPAT REQUIRED)
   find_package(BZip2 REQUIRED)
   find_path(OSMIUM_INCLUDE_DIR osmium/version.hpp REQUIRED)
   add_library(vantage_osmium INTERFACE)

@@ -12,6 +12,7 @@
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/faces.h"
+#include "vantage/flight.h"
 #include "vantage/footprint.h"
 #include "vantage/fraction.h"
 #include "vantage/fraction_field.h"
