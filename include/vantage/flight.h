@@ -24,8 +24,8 @@ struct LegInterval {
 
 /// Where legs meet.
 struct FlightPoint {
-  Vec3 position = Vec3::Zero();  ///< scene frame, metres
-  double hold_s = 0;             ///< for so long it stays there; >= 0
+  Vec3 position = Vec3::Zero();                                 ///< scene frame, metres
+  double hold_s = 0;                                            ///< for so long it stays there; >= 0
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< of the leg that ends here; NaN: not stated
   std::string place = {};  ///< in the plan that it came from, for messages: "survey.plan: item 3"; may be empty
 };
