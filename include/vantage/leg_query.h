@@ -105,4 +105,46 @@ class VANTAGE_API LegViews {
   std::unique_ptr<Data> data_;
 };
 
+/// What LegDistances leaves out.
+struct LegDistanceOptions {
+  double cutoff_m = std::numeric_limits<double>::infinity();  ///< what is farther away is not looked for; >= 0
+  bool without_ground = false;                                ///< objects of ObjectKind::ground
+  std::vector<std::uint32_t> without_objects = {};            ///< indices of objects of the scene
+};
+
+/// What of the scene is nearest to a leg.
+struct LegDistance {
+  double distance_m = std::numeric_limits<double>::infinity();  ///< infinite where nothing is within the cut-off
+  double share = 0;                                             ///< where on the leg, 0 to 1
+  Vec3 point = Vec3::Zero();                                    ///< of the scene, scene frame
+  std::uint32_t object = 0;                                     ///< of the scene; its display_name:
+  std::string name = {};                                        ///< empty where nothing is within the cut-off
+};
+
+/// Measures how near legs come to the surfaces of a scene. Immutable: any number of threads may ask.
+class VANTAGE_API LegDistances {
+ public:
+  /// Holds on to the scene. Throws Error(input) for an index of an object out of range, and for a cut-off that is
+  /// negative or not a number.
+  explicit LegDistances(const PreparedScene& scene, const LegDistanceOptions& options = {});
+
+  /// The smallest distance of any point of the leg from any point of the scene's polygons; 0 where they meet, also
+  /// inside of solids at their surface only. The distance is not more than the true one, and less by at most twice
+  /// what rounding may do: 16 roundings of the largest coordinate, and what merged triangles may be out of one plane
+  /// (a nanometre, 2^-46 of the scene's size). Of several at the same distance, any, always the same. What preparing
+  /// dropped (triangles without width, docs/theory.md) is not met.
+  ///
+  /// Nearest first through the scene's hierarchy. Throws Error(input) as LegViews::look.
+  LegDistance nearest(const Leg& leg) const;
+
+  /// The same for many legs, in their order. Uses the threads of the caller's arena. Error(cancelled) when told to
+  /// stop.
+  std::vector<LegDistance> nearest(std::span<const Leg> legs, const Progress& progress = {}) const;
+
+ private:
+  PreparedScene scene_;
+  double cutoff_m_;
+  std::vector<bool> is_left_out_;  // by object
+};
+
 }  // namespace vantage
