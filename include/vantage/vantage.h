@@ -23,6 +23,7 @@
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/kept_volumes.h"
+#include "vantage/leg_query.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 #include "vantage/objects.h"
