@@ -59,7 +59,7 @@ struct PlanPosition {
 enum class PlanItemKind {
   waypoint,
   takeoff,      ///< the position may be missing: the home
-  loiter,       ///< a circle about the position, if `loiter_radius_m` is not 0; else a stay
+  loiter,       ///< a circle about the position, if `turns` is not 0; else a stay
   land,         ///< the place where it lands; it comes there at the height before, and goes down
   return_home,  ///< the position is missing: the home
 };
@@ -79,8 +79,8 @@ struct PlanItem {
   std::optional<double> gimbal_pitch_deg;  ///< 0 level, -90 straight down
   std::optional<PlanPosition> look_at;     ///< what the camera is turned to; instead of yaw and pitch
   double acceptance_radius_m = 0;          ///< the item counts as reached so near; 0: not stated
-  double loiter_radius_m = 0;              ///< > 0: clockwise seen from above; < 0: the other way
-  double turns = 0;                        ///< of a loiter with a radius
+  double loiter_radius_m = 0;  ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
+  double turns = 0;            ///< of a loiter; with `hold_s` above 0 it circles for that time instead
   /// So far before the position the vehicle leaves the leg, and so far behind it it is on the next one, on an arc that
   /// touches both. 0: it goes to the position.
   double cut_m = 0;

@@ -170,10 +170,13 @@ bool Runner::move(const MissionItem& item) {
   }
 }
 
-/// A multirotor that is told to loiter for a time stays where it is; others circle.
+/// A multirotor that is told to loiter for a time stays where it is; others circle. Without a kind of vehicle the radius
+/// tells.
 void Runner::loiter(const MissionItem& item, double radius_m, double turns, double hold_s) {
   PlanItem& added = add(PlanItemKind::loiter, item);
-  const bool is_circle = item.command == kNavLoiterTurns || plan_.vehicle != PlanVehicle::multirotor;
+  const bool can_stay = plan_.vehicle == PlanVehicle::multirotor ||
+                        (plan_.vehicle == PlanVehicle::unknown && radius_m == 0);
+  const bool is_circle = item.command == kNavLoiterTurns || !can_stay;
   added.loiter_radius_m = is_circle ? radius_m : 0;
   added.turns = is_circle ? turns : 0;
   added.hold_s = hold_s;
