@@ -13,6 +13,7 @@
 #include "vantage/export.h"
 #include "vantage/faces.h"
 #include "vantage/flight.h"
+#include "vantage/flight_plan.h"
 #include "vantage/footprint.h"
 #include "vantage/fraction.h"
 #include "vantage/fraction_field.h"
