@@ -43,10 +43,10 @@ struct StandpointOptions {
   /// of its greatest depth.
   double margin_m = std::numeric_limits<double>::quiet_NaN();
   /// How far values may be from the best, and how far positions from where the margin ends; > 0. NaN: 0.1 m, but no
-  /// more than a thousandth of the volume's extent and a tenth of the margin. Pixels are right to 0.5 %, angles to
+  /// more than a thousandth of the volume's extent and half of the margin. Pixels are right to 0.5 %, angles to
   /// 0.1 degrees.
   double tolerance_m = std::numeric_limits<double>::quiet_NaN();
-  std::size_t most_boxes = 400000;  ///< of a search; one that comes to it ends with a looser `bound`
+  std::size_t most_boxes = 200000;  ///< of a search; one that comes to it ends with a looser `bound`
   int threads = 0;                  ///< 0: as many as the machine has. The result does not depend on it
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "core/triangle_distance.h"
 
 namespace vantage::internal::flight {
 namespace {
@@ -76,13 +77,37 @@ double SolidDepth::at_most_m(const Vec3& point) const {
   return cell.depth + cell.offset;
 }
 
-double SolidDepth::depth_m(const Vec3& point) const {
-  const double distance = tree_.distance(point);
+double SolidDepth::signed_depth(const Vec3& point, double distance) const {
   if (distance_outside(point) > 0 || !(distance > 0)) return -distance;
   const Cell cell = cell_at(point);
   if (cell.depth > cell.offset) return distance;
   if (-cell.depth > cell.offset) return -distance;
   return tree_.winding_number(point) > 0 ? distance : -distance;
+}
+
+double SolidDepth::depth_m(const Vec3& point) const { return signed_depth(point, tree_.distance(point)); }
+
+double SolidDepth::box_at_most_m(const Vec3& middle, const Vec3& half) const {
+  // A point of the solid is no deeper than the solid's box is near: the way there leaves the solid.
+  const double in_box =
+      std::min((bounds_.max - middle + half).minCoeff(), (middle + half - bounds_.min).minCoeff());
+  return std::min(in_box, at_most_m(middle) + half.norm());
+}
+
+SolidDepth::Bounded SolidDepth::bounded_m(const Vec3& middle, const Vec3& half) const {
+  const core::TriangleTree::Nearest nearest = tree_.nearest(middle);
+  const double depth = signed_depth(middle, nearest.distance);
+  const double bound = std::min(depth + half.norm(), box_at_most_m(middle, half));
+  if (!(depth > 0)) return {depth, bound};
+  // No point is deeper than it is far from one triangle. That distance is convex, so a corner of the box has the most.
+  const Triangle& t = mesh_.triangles[nearest.triangle];
+  double squared = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sides(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    squared = std::max(squared, core::squared_distance_to_triangle(middle + sides.cwiseProduct(half), mesh_.vertices[t[0]],
+                                                                   mesh_.vertices[t[1]], mesh_.vertices[t[2]]));
+  }
+  return {depth, std::min(bound, std::sqrt(squared))};
 }
 
 }  // namespace vantage::internal::flight

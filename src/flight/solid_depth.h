@@ -28,6 +28,14 @@ class SolidDepth {
   double depth_m(const Vec3& point) const;
   /// No less than the depth, from a grid of depths: some nanoseconds.
   double at_most_m(const Vec3& point) const;
+  /// No less than the depth of any point of a box, given by its middle and half widths. The depth is that of the middle.
+  /// Where the solid is thin, far less than the depth and half of the diagonal. Cost: as depth_m.
+  struct Bounded {
+    double depth_m = 0, bound_m = 0;
+  };
+  Bounded bounded_m(const Vec3& middle, const Vec3& half) const;
+  /// The same bound, not as good, in nanoseconds.
+  double box_at_most_m(const Vec3& middle, const Vec3& half) const;
   /// How far a depth may be wrong: what moving to the origin and back rounds.
   double rounding_m() const { return rounding_m_; }
 
@@ -37,6 +45,7 @@ class SolidDepth {
   };
   Cell cell_at(const Vec3& point) const;
   double distance_outside(const Vec3& point) const;
+  double signed_depth(const Vec3& point, double distance) const;
 
   Vec3 origin_ = Vec3::Zero();
   Mesh mesh_;

@@ -21,36 +21,43 @@ SearchEnd PointSearch::run(const core::ProgressReporter& progress) {
   return search_box(*this, root, request_.limits, progress);
 }
 
-/// Minus infinity where the point does not count.
+/// Minus infinity where the point does not count, or is no better than the best.
 double PointSearch::allowed_value(const Vec3& point) const {
-  const double value = request_.value(point, 0);
-  if (!(value > best_) || solid_.at_most_m(point) < request_.margin_m) return kNone;
-  if (solid_.depth_m(point) < request_.margin_m || !request_.is_inside(point)) return kNone;
-  return value;
+  if (solid_.at_most_m(point) < request_.margin_m) return kNone;
+  if (request_.value && !(request_.value(point, 0) > best_)) return kNone;
+  const double depth = solid_.depth_m(point);
+  const double value = request_.value ? request_.value(point, 0) : depth;
+  return depth >= request_.margin_m && value > best_ && request_.is_inside(point) ? value : kNone;
+}
+
+/// A better value, of the middle of a box.
+void PointSearch::take(const SearchBox<3>& box, double value) {
+  const bool is_much_better = value > best_ + request_.limits.tolerance;
+  best_ = value;
+  std::array<double, 3> place = box.middle, steps{};
+  if (is_much_better) {
+    const double reach = point_at(box.half).norm();
+    steps.fill(reach);
+    best_ = climb(place, value, steps, std::min(1.0, request_.least_step_m / reach), [&](const auto& next) {
+      return allowed_value(point_at(next));
+    });
+  }
+  point_ = point_at(place);
 }
 
 double PointSearch::bound_of(const SearchBox<3>& box) {
-  const Vec3 middle = point_at(box.middle);
-  const double reach = point_at(box.half).norm();
-  const double needed = request_.margin_m + request_.slack_m - reach;
-  if (solid_.at_most_m(middle) < needed) return kNone;
-  const double bound = request_.value(middle, reach);
-  if (!(bound > best_ + request_.limits.tolerance)) return bound;
-  const double depth = solid_.depth_m(middle);
-  if (depth < needed) return kNone;
-  if (depth < request_.margin_m) return bound;
-  const double value = allowed_value(middle);
-  if (!(value > best_)) return bound;
-  const bool is_much_better = value > best_ + request_.limits.tolerance;
-  best_ = value;
-  point_ = middle;
-  if (!is_much_better) return bound;
-  std::array<double, 3> place = box.middle, steps{};
-  steps.fill(reach);
-  best_ = climb(place, value, steps, std::min(1.0, request_.least_step_m / reach), [&](const auto& next) {
-    return allowed_value(point_at(next));
-  });
-  point_ = point_at(place);
+  const Vec3 middle = point_at(box.middle), half = point_at(box.half);
+  const double needed = request_.margin_m + request_.slack_m, interesting = best_ + request_.limits.tolerance;
+  const double at_most = solid_.box_at_most_m(middle, half);
+  if (at_most < needed) return kNone;
+  double bound = request_.value ? request_.value(middle, half.norm()) : at_most;
+  if (!(bound > interesting)) return bound;
+  const SolidDepth::Bounded depth = solid_.bounded_m(middle, half);
+  if (depth.bound_m < needed) return kNone;
+  if (!request_.value) bound = depth.bound_m;
+  if (depth.depth_m < request_.margin_m) return bound;
+  const double value = request_.value ? request_.value(middle, 0) : depth.depth_m;
+  if (value > best_ && request_.is_inside(middle)) take(box, value);
   return bound;
 }
 

@@ -19,7 +19,7 @@ namespace vantage::internal::flight {
 using PointValue = std::function<double(const Vec3& point, double reach_m)>;
 
 struct PointRequest {
-  PointValue value;
+  PointValue value;        ///< empty: the depth
   double margin_m = 0;     ///< points count at this depth and deeper
   double slack_m = 0;      ///< the bound is of points that are so much deeper than that
   SearchLimits limits;     ///< the tolerance is of the value
@@ -39,6 +39,7 @@ class PointSearch {
 
  private:
   double allowed_value(const Vec3& point) const;
+  void take(const SearchBox<3>& box, double value);
 
   const SolidDepth& solid_;
   PointRequest request_;

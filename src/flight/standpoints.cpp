@@ -70,7 +70,7 @@ class StandpointFinder {
     }
     add(StandpointKind::deepest, deepest);
     if (std::isnan(options_.tolerance_m) && result_.margin_m > 0) {
-      tolerance_m_ = std::min(tolerance_m_, result_.margin_m / 10);
+      tolerance_m_ = std::min(tolerance_m_, result_.margin_m / 2);
     }
     for (std::size_t i = 1; i < kKinds.size(); ++i) {
       if (!is_measured(kKinds[i])) continue;
@@ -122,7 +122,7 @@ class StandpointFinder {
       case StandpointKind::deepest:
         break;
     }
-    return [this](const Vec3& p, double reach) { return solid_.depth_m(p) + reach; };
+    return {};
   }
 
   static double told(StandpointKind kind, double value) {
