@@ -9,6 +9,7 @@
 #include "vantage/compare.h"
 #include "vantage/constraints.h"
 #include "vantage/devices.h"
+#include "vantage/dubins.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/faces.h"
