@@ -25,6 +25,8 @@ function(vantage_add_highs source_dir)
     list(GET line 0 part)
     list(GET line 1 HIGHS_VERSION_${part})
   endforeach()
+  set_source_files_properties(${source_dir}/extern/HighsExtrasApi.cpp PROPERTIES COMPILE_DEFINITIONS
+    "HIGHS_EXTRAS_VERSION=\"${HIGHS_VERSION_MAJOR}.${HIGHS_VERSION_MINOR}.${HIGHS_VERSION_PATCH}\"")
   check_cxx_source_compiles("#include <immintrin.h>\nint main() { _mm_pause(); return 0; }" HIGHS_HAVE_MM_PAUSE)
   set(FAST_BUILD ON)
   set(CUPDLP_CPU ON)

@@ -99,7 +99,7 @@ Vec3 nearest_of_simplex(std::vector<Vec3>& corners) {
   return best;
 }
 
-Hull::Hull(std::vector<Vec3> points) : points_(std::move(points)) {
+Hull::Hull(std::vector<Vec3> points, double moved_m) : points_(std::move(points)), moved_m_(moved_m) {
   for (const Vec3& p : points_) box_.extend(p);
   middle_ = 0.5 * (box_.min + box_.max);
   extent_m_ = (box_.max - box_.min).norm();

@@ -25,8 +25,9 @@ struct NearestInHull {
 
 class Hull {
  public:
-  /// At least one point; finite, metres. Repeated points do not matter. Cost: O(n log n).
-  explicit Hull(std::vector<Vec3> points);
+  /// At least one point; finite, metres. Repeated points do not matter. `moved_m`: what is meant lies no farther from
+  /// the hull of these points than that. Cost: O(n log n).
+  explicit Hull(std::vector<Vec3> points, double moved_m = 0);
 
   /// A point p of the given ones at which direction . p is least, among equals any. What is computed of others may be
   /// less by 8 roundings of |direction|_1 reach_m(), not more.
@@ -43,6 +44,7 @@ class Hull {
   const Vec3& inside() const { return inside_; }    ///< mean of the lowest points in many directions: deep inside
   double extent_m() const { return extent_m_; }     ///< the box's diagonal
   double reach_m() const { return reach_m_; }       ///< the largest coordinate, as a size
+  double moved_m() const { return moved_m_; }
   const Box& box() const { return box_; }
   const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }  ///< 26 that hold it, each touching it
 
@@ -60,7 +62,7 @@ class Hull {
   std::vector<HalfSpace> half_spaces_;
   Box box_;
   Vec3 middle_ = Vec3::Zero(), inside_ = Vec3::Zero();
-  double extent_m_ = 0, reach_m_ = 0;
+  double extent_m_ = 0, reach_m_ = 0, moved_m_ = 0;
 };
 
 /// The point of a simplex of 1 to 4 corners that is nearest to the origin, and the corners that span it: the others are

@@ -344,13 +344,14 @@ TouringSolution solve_touring(const TouringProgram& program, const TouringOption
 double touring_bound(const TouringProgram& program, std::span<const Direction> directions) {
   if (directions.empty()) return 0;
   const std::size_t count = program.hulls.size();
-  double sum = 0, reach = 0;
+  double sum = 0, reach = 0, moved = 0;
   for (std::size_t k = 0; k < count; ++k) {
     Vec3 direction = Vec3::Zero();  // exact: whole numbers up to 2^31 times 2^-30
     if (k > 0 || program.closed) direction += vector_of(directions[(k + count - 1) % count]);
     if (k < directions.size()) direction -= vector_of(directions[k]);
     sum += direction.dot(program.hulls[k]->lowest(direction));
     reach += program.hulls[k]->reach_m();
+    moved += program.hulls[k]->moved_m();
   }
   double added = 0;
   for (std::size_t leg = 0; leg < directions.size(); ++leg) {
@@ -361,7 +362,7 @@ double touring_bound(const TouringProgram& program, std::span<const Direction> d
   // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest() may
   // overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
   const double m = static_cast<double>(count);
-  return sum + added * (1 - 8 * kRounding) - (4 * m + 40) * kRounding * (reach + added);
+  return sum + added * (1 - 8 * kRounding) - (4 * m + 40) * kRounding * (reach + added) - 2.001 * moved;
 }
 
 double touring_length(const TouringProgram& program, std::span<const Vec3> points) {

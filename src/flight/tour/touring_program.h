@@ -19,7 +19,8 @@
 namespace vantage::internal::flight::tour {
 
 /// A vector of length 1 at most, exactly: three whole numbers times 2^-30, so that files hold it exactly and differences
-/// of two are exact as doubles. Rounding to it costs a bound 4e-9 of a hull's size.
+/// of two are exact as doubles. Rounding to it costs a bound some 4e-9 of the legs'
+/// lengths and of the hulls' sizes.
 using Direction = std::array<std::int32_t, 3>;
 constexpr int kDirectionBits = 30;
 
@@ -56,7 +57,7 @@ struct TouringOptions {
 TouringSolution solve_touring(const TouringProgram& program, const TouringOptions& options = {});
 
 /// No polyline that meets the hulls in this order is shorter. What rounding may add is subtracted: for coordinates of
-/// size R and m points less than (4 m + 40) 2^-53 times the sum of R over the points.
+/// size R and m points less than (4 m + 40) 2^-53 times the sum of R over the points; and 2 Hull::moved_m() of each.
 double touring_bound(const TouringProgram& program, std::span<const Direction> directions);
 
 /// Of a polyline through these points.
