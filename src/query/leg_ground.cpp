@@ -25,7 +25,10 @@ double plan_turn(const Plan& a, const Plan& b) { return a.x() * b.y() - a.y() * 
 /// A triangle in plan, with heights.
 struct PlanTriangle {
   explicit PlanTriangle(const std::array<Vec3, 3>& corners)
-      : a(corners[0]), u(corners[1] - corners[0]), v(corners[2] - corners[0]), area(plan_turn(u.head<2>(), v.head<2>())) {}
+      : a(corners[0]),
+        u(corners[1] - corners[0]),
+        v(corners[2] - corners[0]),
+        area(plan_turn(u.head<2>(), v.head<2>())) {}
 
   /// In parts of its sides u and v.
   std::array<double, 2> parts_at(const Plan& place) const {

@@ -192,7 +192,8 @@ struct LegLimits::Data {
     const auto add = [&](const LegIntervals& more) { kept.insert(kept.end(), more.begin(), more.end()); };
     for (const Box& box : navigation.keep_in) add(kept_in_box(box, tube));
     for (const LegZone& zone : keep_in) add(zone.kept(tube));
-    add_break(breaks, keep_in.empty() ? "boxes" : "keep_in", Unit::metres, query::rest_of(query::joined(std::move(kept))),
+    LegIntervals outside = query::rest_of(query::joined(std::move(kept)));
+    add_break(breaks, keep_in.empty() ? "boxes" : "keep_in", Unit::metres, std::move(outside),
               [&](double share) { return outside_all(tube.at(share)) + tube.radius; });
   }
 

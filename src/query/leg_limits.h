@@ -1,8 +1,11 @@
 // The limits that a leg with its tube breaks: one class for each kind of limit.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,8 +85,8 @@ class LegGround {
   void add_borders_near(const Tube& local, LegIntervals& out) const;
 
   double plane_z_;
-  std::unique_ptr<LegTriangles> triangles_;           ///< null: the plane
-  std::vector<std::array<bool, 3>> is_inner_;         ///< per triangle: sides between two that lie side by side
+  std::unique_ptr<LegTriangles> triangles_;    ///< null: the plane
+  std::vector<std::array<bool, 3>> is_inner_;  ///< per triangle: sides between two that lie side by side
 };
 
 /// A zone with the ground of its heights.
@@ -93,8 +96,8 @@ class LegZone {
 
   LegIntervals kept(const Tube& tube) const;    ///< as a zone to stay in: all of the tube is in it
   LegIntervals broken(const Tube& tube) const;  ///< as a zone to stay out of
-  double outside(const Vec3& place) const;      ///< distance from the zone, without heights above ground; inside: how far
-                                                ///< from leaving it, negative
+  /// Distance from the zone, without heights above ground; inside: how far from leaving it, negative.
+  double outside(const Vec3& place) const;
   const Zone& zone() const { return zone_; }
 
  private:

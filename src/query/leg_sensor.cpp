@@ -121,7 +121,8 @@ class PartsLook {
   LegIntervals too_coarse(const ViewedPart& part) const {
     LegIntervals kept{{0, 1}};
     for (const Vec3& corner : part.corners) {
-      const auto in_ball = ball_part(local_.leg.from, local_.leg.to, ball_of(part, corner), ball_radius() - local_.radius);
+      const Vec3 centre = ball_of(part, corner);
+      const auto in_ball = ball_part(local_.leg.from, local_.leg.to, centre, ball_radius() - local_.radius);
       kept = in_ball ? common(kept, {*in_ball}) : LegIntervals{};
     }
     return rest_of(kept);
