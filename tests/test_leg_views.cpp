@@ -172,7 +172,8 @@ TEST(LegViews, MeetsKnownBorders) {
   for (const LegWorld& world : kLegWorlds) {
     // From x < 0 at height 10 the screen x = -5, z 4..6 hides part of the target |x| <= 1 where the line to (1, 0) or
     // (-1, 0) meets it: from z = 10 these are x = 1 - 6 * 10 / 4 = -14 and -1 - 4 * 10 / 6 = -7.666.
-    const SceneBuilder builder = SceneBuilder().polygon("screen", {{-5, -50, 4}, {-5, 50, 4}, {-5, 50, 6}, {-5, -50, 6}});
+    const SceneBuilder builder =
+        SceneBuilder().polygon("screen", {{-5, -50, 4}, {-5, 50, 4}, {-5, 50, 6}, {-5, -50, 6}});
     const PreparedScene scene(world.scene(builder));
     const PreparedTarget target(
         scene, world.target(testing::target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
@@ -200,8 +201,8 @@ TEST(LegViews, MeetsKnownBorders) {
     EXPECT_NEAR(tube.seen[0].end * 50 - 40, -14 - radius / lower, tolerance);
     EXPECT_NEAR(tube.seen[1].begin * 50 - 40, -1 - 4.0 * 10 / 6 + radius / upper, tolerance);
 
-    // Beside the screen's upper edge, between the normals of the two planes that meet there: the edge is round. Were the
-    // planes but moved out, they would meet 1.045 radii from it.
+    // Beside the screen's upper edge, between the normals of the two planes that meet there: the edge is round. Were
+    // the planes but moved out, they would meet 1.045 radii from it.
     const double between = 0.5 * std::atan2(4, 6);
     const auto beside = [&](double y) {
       return world.at(Vec3(-5, y, 6) + 1.02 * radius * Vec3(std::cos(between), 0, std::sin(between)));
@@ -251,7 +252,7 @@ TEST(LegViews, DegenerateLegsAreHidden) {
     EXPECT_TRUE(seen({20, 0, 1}, {20, 0, 1}).empty()) << "behind it";
     EXPECT_EQ(seen({5 - 1e-6, -4, 1}, {5 - 1e-6, 4, 7}), all) << "in front of it";
     EXPECT_EQ(seen({0, 0, 5}, {0, 0, 5}), all);
-    // Through a corner of the wall, square to the plane of the sight line over it: a touch is a point that is taken out.
+    // Through a corner of the wall and down its edge.
     const std::vector<LegInterval> through = seen({5, 5, 9}, {5, 5, 7});
     ASSERT_EQ(through.size(), 1u);
     EXPECT_NEAR(through[0].end, 0.5, 1e-7 + world.rounding() / world.scale);

@@ -87,9 +87,10 @@ class VANTAGE_API LegViews {
   /// tangent planes, until it is met to 1e-12 of the distance.
   ///
   /// With a link (Sensor::link) the zone has no such intervals. The leg is halved until all its positions are known to
-  /// be free, or not, or the part is at most 1 mm long: then it counts as not free where a way over the scene is at most
-  /// 2 mm too long for the zone. A tube counts as not free where it is at most 2 `radius_m` too long for the zone of a
-  /// position of the leg: where it is longer, no vehicle in the tube has anything in its zone.
+  /// be free, or not, or the part is at most 1 mm long, and 1e-5 of the leg: then it counts as not free where a way
+  /// over the scene is at most twice that too long for the zone. A tube counts as not free where a way is at most
+  /// 2 `radius_m` too long for the zone of a position of the leg: where none is, no vehicle in the tube has anything in
+  /// its zone.
   ///
   /// Cost: what of the scene's hierarchy meets the convex hull of the leg, as far as it is in range, and the target.
   /// Throws Error(input) for a leg that is not finite or farther than 1e9 m from the origin of the scene frame, and for
@@ -145,6 +146,70 @@ class VANTAGE_API LegDistances {
   PreparedScene scene_;
   double cutoff_m_;
   std::vector<bool> is_left_out_;  // by object
+};
+
+/// A limit that is broken along a leg, and by how much.
+struct LegBreak {
+  enum class Unit { metres, degrees };
+
+  std::string limit;                   ///< as PointAnswer::outside_of names it
+  std::vector<LegInterval> intervals;  ///< where some position of the tube breaks it; sorted, disjoint, at least one
+  double worst = 0;                    ///< by how much at worst; see LegLimits
+  Unit unit = Unit::metres;
+  double worst_share = 0;  ///< where on the leg that is
+};
+
+/// The parts of a leg where nothing is broken.
+VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken);
+
+/// Tells where legs break limits: those of navigation, and those of a target's sensor besides its range. That, with a
+/// pixel of PixelLimit::Kind::perpendicular, is a matter of LegViews. Immutable after it is made: any number of threads
+/// may ask.
+///
+/// Borders are allowed, as everywhere, where rounding can tell: heights and boxes are compared as they are. Else what
+/// is within a few roundings of a border may be taken for either side.
+///
+/// - "altitude min", "altitude max", "boxes", "keep_out 2", zones, "mesh NAME", "agl min", "agl max", "ground edge" (in
+///   plan) and "clearance" are exact: intervals of linear functions, and of distances from convex pieces, which are
+///   convex along the leg. So are "min_range", "incidence", "pixel" and "sun", and the "frame" and "gimbal" of a fixed
+///   camera. Ends are right to rounding.
+/// - "frame" and "gimbal" of a camera that turns: the leg is halved until one orientation does for all of a part, or
+///   none for any of it, or it is at most 1 mm long, and 1e-5 of the leg: then it counts as broken. Each position of a
+///   tube may have its own orientation; cubes in the tube are divided down to an eighth of its radius, and the leg as
+///   finely. A cube, and a part of the leg, for which no single orientation is found counts as broken.
+///
+/// A tube breaks "keep_in" and "boxes" where no single one of these holds all of it, also where two that touch do so
+/// together. Of a zone of `keep_out_zones` with heights above ground it counts as in it where it comes near enough to
+/// its plan, to its heights and to where there is ground, each by itself: more than exact, never less.
+///
+/// `worst`: for the middle of the tube, plus what the radius adds. Metres: how far it is past the limit (of zones,
+/// boxes and meshes to leave: how far into them, or out of them; heights vertically; "pixel": beyond the ball that
+/// keeps it; "ground edge": in plan from the ground). Degrees: "incidence", "sun", and of "frame" and "gimbal" how far
+/// at least a corner of the target is out of the picture. The radius adds itself, or the angle that it subtends at
+/// the nearest corner. It is searched for among 17 places of each interval and about the best of these.
+class VANTAGE_API LegLimits {
+ public:
+  /// Of navigation alone. Throws as check_navigation.
+  explicit LegLimits(const Navigation& navigation);
+  /// And of the target's sensor. Holds on to nothing of the target.
+  LegLimits(const PreparedTarget& target, const Navigation& navigation);
+  ~LegLimits();
+  LegLimits(LegLimits&&) noexcept;
+  LegLimits& operator=(LegLimits&&) noexcept;
+
+  /// What is broken, in the order of PointAnswer::outside_of. Throws Error(input) as LegViews::look. Cost: linear in
+  /// the corners of zones whose boxes are near, and in the triangles near the leg; a camera that turns some
+  /// milliseconds.
+  std::vector<LegBreak> broken(const Leg& leg, double radius_m = 0) const;
+
+  /// The same for many legs, in their order. Uses the threads of the caller's arena. Error(cancelled) when told to
+  /// stop.
+  std::vector<std::vector<LegBreak>> broken(std::span<const Leg> legs, double radius_m = 0,
+                                            const Progress& progress = {}) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
 };
 
 }  // namespace vantage

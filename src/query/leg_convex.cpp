@@ -106,7 +106,8 @@ class Projection {
   /// How far the point is from a half-space; negative inside.
   double gap(std::size_t i) const { return set_[i].height - set_[i].normal.dot(point_); }
 
-  bool solve(const std::array<std::size_t, 3>& basis, std::size_t size, std::array<double, 3>& weight, Vec3& way) const {
+  bool solve(const std::array<std::size_t, 3>& basis, std::size_t size, std::array<double, 3>& weight,
+             Vec3& way) const {
     constexpr double kParallel = 1e-12;
     const Vec3& a = set_[basis[0]].normal;
     const double gap_a = gap(basis[0]);

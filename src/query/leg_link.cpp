@@ -5,7 +5,8 @@
 namespace vantage::internal::query {
 namespace {
 
-constexpr double kShortest = 1e-3;  // metres
+constexpr double kShortest = 1e-3;        // metres
+constexpr double kShortestShare = 1e-5;  // and of the leg
 
 /// A zone that nothing enters when it is so much longer in all is not even touched within rounding.
 constexpr double kZoneTouch = 1e-8;
@@ -28,7 +29,7 @@ class LinkHalving {
     const double half = 0.5 * (end - begin) * length_, middle = 0.5 * (begin + end);
     const Objects maybe = entering(middle, 2 * (half + radius_) + slack_);
     if (maybe.empty()) return;
-    const bool is_short = 2 * half <= kShortest;
+    const bool is_short = 2 * half <= std::min(kShortest, kShortestShare * length_);
     if (is_short || entering(middle, -2 * half) == maybe) {
       for (const std::uint32_t object : maybe) found.emplace_back(object, LegInterval{begin, end});
       return;

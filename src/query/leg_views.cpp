@@ -37,7 +37,11 @@ struct FoundParts {
 class SideLook {
  public:
   SideLook(const Side& side, const Leg& leg, double radius)
-      : side_(side), leg_(leg), radius_(radius), from_(side.frame.to_local(leg.from)), to_(side.frame.to_local(leg.to)) {
+      : side_(side),
+        leg_(leg),
+        radius_(radius),
+        from_(side.frame.to_local(leg.from)),
+        to_(side.frame.to_local(leg.to)) {
     const double largest =
         std::max({leg.from.norm(), leg.to.norm(), side.frame.origin.norm(), from_.norm(), to_.norm(), radius});
     slack_ = side.target.slack + internal::numerics::kRoundings * std::numeric_limits<double>::epsilon() * largest;

@@ -19,8 +19,8 @@ class LinkQuery {
   /// scene's hierarchy, along the line.
   double reach(const Vec3& direction, double farthest) const;
 
-  /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more. Of a zone
-  /// whose ways are longer by `more` metres, which may be negative: nothing enters one without length.
+  /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more. Of a
+  /// zone whose ways are longer by `more` metres, which may be negative: nothing enters one without length.
   void for_each_entering(const Vec3& direction, double distance, const std::function<void(std::uint32_t)>& visit,
                          double more = 0) const;
 
