@@ -219,7 +219,8 @@ struct FlightAction {
 /// the Mavic 3E, 67 and 1 for the M30T.
 struct DjiAircraft {
   int drone = 0, drone_sub_type = 0;
-  std::optional<int> payload;  ///< its camera, where actions need one
+  std::optional<int> payload;    ///< its camera; photos and videos need it
+  double takeoff_height_m = 20;  ///< to which it climbs first, above the home: 1.2 to 1500
 };
 
 /// A closed mesh and its name, to be drawn beside the flight.
@@ -232,10 +233,11 @@ struct FlightOut {
   Flight flight;
   std::vector<FlightAction> actions;  ///< one for each point, or none at all
   std::string name = "flight";
-  Georeference georeference;
+  std::optional<Georeference> georeference;  ///< of the scene; all but CSV with `scene_z` need it
   HeightLevels levels;
   /// How heights are stated: sea_level, ellipsoid or home; scene_z in CSV alone. Without it the one that the format
-  /// knows: KML and GPX have heights above sea level, GeoJSON above the ellipsoid. The others need it.
+  /// knows: KML and GPX have heights above sea level, GeoJSON above the ellipsoid. The others need it: .plan and
+  /// .waypoints sea_level or home, WPML any of the three (the aircraft then flies above the ellipsoid or the home).
   std::optional<HeightDatum> heights;
   /// The ground at the place of takeoff, scene frame.
   std::optional<Vec3> home;
@@ -255,9 +257,12 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// moves by at most 1 micrometre. Autopilots round again when a plan is uploaded: MAVLink has 1e-7 degrees (6 mm) and
 /// single precision for heights (0.03 mm below 1 km).
 ///
-/// Throws Error(input): height_unknown where a level is needed that is not known, missing_key for heights, a home or an
-/// aircraft that the format needs, value_unsupported for heights that it cannot state, array_sizes_differ, and what
-/// check_flight_points throws.
+/// Circles are loiters in .plan and .waypoints, and chords within `chord_error_m` in the other formats. Where the
+/// camera is turned to something, .plan and .waypoints hold a region of interest, and WPML, CSV and GeoJSON the angles.
+///
+/// Throws Error(input): height_unknown where a level is needed that is not known, not_georeferenced, missing_key for
+/// heights, a home, a speed or an aircraft that the format needs, value_unsupported for heights that it cannot state,
+/// array_sizes_differ, value_out_of_range and coordinate_not_finite for actions, and what check_flight_points throws.
 VANTAGE_API std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format);
 
 /// Writes it as AtomicFile does; the format is that of the name.

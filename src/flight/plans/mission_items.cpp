@@ -276,7 +276,7 @@ void Runner::add_notes() {
   }
   if (not_flown_ > 0) {
     note(WarningCode::plan_left_out,
-         core::count_text(not_flown_, "item", "items") + " after the return to the home are not flown");
+         core::count_text(not_flown_, "item is", "items are") + " after the return to the home, and not flown");
   }
   const auto assume = [this](std::size_t count, const char* one, const char* many, const char* what) {
     if (count > 0) note(WarningCode::plan_assumed, core::count_text(count, one, many) + what);
