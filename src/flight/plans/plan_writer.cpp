@@ -25,16 +25,20 @@ PlanWriter::PlanWriter(const FlightOut& flight, PlanFormat format, const std::ve
     : flight_(flight), levels_(flight.georeference, flight.levels), heights_(allowed.front()) {
   check_flight_points(flight.flight);
   check_actions();
+  std::string choice;
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    const bool is_last = i + 1 == allowed.size();
+    choice.append(i == 0 ? "" : is_last ? " or " : ", ").append(name_of(allowed[i]));
+  }
   if (!flight.heights && allowed.size() > 1) {
     throw Error(ErrorCode::missing_key, std::string(name_of(format)) + " can state heights in several ways", place(),
-                "say what heights are measured from: sea level, the ellipsoid or the home");
+                "say what heights are measured from: " + choice);
   }
   if (flight.heights) heights_ = *flight.heights;
   if (std::find(allowed.begin(), allowed.end(), heights_) == allowed.end()) {
     throw Error(ErrorCode::value_unsupported,
                 std::string(name_of(format)) + " has no heights above " + name_of(heights_), place(),
-                std::string("choose ") + name_of(allowed.front()) +
-                    (allowed.size() > 1 ? std::string(" or ") + name_of(allowed[1]) : ""));
+                "choose " + choice);
   }
   if (flight.georeference)
     frame_.emplace(geo::LonLat{flight.georeference->longitude_deg, flight.georeference->latitude_deg});
