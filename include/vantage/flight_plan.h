@@ -71,16 +71,16 @@ struct PlanItem {
   /// The leg that ends here keeps its height above the ground between the one before, which then is above ground too,
   /// and this one: it follows the terrain. Else legs are straight.
   bool follows_ground = false;
-  double hold_s = 0;  ///< for so long it stays
+  double hold_s = 0;                                            ///< for so long it stays
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< of the leg that ends here; NaN: not stated
-  std::optional<double> yaw_deg;           ///< of the vehicle, clockwise from north
-  std::optional<double> gimbal_yaw_deg;    ///< clockwise, from north or from the vehicle's nose
-  bool gimbal_yaw_from_north = false;      ///< which of the two
-  std::optional<double> gimbal_pitch_deg;  ///< 0 level, -90 straight down
-  std::optional<PlanPosition> look_at;     ///< what the camera is turned to; instead of yaw and pitch
-  double acceptance_radius_m = 0;          ///< the item counts as reached so near; 0: not stated
-  double loiter_radius_m = 0;  ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
-  double turns = 0;            ///< of a loiter; with `hold_s` above 0 it circles for that time instead
+  std::optional<double> yaw_deg;                                ///< of the vehicle, clockwise from north
+  std::optional<double> gimbal_yaw_deg;                         ///< clockwise, from north or from the vehicle's nose
+  bool gimbal_yaw_from_north = false;                           ///< which of the two
+  std::optional<double> gimbal_pitch_deg;                       ///< 0 level, -90 straight down
+  std::optional<PlanPosition> look_at;  ///< what the camera is turned to; instead of yaw and pitch
+  double acceptance_radius_m = 0;       ///< the item counts as reached so near; 0: not stated
+  double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
+  double turns = 0;                     ///< of a loiter; with `hold_s` above 0 it circles for that time instead
   /// So far before the position the vehicle leaves the leg, and so far behind it it is on the next one, on an arc that
   /// touches both. 0: it goes to the position.
   double cut_m = 0;
@@ -108,8 +108,8 @@ inline constexpr std::uintmax_t kMostPlanBytes = 64'000'000;
 inline constexpr std::size_t kMostPlanItems = 200'000;
 
 struct ReadPlanOptions {
-  /// Of several tracks, lines or routes the one of this name; or its number, from 1, where none has the name. Empty: all
-  /// of them are flown one after the other, and a note says so.
+  /// Of several tracks, lines or routes the one of this name; or its number, from 1, where none has the name. Empty:
+  /// all of them are flown one after the other, and a note says so.
   std::string track;
   Progress progress;
 };
@@ -210,16 +210,17 @@ struct FlightAction {
   std::optional<Vec3> look_at;             ///< scene frame: the camera is turned there; instead of yaw and pitch
   bool photo = false;                      ///< takes one, after FlightPoint::hold_s
   bool video = false;                      ///< records while it stays
-  double loiter_radius_m = 0;  ///< not 0: circles about the point; > 0: clockwise seen from above
-  double turns = 1;            ///< of the circle; > 0
-  std::string sees;            ///< the name of what is seen from there; may be empty
+  double loiter_radius_m = 0;              ///< not 0: circles about the point; > 0: clockwise seen from above
+  double turns = 1;                        ///< of the circle; > 0
+  std::string sees;                        ///< the name of what is seen from there; may be empty
 };
 
-/// The type of an aircraft of DJI, as its own documents number it ("Product Support" of the Cloud API): 77 and 0 for the
-/// Mavic 3E, 67 and 1 for the M30T.
+/// The type of an aircraft of DJI, as its own documents number it ("Product Support" of the Cloud API): 77 and 0 for
+/// the Mavic 3E, 67 and 1 for the M30T.
 struct DjiAircraft {
   int drone = 0, drone_sub_type = 0;
-  std::optional<int> payload;  ///< its camera, where actions need one
+  std::optional<int> payload;    ///< its camera; photos and videos need it
+  double takeoff_height_m = 20;  ///< to which it climbs first, above the home: 1.2 to 1500
 };
 
 /// A closed mesh and its name, to be drawn beside the flight.
@@ -232,32 +233,36 @@ struct FlightOut {
   Flight flight;
   std::vector<FlightAction> actions;  ///< one for each point, or none at all
   std::string name = "flight";
-  Georeference georeference;
+  std::optional<Georeference> georeference;  ///< of the scene; all but CSV with `scene_z` need it
   HeightLevels levels;
   /// How heights are stated: sea_level, ellipsoid or home; scene_z in CSV alone. Without it the one that the format
-  /// knows: KML and GPX have heights above sea level, GeoJSON above the ellipsoid. The others need it.
+  /// knows: KML and GPX have heights above sea level, GeoJSON above the ellipsoid. The others need it: .plan and
+  /// .waypoints sea_level or home, WPML any of the three (the aircraft then flies above the ellipsoid or the home).
   std::optional<HeightDatum> heights;
   /// The ground at the place of takeoff, scene frame.
   std::optional<Vec3> home;
   PlanVehicle vehicle = PlanVehicle::multirotor;
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< where points state none; NaN: not stated
-  bool takes_off = true, returns_home = true;                   ///< with the items for it; GPX, CSV and GeoJSON have none
-  std::optional<DjiAircraft> aircraft;                          ///< WPML needs it
-  std::vector<NamedVolume> volumes;                             ///< KML draws them
-  double chord_error_m = 0.05;  ///< of circles, where a format has none
+  bool takes_off = true, returns_home = true;  ///< with the items for it; GPX, CSV and GeoJSON have none
+  std::optional<DjiAircraft> aircraft;         ///< WPML needs it
+  std::vector<NamedVolume> volumes;            ///< KML draws them
+  double chord_error_m = 0.05;                 ///< of circles, where a format has none
 };
 
 /// The format that a name stands for: .plan, .waypoints, .kml, .kmz (wpml), .gpx, .geojson, .csv. Throws
 /// Error(output_format_unknown).
 VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 
-/// The bytes of a plan. Longitudes and latitudes are rounded to 1e-11 degrees, heights to a micrometre: a position moves
-/// by at most 1 micrometre. Autopilots round again when a plan is uploaded: MAVLink has 1e-7 degrees (6 mm) and single
-/// precision for heights (0.03 mm below 1 km).
+/// The bytes of a plan. Longitudes and latitudes are rounded to 1e-11 degrees, heights to a micrometre: a position
+/// moves by at most 1 micrometre. Autopilots round again when a plan is uploaded: MAVLink has 1e-7 degrees (6 mm) and
+/// single precision for heights (0.03 mm below 1 km).
 ///
-/// Throws Error(input): height_unknown where a level is needed that is not known, missing_key for heights, a home or an
-/// aircraft that the format needs, value_unsupported for heights that it cannot state, array_sizes_differ, and what
-/// check_flight_points throws.
+/// Circles are loiters in .plan and .waypoints, and chords within `chord_error_m` in the other formats. Where the
+/// camera is turned to something, .plan and .waypoints hold a region of interest, and WPML, CSV and GeoJSON the angles.
+///
+/// Throws Error(input): height_unknown where a level is needed that is not known, not_georeferenced, missing_key for
+/// heights, a home, a speed or an aircraft that the format needs, value_unsupported for heights that it cannot state,
+/// array_sizes_differ, value_out_of_range and coordinate_not_finite for actions, and what check_flight_points throws.
 VANTAGE_API std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format);
 
 /// Writes it as AtomicFile does; the format is that of the name.

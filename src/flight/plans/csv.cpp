@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "flight/plans/text_lines.h"
 #include "flight/plans/plan_source.h"
+#include "flight/plans/text_lines.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
@@ -91,9 +91,9 @@ struct Unit {
   std::string_view name;
   double factor;
 };
-constexpr std::array kUnits = {Unit{"m", 1},      Unit{"metres", 1},  Unit{"meters", 1}, Unit{"ft", kFootM},
-                               Unit{"feet", kFootM}, Unit{"deg", 1},     Unit{"degrees", 1}, Unit{"s", 1},
-                               Unit{"m/s", 1},    Unit{"m_s", 1},     Unit{"km/h", 1 / 3.6}};
+constexpr std::array kUnits = {Unit{"m", 1},         Unit{"metres", 1}, Unit{"meters", 1},    Unit{"ft", kFootM},
+                               Unit{"feet", kFootM}, Unit{"deg", 1},    Unit{"degrees", 1},   Unit{"s", 1},
+                               Unit{"m/s", 1},       Unit{"m_s", 1},    Unit{"km/h", 1 / 3.6}};
 
 /// A column that is used.
 struct Use {
@@ -125,7 +125,8 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
 /// "Altitude (m)", "altitude_m", "altitude(m)" are "altitude" and "m".
 std::optional<Use> use_of(std::string_view title, std::size_t index) {
   std::string name;
-  for (const char c : title) name += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char c : title)
+    name += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto known = [&](std::string_view word, double factor) -> std::optional<Use> {
     while (!word.empty() && word.back() == '_') word.remove_suffix(1);
     for (const KnownColumn& column : kColumns) {
@@ -136,8 +137,8 @@ std::optional<Use> use_of(std::string_view title, std::size_t index) {
   if (const auto whole = known(name, 1)) return whole;
   std::optional<Use> found;
   for (const Unit& unit : kUnits) {
-    for (const std::string& end : {"(" + std::string(unit.name) + ")", "[" + std::string(unit.name) + "]",
-                                   "_" + std::string(unit.name)}) {
+    for (const std::string& end :
+         {"(" + std::string(unit.name) + ")", "[" + std::string(unit.name) + "]", "_" + std::string(unit.name)}) {
       const bool ends_so = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
       if (ends_so && !found) found = known(std::string_view(name).substr(0, name.size() - end.size()), unit.factor);
     }
@@ -163,12 +164,8 @@ class PlanTable {
     while (lines.next(line)) {
       source_.progress.tick();
       if (without_blanks(line).empty() || line.front() == '#') continue;
-      if (plan.items.size() >= kMostPlanItems) break;
       add(fields_of(line, separator_), source_.place(lines.place()), plan);
-    }
-    if (lines.next(line)) {
-      source_.fail(ErrorCode::value_out_of_range, "", "the table has more than " + std::to_string(kMostPlanItems) + " rows",
-                   "take a part of it");
+      if (plan.items.size() > kMostPlanItems) break;  // refused below
     }
     check_plan(plan, source_);
     return plan;

@@ -36,9 +36,11 @@ class GpxTracks {
     } else {
       plan.items = std::move(waypoints.items);
     }
-    if (!plan.items.empty() && !waypoints.items.empty()) left_out[waypoints.items.size() == 1 ? "waypoint" : "waypoints"] = waypoints.items.size();
+    if (!plan.items.empty() && !waypoints.items.empty())
+      left_out[waypoints.items.size() == 1 ? "waypoint" : "waypoints"] = waypoints.items.size();
     if (!left_out.empty()) {
-      plan.notes.push_back({WarningCode::plan_left_out, source_.name + " has more than is flown: " + counted(left_out)});
+      plan.notes.push_back(
+          {WarningCode::plan_left_out, source_.name + " has more than is flown: " + counted(left_out)});
     }
     check_plan(plan, source_);
     return plan;

@@ -21,7 +21,8 @@ GroundProfile::GroundProfile(const Ground& ground) : plane_z_m_(ground.plane_z_m
 std::optional<GroundProfile::Piece> GroundProfile::piece(std::uint32_t triangle, const Eigen::Vector2d& from,
                                                          const Eigen::Vector2d& along) const {
   Vec3 corners[3];
-  for (std::size_t i = 0; i < 3; ++i) corners[i] = surface_->vertices[surface_->triangles[triangle][i]] - Vec3(from.x(), from.y(), 0);
+  for (std::size_t i = 0; i < 3; ++i)
+    corners[i] = surface_->vertices[surface_->triangles[triangle][i]] - Vec3(from.x(), from.y(), 0);
   const Eigen::Vector2d u = (corners[1] - corners[0]).head<2>(), v = (corners[2] - corners[0]).head<2>();
   const double area = cross(u, v);
   if (area == 0) return std::nullopt;  // upright
@@ -51,6 +52,19 @@ std::optional<GroundProfile::Piece> GroundProfile::piece(std::uint32_t triangle,
   return Piece{begin, end, z_at(begin), z_at(end)};
 }
 
+/// Where pieces begin and end, each once: from 0 to 1, farther apart than the gap.
+std::vector<double> GroundProfile::corners_of(const std::vector<Piece>& pieces, double gap) {
+  std::vector<double> all;
+  for (const Piece& piece : pieces) all.insert(all.end(), {piece.begin, piece.end});
+  std::sort(all.begin(), all.end());
+  std::vector<double> corners{0};
+  for (const double share : all) {
+    if (share - corners.back() > gap && 1 - share > gap) corners.push_back(share);
+  }
+  corners.push_back(1);
+  return corners;
+}
+
 std::vector<ProfilePoint> GroundProfile::along(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   if (!surface_) return {{0, plane_z_m_}, {1, plane_z_m_}};
   if (!tree_) return {};
@@ -71,25 +85,19 @@ std::vector<ProfilePoint> GroundProfile::along(const Eigen::Vector2d& from, cons
       if (const auto found = piece(triangle, from, way)) pieces.push_back(*found);
     });
   }
-  std::vector<double> shares{0, 1};
-  for (const Piece& piece : pieces) shares.insert(shares.end(), {piece.begin, piece.end});
-  std::sort(shares.begin(), shares.end());
-  shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
+  const double gap = length > 0 ? 1e-6 / length : 1;  // rounding leaves gaps and overlaps between neighbours
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.begin < b.begin; });
+  const std::vector<double> shares = corners_of(pieces, gap);
 
-  const double kGap = length > 0 ? 1e-6 / length : 1;  // rounding leaves gaps between neighbours
   std::vector<ProfilePoint> profile;
   std::vector<const Piece*> over;
   std::size_t next = 0;
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const double begin = shares[i], end = i + 1 < shares.size() ? shares[i + 1] : begin;
-    if (i + 1 == shares.size() && shares.size() > 1) break;
-    for (; next < pieces.size() && pieces[next].begin <= begin; ++next) over.push_back(&pieces[next]);
-    over.erase(std::remove_if(over.begin(), over.end(), [&](const Piece* piece) { return piece->end < end; }), over.end());
-    if (over.empty()) {
-      if (end - begin > kGap) return {};
-      continue;
-    }
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
+    const double begin = shares[i], end = shares[i + 1];
+    for (; next < pieces.size() && pieces[next].begin <= begin + gap; ++next) over.push_back(&pieces[next]);
+    over.erase(std::remove_if(over.begin(), over.end(), [&](const Piece* piece) { return piece->end < end - gap; }),
+               over.end());
+    if (over.empty()) return {};
     double z_begin = -std::numeric_limits<double>::infinity(), z_end = z_begin;
     for (const Piece* piece : over) {
       z_begin = std::max(z_begin, piece->z_at(begin));
@@ -99,9 +107,6 @@ std::vector<ProfilePoint> GroundProfile::along(const Eigen::Vector2d& from, cons
     if (!goes_on) profile.push_back({begin, z_begin});
     profile.push_back({end, z_end});
   }
-  if (profile.empty()) return {};
-  profile.front().share = 0;
-  profile.back().share = 1;
   return profile;
 }
 

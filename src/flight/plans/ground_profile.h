@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,8 +21,8 @@ class GroundProfile {
   /// Refers to the ground's triangles, which must outlive it. Cost: O(n log n).
   explicit GroundProfile(const Ground& ground);
 
-  /// z of the highest piece of ground along a line in plan, exact but for rounding: a corner where the ground bends, two
-  /// with one share where it jumps. Where pieces that lie over each other cross between corners, it is above both.
+  /// z of the highest piece of ground along a line in plan, exact but for rounding: a corner where the ground bends,
+  /// two with one share where it jumps. Where pieces that lie over each other cross between corners, it is above both.
   /// Empty where a part of the line longer than a micrometre has no ground below it.
   std::vector<ProfilePoint> along(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 
@@ -33,6 +34,7 @@ class GroundProfile {
       return end > begin ? z_begin + (z_end - z_begin) * (share - begin) / (end - begin) : z_begin;
     }
   };
+  static std::vector<double> corners_of(const std::vector<Piece>& pieces, double gap);
   std::optional<Piece> piece(std::uint32_t triangle, const Eigen::Vector2d& from, const Eigen::Vector2d& along) const;
 
   double plane_z_m_;

@@ -15,8 +15,7 @@ nlohmann::json parse_plan_json(const PlanSource& source) {
     if (root.is_object()) return root;
   } catch (const io::JsonProblem& problem) {
     const std::string place =
-        problem.line == 0 ? ""
-                          : "line " + std::to_string(problem.line) + ", column " + std::to_string(problem.column);
+        problem.line == 0 ? "" : "line " + std::to_string(problem.line) + ", column " + std::to_string(problem.column);
     source.fail(ErrorCode::plan_syntax, place, "the JSON is broken: " + problem.text, "save the plan anew");
   }
   source.fail(ErrorCode::plan_syntax, "", "the JSON is not an object", "give a .plan of QGroundControl, or GeoJSON");

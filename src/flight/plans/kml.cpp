@@ -104,8 +104,9 @@ class KmlTracks {
 double number_of(const XmlTree& xml, XmlTree::Node node, const PlanSource& source) {
   const ParsedNumber number = parse_number(xml.text(node));
   if (number.fault == NumberFault::none) return number.value;
+  const std::string_view name = xml.name(node);
   source.fail(ErrorCode::not_a_number, line_of(xml, node),
-              "<" + printable(xml.name(node)) + "> is not a number: " + in_quotes(xml.text(node)),
+              in_quotes(name.substr(name.front() == '@' ? 1 : 0)) + " is not a number: " + in_quotes(xml.text(node)),
               number_advice(xml.text(node), number.fault));
 }
 

@@ -72,14 +72,15 @@ class Locator {
   double loiter_turns(const PlanItem& item, double radius_m);
   std::vector<Corner> with_cut_corners() const;
   void add_leg(const Corner& from, const Corner& to);
-  void add_straight(const Corner& from, const Corner& to, const Vec3& end, bool is_last);
-  void add_following(const Corner& from, const Corner& to);
+  void add_following(const Corner& from, const Corner& to, bool is_last);
   void cut_geodesic(const Point& from, const Point& to, double begin, double end, int depth,
                     std::vector<double>& shares) const;
   std::vector<double> geodesic_shares(const Point& from, const Point& to) const;
   Point between(const Point& from, const Point& to, double share) const;
   void push(const Vec3& position, const Corner& to, bool is_last);
-  void note(const std::string& text) { located_.notes.push_back({WarningCode::plan_assumed, plan_.file + ": " + text}); }
+  void note(const std::string& text) {
+    located_.notes.push_back({WarningCode::plan_assumed, plan_.file + ": " + text});
+  }
   const std::string& place(std::size_t item) const { return plan_.items[item].place; }
   /// What is left of the allowed error for circles and corners, and for geodesics.
   double arc_error_m() const { return 0.8 * options_.chord_error_m; }
@@ -141,8 +142,9 @@ double Locator::ground_z(const Point& at, const std::string& where) {
   }
   if (!ground_) ground_.emplace(*options_.ground);
   if (const auto range = ground_->at(at.x(), at.y())) return range->highest_m;
-  fail(ErrorCode::ground_missing, where, "there is no ground below it, at x " + internal::core::number_text(at.x()) +
-           ", y " + internal::core::number_text(at.y()) + " of the scene",
+  fail(ErrorCode::ground_missing, where,
+       "there is no ground below it, at x " + internal::core::number_text(at.x()) + ", y " +
+           internal::core::number_text(at.y()) + " of the scene",
        "take a scene that reaches so far");
 }
 
@@ -194,8 +196,8 @@ double Locator::home_z(const std::string& where) {
   fail(ErrorCode::height_unknown, where,
        plan_.home && !options_.home && std::isfinite(plan_.home->height_m)
            ? "a height above the home is given, and the scene does not know the level that the home's own height "
-                   "is measured from"
-                 : "a height above the home is given, and the height of the home is not known",
+             "is measured from"
+           : "a height above the home is given, and the height of the home is not known",
        at ? "give the z of the home in the scene, or a scene with ground there"
           : "say where the vehicle takes off: the home's position, or its z in the scene");
 }
@@ -311,11 +313,10 @@ void Locator::add_loiter(std::size_t index) {
   if (frame_) about.emplace(frame_->to_lonlat(centre.position.head<2>()));
   const Point towards = about ? about->to_local(frame_->to_lonlat(before)) : Point(before - centre.position.head<2>());
   constexpr double kNoDirectionM = 1e-6;
-  for (const Point& p : plans::circle_points(towards.norm() > kNoDirectionM ? towards : Point(0, 0), radius, turns,
-                                             arc_error_m())) {
+  for (const Point& p :
+       plans::circle_points(towards.norm() > kNoDirectionM ? towards : Point(0, 0), radius, turns, arc_error_m())) {
     Corner corner = centre;
-    corner.position.head<2>() =
-        about ? frame_->to_local(about->to_lonlat(p)) : Point(centre.position.head<2>() + p);
+    corner.position.head<2>() = about ? frame_->to_local(about->to_lonlat(p)) : Point(centre.position.head<2>() + p);
     if (corner.follows_ground && corner.above_ground_m) {
       corner.position.z() = ground_z(corner.position.head<2>(), item.place) + *corner.above_ground_m;
     }
@@ -441,7 +442,7 @@ void Locator::add_leg(const Corner& from, const Corner& to) {
       if (follows) end.above_ground_m = *from.above_ground_m + share * (*to.above_ground_m - *from.above_ground_m);
     }
     if (follows) {
-      add_following(begin, end);
+      add_following(begin, end, is_last);
     } else {
       push(end.position, end, is_last);
     }
@@ -449,7 +450,7 @@ void Locator::add_leg(const Corner& from, const Corner& to) {
   }
 }
 
-void Locator::add_following(const Corner& from, const Corner& to) {
+void Locator::add_following(const Corner& from, const Corner& to, bool is_last) {
   if (!options_.ground) (void)ground_z(to.position.head<2>(), place(to.item));
   if (!profile_) profile_.emplace(*options_.ground);
   has_following_ = true;
@@ -463,10 +464,18 @@ void Locator::add_following(const Corner& from, const Corner& to) {
   };
   for (plans::ProfilePoint& point : profile) point.z_m += above(point.share);
   profile = plans::thinned(profile, options_.ground_error_m);
-  for (std::size_t i = 1; i < profile.size(); ++i) {
-    const Point at = from.position.head<2>() + profile[i].share * (to.position - from.position).head<2>();
-    push({at.x(), at.y(), profile[i].z_m}, to, i + 1 == profile.size());
+  // Where the ground jumps at an end, the way goes up or down there.
+  constexpr double kSameM = 1e-6;
+  const auto push_at = [&](double share, double z, bool is_end) {
+    const Point at = from.position.head<2>() + share * (to.position - from.position).head<2>();
+    push({at.x(), at.y(), z}, to, is_end);
+  };
+  const bool jumps_at_begin = std::abs(profile.front().z_m - located_.flight.points.back().position.z()) > kSameM;
+  const bool jumps_at_end = is_last && std::abs(profile.back().z_m - to.position.z()) > kSameM;
+  for (std::size_t i = jumps_at_begin ? 0 : 1; i < profile.size(); ++i) {
+    push_at(profile[i].share, profile[i].z_m, is_last && !jumps_at_end && i + 1 == profile.size());
   }
+  if (jumps_at_end) push_at(1, to.position.z(), true);
 }
 
 LocatedPlan Locator::locate() {
@@ -508,11 +517,13 @@ LocatedPlan Locator::locate() {
   if (home && known_home_z()) located_.home = Vec3(home->x(), home->y(), *known_home_z());
   using internal::core::count_text;
   if (timed_circles_ > 0) {
-    note(count_text(timed_circles_, "loiter is", "loiters are") + " for a time, and no speed is known: one circle is taken");
+    note(count_text(timed_circles_, "loiter is", "loiters are") +
+         " for a time, and no speed is known: one circle is taken");
   }
   if (level_returns_ > 0) {
-    note("the return to the home is taken at the height of the last item: the height that the vehicle is set to is not "
-         "in the plan");
+    note(
+        "the return to the home is taken at the height of the last item: the height that the vehicle is set to is not "
+        "in the plan");
   }
   check_flight_points(located_.flight);
   return std::move(located_);

@@ -17,10 +17,11 @@ constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 /// Commands that move no vehicle: conditions, modes, cameras, servos, fences, parachutes, engines, markers.
 bool moves_nothing(int command) {
-  constexpr std::array kCommands = {
-      91,  112, 114, 176, 180, 181, 182, 183, 184, 187, 189, 190, 194, 200, 202, 203, 204, 206, 207, 208, 209, 211, 212,
-      214, 215, 218, 220, 221, 222, 223, 224, 240, 241, 247, 530, 531, 532, 533, 534, 2000, 2001, 2003, 2500, 2501, 2502,
-      2503, 2510, 2511, 2520, 3000, 4000, 4001, 5000, 5001, 5002, 5003, 5004, 5100, 42600, 42700};
+  constexpr std::array kCommands = {91,   112,  114,  176,  180,  181,  182,  183,  184,  187,  189,   190,
+                                    194,  200,  202,  203,  204,  206,  207,  208,  209,  211,  212,   214,
+                                    215,  218,  220,  221,  222,  223,  224,  240,  241,  247,  530,   531,
+                                    532,  533,  534,  2000, 2001, 2003, 2500, 2501, 2502, 2503, 2510,  2511,
+                                    2520, 3000, 4000, 4001, 5000, 5001, 5002, 5003, 5004, 5100, 42600, 42700};
   return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
 }
 
@@ -80,7 +81,8 @@ void Runner::run() {
     const MissionItem& item = mission_[at];
     if (++steps > 4 * kMostPlanItems || plan_.items.size() > kMostPlanItems) {
       fail(ErrorCode::value_out_of_range, item,
-           "with its jumps the plan has more than " + std::to_string(kMostPlanItems) + " items", "let it jump less often");
+           "with its jumps the plan has more than " + std::to_string(kMostPlanItems) + " items",
+           "let it jump less often");
     }
     if (item.command == kDoJump) {
       at = jump(at).value_or(at + 1);
@@ -109,9 +111,8 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
       }
       added.position.horizontal = before->position.horizontal;
     }
-    added.follows_ground =
-        added.position.datum == HeightDatum::ground && before && before->position.datum == HeightDatum::ground &&
-        item.frame != kGlobal;
+    added.follows_ground = added.position.datum == HeightDatum::ground && before &&
+                           before->position.datum == HeightDatum::ground && item.frame != kGlobal;
   }
   added.speed_m_s = speed_m_s_;
   added.yaw_deg = yaw_deg_;
@@ -170,12 +171,12 @@ bool Runner::move(const MissionItem& item) {
   }
 }
 
-/// A multirotor that is told to loiter for a time stays where it is; others circle. Without a kind of vehicle the radius
-/// tells.
+/// A multirotor that is told to loiter for a time stays where it is; others circle. Without a kind of vehicle the
+/// radius tells.
 void Runner::loiter(const MissionItem& item, double radius_m, double turns, double hold_s) {
   PlanItem& added = add(PlanItemKind::loiter, item);
-  const bool can_stay = plan_.vehicle == PlanVehicle::multirotor ||
-                        (plan_.vehicle == PlanVehicle::unknown && radius_m == 0);
+  const bool can_stay =
+      plan_.vehicle == PlanVehicle::multirotor || (plan_.vehicle == PlanVehicle::unknown && radius_m == 0);
   const bool is_circle = item.command == kNavLoiterTurns || !can_stay;
   added.loiter_radius_m = is_circle ? radius_m : 0;
   added.turns = is_circle ? turns : 0;
@@ -221,11 +222,10 @@ bool Runner::set(const MissionItem& item) {
 
 void Runner::turn_camera(const MissionItem& item) {
   const auto& p = item.parameters;
-  constexpr double kLocation = 3;  // MAV_ROI_LOCATION
+  constexpr double kLocation = 3;    // MAV_ROI_LOCATION
   constexpr unsigned kYawLock = 16;  // GIMBAL_MANAGER_FLAGS_YAW_LOCK: yaw is from north
   const auto given = [](double angle) { return std::isnan(angle) ? std::nullopt : std::optional(angle); };
-  const bool is_location =
-      item.command == kDoSetRoiLocation || (item.command != kDoSetRoiNone && p[0] == kLocation);
+  const bool is_location = item.command == kDoSetRoiLocation || (item.command != kDoSetRoiNone && p[0] == kLocation);
   look_at_.reset();
   gimbal_yaw_deg_.reset();
   gimbal_pitch_deg_.reset();
@@ -276,7 +276,7 @@ void Runner::add_notes() {
   }
   if (not_flown_ > 0) {
     note(WarningCode::plan_left_out,
-         core::count_text(not_flown_, "item", "items") + " after the return to the home are not flown");
+         core::count_text(not_flown_, "item is", "items are") + " after the return to the home, and not flown");
   }
   const auto assume = [this](std::size_t count, const char* one, const char* many, const char* what) {
     if (count > 0) note(WarningCode::plan_assumed, core::count_text(count, one, many) + what);
@@ -319,7 +319,8 @@ PlanPosition position_of(const MissionItem& item) {
                           "give positions in frame 0 (heights above sea level), 3 (above home) or 10 (above terrain)");
   }
   if (!is_given(latitude, longitude)) return position;
-  const bool is_scaled = item.frame == kGlobalInt || item.frame == kGlobalRelativeInt || item.frame == kGlobalTerrainInt;
+  const bool is_scaled =
+      item.frame == kGlobalInt || item.frame == kGlobalRelativeInt || item.frame == kGlobalTerrainInt;
   const double unit = is_scaled && (std::abs(latitude) > 180 || std::abs(longitude) > 180) ? 1e-7 : 1;
   position.horizontal = checked_lonlat(longitude * unit, latitude * unit, item.place);
   return position;

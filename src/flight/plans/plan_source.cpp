@@ -80,14 +80,12 @@ void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* man
     if (found == tracks.size()) {
       const ParsedNumber number = parse_number(source.track);
       const double count = static_cast<double>(tracks.size());
-      const bool is_index =
-          number.fault == NumberFault::none && number.value >= 1 && number.value <= count &&
-          number.value == std::floor(number.value);
+      const bool is_index = number.fault == NumberFault::none && number.value >= 1 && number.value <= count &&
+                            number.value == std::floor(number.value);
       if (is_index) found = static_cast<std::size_t>(number.value) - 1;
     }
     if (found >= tracks.size()) {
-      source.fail(ErrorCode::unknown_choice, "",
-                  "there is no " + std::string(one) + " " + in_quotes(source.track),
+      source.fail(ErrorCode::unknown_choice, "", "there is no " + std::string(one) + " " + in_quotes(source.track),
                   tracks.empty() ? "the file has none" : "choose among " + names + ", or a number from 1");
     }
     plan.items = std::move(tracks[found].items);

@@ -100,9 +100,8 @@ class GroundStationPlan {
       PlanSource::fail_at(ErrorCode::plan_syntax, where, "it is not [latitude, longitude, height]", "correct it");
     }
     PlanPosition position;
-    position.horizontal =
-        checked_lonlat(number_or_nan(list[1], where, "the longitude"), number_or_nan(list[0], where, "the latitude"),
-                       where);
+    position.horizontal = checked_lonlat(number_or_nan(list[1], where, "the longitude"),
+                                         number_or_nan(list[0], where, "the latitude"), where);
     if (list.size() > 2) position.height_m = number_or_nan(list[2], where, "the height");
     return position;
   }
@@ -130,7 +129,8 @@ class GroundStationPlan {
       added.parameters[i] = number_or_nan((*parameters)[i], where, "params[" + std::to_string(i) + "]");
     }
     added.id = id_of(item, where);
-    // 3: above terrain, from which the ground station computes the height above sea level; null where it has no terrain.
+    // 3: above terrain, from which the ground station computes the height above sea level; null where it has no
+    // terrain.
     constexpr double kAboveTerrain = 3;
     if (member_or_nan(item, "AltitudeMode", where) == kAboveTerrain) {
       if (std::isnan(added.parameters[6])) added.parameters[6] = member_or_nan(item, "AMSLAltAboveTerrain", where);
@@ -149,7 +149,8 @@ class GroundStationPlan {
     if (items != stored->end() && items->is_array() && !items->empty()) {
       for (std::size_t i = 0; i < items->size(); ++i) {
         const std::string place = where + " (" + name + "), item " + std::to_string(i + 1);
-        if (!(*items)[i].is_object()) PlanSource::fail_at(ErrorCode::plan_syntax, place, "it is not an object", "correct it");
+        if (!(*items)[i].is_object())
+          PlanSource::fail_at(ErrorCode::plan_syntax, place, "it is not an object", "correct it");
         add_simple((*items)[i], place);
       }
       return;
@@ -197,8 +198,8 @@ class GroundStationPlan {
         added.command = command;
         added.frame = is_relative ? kGlobalRelative : kGlobal;
         added.id = command == kNavLand ? -1 : id_of(item, where);
-        added.parameters = {0, radius, 0, kNoNumber, position.horizontal.y(), position.horizontal.x(),
-                            position.height_m};
+        added.parameters = {
+            0, radius, 0, kNoNumber, position.horizontal.y(), position.horizontal.x(), position.height_m};
         return;
       }
       PlanSource::fail_at(ErrorCode::plan_syntax, where, std::string("it has no ") + in_quotes(*keys.begin()),

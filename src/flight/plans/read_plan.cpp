@@ -67,7 +67,8 @@ FlightPlan parse_text(const plans::PlanSource& source) {
     const std::string_view root = root_element(text);
     if (root == "gpx") return plans::read_gpx(source);
     if (root == "kml") return plans::read_kml(source);
-    source.fail(ErrorCode::plan_syntax, "", "not a plan: XML about <" + printable(root.substr(0, 60)) + ">", kPlanAdvice);
+    source.fail(ErrorCode::plan_syntax, "", "not a plan: XML about <" + printable(root.substr(0, 60)) + ">",
+                kPlanAdvice);
   }
   if (text.front() == '{') return plans::read_json(source);
   if (text.substr(0, 7) == "QGC WPL") return plans::read_waypoints(source);
@@ -87,10 +88,10 @@ FlightPlan parse_bytes(std::string_view bytes, const std::string& name, const Re
   source.progress = internal::core::ProgressReporter(options.progress, name);
   source.progress.begin("read the plan");
   if (bytes.size() > kMostPlanBytes) {
-    source.fail(ErrorCode::file_too_large, "",
-                "the plan is too large: " + std::to_string(bytes.size()) + " bytes, at most " +
-                    std::to_string(kMostPlanBytes),
-                "take a part of it");
+    source.fail(
+        ErrorCode::file_too_large, "",
+        "the plan is too large: " + std::to_string(bytes.size()) + " bytes, at most " + std::to_string(kMostPlanBytes),
+        "take a part of it");
   }
   std::string made;
   if (internal::io::is_zip(bytes)) {
@@ -133,14 +134,14 @@ std::string read_bytes(const std::filesystem::path& file) {
 }  // namespace
 
 const char* name_of(HeightDatum datum) {
-  constexpr std::array kNames = {"z of the scene", "sea level", "the WGS 84 ellipsoid", "the ground", "the home",
-                                 "an unknown level"};
+  constexpr std::array kNames = {"z of the scene", "sea level", "the WGS 84 ellipsoid",
+                                 "the ground",     "the home",  "an unknown level"};
   return kNames.at(static_cast<std::size_t>(datum));
 }
 
 const char* name_of(PlanFormat format) {
-  constexpr std::array kNames = {"a plan of QGroundControl", "a table of waypoints", "KML", "WPML", "GPX", "GeoJSON",
-                                 "CSV"};
+  constexpr std::array kNames = {
+      "a plan of QGroundControl", "a table of waypoints", "KML", "WPML", "GPX", "GeoJSON", "CSV"};
   return kNames.at(static_cast<std::size_t>(format));
 }
 

@@ -40,7 +40,8 @@ class WaypointTable {
     std::string_view line;
     lines.next(line);
     if (without_blanks(line) != "QGC WPL 110") {
-      source_.fail(ErrorCode::value_unsupported, "line 1", "the table is of another version than 110: " + in_quotes(line),
+      source_.fail(ErrorCode::value_unsupported, "line 1",
+                   "the table is of another version than 110: " + in_quotes(line),
                    "save it anew with the ground station");
     }
     while (lines.next(line)) {

@@ -113,7 +113,8 @@ class Waylines {
       read_position(node, heights, item);
       item.follows_ground = heights.follows_ground && track.items.size() > 1;
       item.speed_m_s = speed;
-      const double own_speed = xml_.child_text(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
+      const double own_speed =
+          xml_.child_text(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
       speed = own_speed > 0 ? own_speed : folder_speed > 0 ? folder_speed : kNoValue;
       read_turn(node, folder_turn, item);
       read_camera(node, item);
@@ -131,7 +132,8 @@ class Waylines {
     } else if (xml_.child_text(placemark, "useGlobalHeight") == "1") {
       item.position.height_m = heights.global_m;
     } else {
-      item.position.height_m = number(placemark, heights.datum == HeightDatum::ellipsoid ? "ellipsoidHeight" : "height");
+      item.position.height_m =
+          number(placemark, heights.datum == HeightDatum::ellipsoid ? "ellipsoidHeight" : "height");
     }
   }
 
@@ -242,8 +244,8 @@ bool is_wpml(const XmlTree& xml) {
   if (xml.name(xml.root()) != "kml" || document == XmlTree::kNone) return false;
   if (xml.child(document, "missionConfig") != XmlTree::kNone) return true;
   const XmlTree::Node folder = xml.child(document, "Folder");
-  return folder != XmlTree::kNone &&
-         (xml.child(folder, "executeHeightMode") != XmlTree::kNone || xml.child(folder, "templateType") != XmlTree::kNone);
+  return folder != XmlTree::kNone && (xml.child(folder, "executeHeightMode") != XmlTree::kNone ||
+                                      xml.child(folder, "templateType") != XmlTree::kNone);
 }
 
 FlightPlan read_wpml(const XmlTree& xml, const PlanSource& source) { return Waylines(xml, source).read(); }
