@@ -73,7 +73,7 @@ void expect_inside(const FlightCase& one, const Orbits& orbits, int count = 720)
     for (const Vec3& point : points) least = std::min(least, plain_depth(one.volume.mesh, point));
     EXPECT_GE(least, orbit.margin_m);
     EXPECT_LE(least, orbit.margin_m + 0.01 + orbit.length_m / count);  // samples may miss the nearest place
-    EXPECT_GE(orbit.margin_m, orbits.margin_m - 0.01);
+    EXPECT_GE(orbit.margin_m, orbits.margin_m);
   }
 }
 
@@ -86,6 +86,7 @@ TEST(Orbits, OverAnOpenSquareAreThoseOfTheClosedForms) {
     const double focal = *mission.sensor.camera->focal_px;
     const FlightCase one(mission);
     for (const OrbitCentre where : {OrbitCentre::over_target, OrbitCentre::around_target}) {
+      if (where == OrbitCentre::around_target && centre.x() > 0) continue;  // takes longer, and shows nothing more
       const Orbits orbits = found_in(one, {.least_radius_m = 40, .centre = where, .margin_m = 1, .tolerance_m = 0.4});
       EXPECT_EQ(orbits.reason, "");
       expect_inside(one, orbits, 200);
@@ -125,7 +126,7 @@ TEST(Orbits, AreNoWorseThanCirclesDrawnAtRandom) {
     scene.objects[0].kind = ObjectKind::ground;
     const FlightCase one(
         mission_in(scene, testing::random_target(random, 5, 3, Vec3(0, 0, 0), Vec3::UnitZ()), 80));
-    const OrbitOptions options{.least_radius_m = 15, .margin_m = 0.5, .tolerance_m = 1};
+    const OrbitOptions options{.least_radius_m = 15, .margin_m = 0.5, .tolerance_m = 1, .most_boxes = 10000};
     const Orbits orbits = found_in(one, options);
     expect_inside(one, orbits, 100);
     auto circles = by_kind(orbits);
@@ -226,7 +227,7 @@ TEST(Orbits, BeforeAWallLieBesideIt) {
                                testing::target_of({{-5, 0, 5}, {5, 0, 5}, {5, 0, 15}, {-5, 0, 15}}), 100);
   const FlightCase one(mission);
   ASSERT_EQ(one.volume.outcome, Outcome::computed);
-  OrbitOptions options{.least_radius_m = 20, .margin_m = 1, .racetracks = false};
+  OrbitOptions options{.least_radius_m = 20, .margin_m = 1, .racetracks = false, .most_boxes = 10000};
   EXPECT_TRUE(found_in(one, options).found.empty());
   options.centre = OrbitCentre::anywhere;
   const Orbits orbits = found_in(one, options);

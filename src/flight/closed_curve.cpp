@@ -56,8 +56,20 @@ std::vector<Vec3> ClosedCurve::corners(double chord_error_m) const {
 
 std::vector<Vec3> ClosedCurve::points(std::size_t count) const {
   std::vector<Vec3> result;
+  result.reserve(count);
+  if (half_straight_m > 0) {
+    for (std::size_t i = 0; i < count; ++i) {
+      result.push_back(at(length_m() * static_cast<double>(i) / static_cast<double>(count)));
+    }
+    return result;
+  }
+  // The same for circles: turned from point to point. Each turn rounds by some 1e-16 of the radius.
+  const double step = 2 * std::numbers::pi / static_cast<double>(count);
+  const double cosine = std::cos(step), sine = std::sin(step);
+  Vec3 offset = radius_m * unit(angle - std::numbers::pi / 2);
   for (std::size_t i = 0; i < count; ++i) {
-    result.push_back(at(length_m() * static_cast<double>(i) / static_cast<double>(count)));
+    result.push_back(centre + offset);
+    offset = Vec3(cosine * offset.x() - sine * offset.y(), sine * offset.x() + cosine * offset.y(), 0);
   }
   return result;
 }

@@ -10,10 +10,10 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kX = 0, kY = 1, kZ = 2, kRadius = 3, kStraight = 4, kAngle = 5;
 
-/// Points of a curve that are asked for in a box: about as far apart as the box reaches.
+/// Points of a curve that are asked for in a box: as far apart as the box reaches.
 std::size_t point_count(const ClosedCurve& curve, double reach) {
-  constexpr double kFewest = 12, kMost = 96;
-  return static_cast<std::size_t>(std::clamp(std::ceil(curve.length_m() / (2 * reach)), kFewest, kMost));
+  constexpr double kFewest = 16, kMost = 256;
+  return static_cast<std::size_t>(std::clamp(std::ceil(curve.length_m() / reach), kFewest, kMost));
 }
 
 }  // namespace
@@ -58,6 +58,10 @@ SearchEnd OrbitSearch::run(const std::optional<ClosedCurve>& known, const core::
   set(kRadius, request_.least_radius_m, request_.most_radius_m);
   set(kStraight, 0, request_.most_half_straight_m);
   set(kAngle, 0, request_.most_half_straight_m > 0 ? std::numbers::pi * angle_scale_ : 0);
+  if (request_.kind == OrbitKind::deepest) {
+    const Vec3 size = bounds.max - bounds.min;
+    root.weight[kZ] = flatness(size.z(), size.head<2>().minCoeff());
+  }
   if (known) {
     offer({known->centre.x(), known->centre.y(), known->centre.z(), known->radius_m, known->half_straight_m,
            known->angle * angle_scale_},
@@ -87,20 +91,51 @@ bool OrbitSearch::may_hold_target(const ClosedCurve& curve, const SearchBox<6>& 
   return curve.distance_outside(request_.target) <= reach;
 }
 
-/// No curve within reach is deeper. Looks no closer where that is less than `interesting`.
-double OrbitSearch::depth_bound(const ClosedCurve& curve, double reach, double interesting) const {
-  const SolidDepth& solid = depth_.solid();
-  constexpr std::size_t kLookedAt = 6;
-  std::vector<std::pair<double, Vec3>> points;
-  for (const Vec3& point : curve.points(point_count(curve, reach))) points.emplace_back(solid.at_most_m(point), point);
-  const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-  const std::size_t count = std::min(kLookedAt, points.size());
-  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count), points.end(), nearer);
-  double least = points[0].first;
-  for (std::size_t i = 0; i < count && least + reach >= interesting; ++i) {
-    least = std::min(least, solid.depth_m(points[i].second));
+/// Points of the middle's curve, and how far each may be from one of any curve in the box, in three axes: moved with
+/// the centre, along its normal with the radius, and by what a straight grows and turns.
+std::vector<OrbitSearch::Place> OrbitSearch::places_on(const ClosedCurve& curve, const SearchBox<6>& box,
+                                                       std::size_t count) const {
+  const Vec3 direction(std::cos(curve.angle), std::sin(curve.angle), 0);
+  const double turned = (box.middle[kStraight] + box.half[kStraight]) * box.half[kAngle] / angle_scale_;
+  const double any_way = box.half[kStraight] + turned;
+  std::vector<Place> places;
+  places.reserve(count);
+  for (const Vec3& point : curve.points(count)) {
+    const Vec3 offset = point - curve.centre;
+    const double along = std::clamp(direction.dot(offset), -curve.half_straight_m, curve.half_straight_m);
+    const Vec3 normal = (offset - along * direction) / curve.radius_m;
+    places.push_back({point, Vec3(box.half[kX] + box.half[kRadius] * std::abs(normal.x()) + any_way,
+                                  box.half[kY] + box.half[kRadius] * std::abs(normal.y()) + any_way, box.half[kZ])});
   }
-  return least + reach;
+  return places;
+}
+
+/// No curve in the box is deeper than the bound. Looks no closer where that is less than `interesting`. The depth is
+/// the least of the middle's curve at the points that were looked at.
+SolidDepth::Bounded OrbitSearch::depth_bound(const ClosedCurve& curve, const SearchBox<6>& box,
+                                             double interesting) const {
+  const SolidDepth& solid = depth_.solid();
+  constexpr std::size_t kMostLookedAt = 24, kFewest = 16;
+  SolidDepth::Bounded least{kNever, kNever};
+  const double reach = reach_of(box);
+  std::vector<Place> places;
+  for (const std::size_t count : {kFewest, point_count(curve, reach)}) {
+    places = places_on(curve, box, count);
+    for (Place& place : places) {
+      place.at_least = solid.at_least_m(place.point);
+      least.bound_m = std::min(least.bound_m, solid.box_at_most_m(place.point, place.reach));
+      if (least.bound_m < interesting) return least;
+    }
+  }
+  // First those that may be the least deep.
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.at_least < b.at_least; });
+  for (std::size_t i = 0; i < std::min(kMostLookedAt, places.size()) && least.bound_m >= interesting; ++i) {
+    if (places[i].at_least > least.depth_m - reach / 4) break;
+    const SolidDepth::Bounded one = solid.bounded_m(places[i].point, places[i].reach);
+    least.bound_m = std::min(least.bound_m, one.bound_m);
+    least.depth_m = std::min(least.depth_m, one.depth_m);
+  }
+  return least;
 }
 
 /// Minus the logarithm of the largest pixel: no curve within reach has more.
@@ -166,6 +201,13 @@ void OrbitSearch::offer(const Numbers& numbers, double step) {
   });
 }
 
+/// Whether the curve could be the best, if it is no deeper than so much: only then it is worth to look closely.
+bool OrbitSearch::may_be_better(const ClosedCurve& curve, double depth) const {
+  if (request_.kind == OrbitKind::deepest) return depth > best_ + request_.error_m;
+  if (request_.kind == OrbitKind::widest) return curve.radius_m + (depth - request_.margin_m) > best_;
+  return true;
+}
+
 double OrbitSearch::bound_of(const SearchBox<6>& box) {
   const ClosedCurve curve = curve_at(box.middle);
   if (!may_hold_target(curve, box)) return -kNever;
@@ -175,12 +217,11 @@ double OrbitSearch::bound_of(const SearchBox<6>& box) {
   if (request_.kind == OrbitKind::finest_pixel) bound = pixel_value(curve, reach, point_count(curve, reach));
   if (!(bound > interesting)) return bound;
   if (request_.kind == OrbitKind::deepest) needed = std::max(needed, interesting);
-  const double deepest = depth_bound(curve, reach, needed);
-  if (deepest < request_.margin_m + request_.slack_m) return -kNever;
-  if (request_.kind == OrbitKind::deepest) bound = deepest;
-  if (deepest < needed) return bound;
-  // Of a box that reaches far, the middle may well be bad: it costs more to look than to halve.
-  if (deepest - reach >= request_.margin_m) offer(box.middle, reach);
+  const SolidDepth::Bounded depth = depth_bound(curve, box, needed);
+  if (depth.bound_m < request_.margin_m + request_.slack_m) return -kNever;
+  if (request_.kind == OrbitKind::deepest) bound = depth.bound_m;
+  if (depth.bound_m < needed) return bound;
+  if (depth.depth_m >= request_.margin_m && may_be_better(curve, depth.depth_m)) offer(box.middle, reach);
   return bound;
 }
 

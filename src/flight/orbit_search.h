@@ -66,10 +66,17 @@ class OrbitSearch {
  private:
   using Numbers = std::array<double, 6>;  ///< centre x, y and z; radius; half of a straight; its angle times scale
 
+  struct Place {
+    Vec3 point, reach;
+    double at_least = 0;  ///< no more than the depth of the point
+  };
+
   ClosedCurve curve_at(const Numbers& numbers) const;
   double reach_of(const SearchBox<6>& box) const;
   bool may_hold_target(const ClosedCurve& curve, const SearchBox<6>& box) const;
-  double depth_bound(const ClosedCurve& curve, double reach, double interesting) const;
+  SolidDepth::Bounded depth_bound(const ClosedCurve& curve, const SearchBox<6>& box, double interesting) const;
+  std::vector<Place> places_on(const ClosedCurve& curve, const SearchBox<6>& box, std::size_t count) const;
+  bool may_be_better(const ClosedCurve& curve, double depth) const;
   double pixel_value(const ClosedCurve& curve, double reach, std::size_t count) const;
   double allowed_value(ClosedCurve& curve) const;
   void moved_to_target(ClosedCurve& curve) const;

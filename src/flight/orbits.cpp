@@ -71,10 +71,11 @@ class OrbitFinder {
                                    options_.least_radius_m, size.x(), size.y());
       return std::move(result_);
     }
-    const OrbitSearch deepest = search(OrbitKind::deepest, 0, std::nullopt, progress.part(0, 1.0 / 3));
+    result_.margin_m = std::isnan(options_.margin_m) ? tolerance_m_ / 2 : options_.margin_m;
+    const OrbitSearch deepest = search(OrbitKind::deepest, result_.margin_m, std::nullopt, progress.part(0, 1.0 / 3));
     set_margin(deepest);
-    if (!deepest.curve() || deepest.best() < result_.margin_m) {
-      result_.reason = why_none("circle", deepest);
+    if (!deepest.curve()) {
+      result_.reason = why_none("circle");
       if (options_.racetracks) add_racetrack(progress.part(1.0 / 3, 1));
       return std::move(result_);
     }
@@ -97,8 +98,8 @@ class OrbitFinder {
 
   void set_margin(const OrbitSearch& deepest) {
     constexpr double kShare = 4;
-    const double best = deepest.curve() ? deepest.best() : 0;
-    result_.margin_m = !std::isnan(options_.margin_m) ? options_.margin_m : best > 0 ? std::min(1.0, best / kShare) : 1;
+    if (!deepest.curve()) return;
+    if (std::isnan(options_.margin_m)) result_.margin_m = std::min(1.0, deepest.best() / kShare);
     if (std::isnan(options_.tolerance_m) && result_.margin_m > 0) {
       tolerance_m_ = std::min(tolerance_m_, result_.margin_m / 2);
     }
@@ -114,7 +115,7 @@ class OrbitFinder {
     request.least_radius_m = options_.least_radius_m;
     request.most_radius_m = most_radius_m_;
     request.most_half_straight_m = most_half_straight_m;
-    request.margin_m = std::max(margin_m, 10 * solid_.rounding_m());
+    request.margin_m = margin_m + last_error_m();  // so that the last look finds the margin too
     request.slack_m = tolerance_m_;
     request.error_m = tolerance_m_ / 4;
     if (kind == OrbitKind::deepest) request.slack_m = request.error_m;
@@ -148,25 +149,25 @@ class OrbitFinder {
     return std::all_of(answers.begin(), answers.end(), [](const PointAnswer& answer) { return answer.inside; });
   }
 
-  std::string why_none(const char* what, const OrbitSearch& deepest) const {
+  std::string why_none(const char* what) const {
     const char* const where = options_.centre == OrbitCentre::around_target ? " around the target"
                               : options_.centre == OrbitCentre::over_target ? " over the target's centre"
                                                                             : "";
     const std::string asked = fmt::format("{} of radius {:.6g} m or more{}", what, options_.least_radius_m, where);
-    if (!deepest.curve() && !is_cut_) return "no " + asked + " lies inside the volume";
-    const std::string best = deepest.curve() ? fmt::format("{:.3g} m", std::max(0.0, deepest.best())) : "none";
-    return fmt::format("no {} was found that lies {:.3g} m inside the volume: the largest margin found is {}, and none is "
-                       "more than {:.3g} m", asked, result_.margin_m, best, bound_);
+    const std::string inside = fmt::format("lies {:.3g} m inside the volume", result_.margin_m);
+    if (!is_cut_) return "no " + asked + " " + inside;
+    return fmt::format("no {} was found that {}; it is not proved that there is none, but none lies more than {:.3g} m inside",
+                       asked, inside, bound_);
   }
 
   void add_racetrack(const ProgressReporter& progress) {
-    const double half = solid_.size_m() / 2;
-    const OrbitSearch found = search(OrbitKind::deepest, 0, std::nullopt, progress, half);
-    if (std::isnan(options_.margin_m)) set_margin(found);
-    if (found.curve() && found.best() >= result_.margin_m) {
+    const OrbitSearch found =
+        search(OrbitKind::deepest, result_.margin_m, std::nullopt, progress, solid_.size_m() / 2);
+    if (found.curve()) {
+      set_margin(found);
       add(OrbitKind::deepest, found);
     } else {
-      result_.reason += "; " + why_none("racetrack", found);
+      result_.reason += "; " + why_none("racetrack");
     }
   }
 
@@ -191,16 +192,17 @@ class OrbitFinder {
       orbit.heading_deg = heading < 180 ? heading : 0;
     }
     orbit.length_m = curve.length_m();
-    constexpr double kMillimetre = 1e-3, kShare = 100;
-    const double error = std::clamp(found_margin(kind, found) / kShare, 10 * solid_.rounding_m(), kMillimetre);
-    orbit.margin_m = std::max(0.0, depth_.depth_m(curve, error, solid_.rounding_m()));
+    orbit.margin_m = std::max(0.0, depth_.depth_m(curve, last_error_m(), solid_.rounding_m()));
     orbit.value = kind == OrbitKind::deepest ? orbit.margin_m : told(kind, found.best());
     orbit.bound = kind == OrbitKind::deepest ? std::max(bound_, orbit.margin_m) : bound_;
     measure(orbit, curve);
   }
 
-  double found_margin(OrbitKind kind, const OrbitSearch& found) const {
-    return kind == OrbitKind::deepest ? found.best() : result_.margin_m;
+  /// How much too small the margin may be that is told. A smaller one takes more chords.
+  double last_error_m() const {
+    constexpr double kMillimetre = 1e-3, kShare = 100, kOfSize = 1e-7;
+    const double least = std::max(10 * solid_.rounding_m(), kOfSize * solid_.size_m());
+    return std::max(least, std::min(kMillimetre, result_.margin_m / kShare));
   }
 
   /// What is seen from all round.
