@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <queue>
 #include <vector>
@@ -14,10 +13,12 @@
 
 namespace vantage::internal::flight {
 
-/// Of N numbers: middles and half widths.
+/// Of N numbers: middles and half widths. The number with the widest half, times its weight, is halved first.
 template <std::size_t N>
 struct SearchBox {
-  std::array<double, N> middle{}, half{};
+  SearchBox() { weight.fill(1); }
+
+  std::array<double, N> middle{}, half{}, weight{};
   double bound = std::numeric_limits<double>::infinity();
 };
 
@@ -66,8 +67,10 @@ SearchEnd search_box(Problem& problem, const SearchBox<N>& root, const SearchLim
     progress.tick(end.boxes, limits.most_boxes);
     SearchBox<N> part = queue.top().box;
     queue.pop();
-    const auto longest = static_cast<std::size_t>(
-        std::distance(part.half.begin(), std::max_element(part.half.begin(), part.half.end())));
+    std::size_t longest = 0;
+    for (std::size_t a = 1; a < N; ++a) {
+      if (part.half[a] * part.weight[a] > part.half[longest] * part.weight[longest]) longest = a;
+    }
     part.half[longest] /= 2;
     const double middle = part.middle[longest];
     for (const double side : {-1.0, 1.0}) {
@@ -78,6 +81,13 @@ SearchEnd search_box(Problem& problem, const SearchBox<N>& root, const SearchLim
   if (!queue.empty()) end.bound = std::max(end.bound, queue.top().box.bound);
   end.bound = std::max(end.bound, problem.best());
   return end;
+}
+
+/// For the weights of lengths of so many metres: flat volumes are thin in one of them, and what bounds their depth is
+/// found there.
+inline double flatness(double length_m, double longest_m) {
+  constexpr double kMost = 64;
+  return length_m > 0 ? std::clamp(longest_m / length_m, 1.0, kMost) : 1;
 }
 
 /// Walks from a point to better ones beside it, axis by axis, with steps that are halved (Hooke and Jeeves 1961 without

@@ -77,6 +77,11 @@ double SolidDepth::at_most_m(const Vec3& point) const {
   return cell.depth + cell.offset;
 }
 
+double SolidDepth::at_least_m(const Vec3& point) const {
+  const Cell cell = cell_at(point);  // the nearest one, of a point outside of the grid
+  return cell.depth - cell.offset;
+}
+
 double SolidDepth::signed_depth(const Vec3& point, double distance) const {
   if (distance_outside(point) > 0 || !(distance > 0)) return -distance;
   const Cell cell = cell_at(point);

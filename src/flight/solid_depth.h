@@ -28,6 +28,7 @@ class SolidDepth {
   double depth_m(const Vec3& point) const;
   /// No less than the depth, from a grid of depths: some nanoseconds.
   double at_most_m(const Vec3& point) const;
+  double at_least_m(const Vec3& point) const;  ///< no more than the depth, likewise
   /// No less than the depth of any point of a box, given by its middle and half widths. The depth is that of the middle.
   /// Where the solid is thin, far less than the depth and half of the diagonal. Cost: as depth_m.
   struct Bounded {

@@ -17,6 +17,7 @@ SearchEnd PointSearch::run(const core::ProgressReporter& progress) {
     const auto axis = static_cast<Eigen::Index>(a);
     root.middle[a] = (solid_.bounds().min[axis] + solid_.bounds().max[axis]) / 2;
     root.half[a] = (solid_.bounds().max[axis] - solid_.bounds().min[axis]) / 2;
+    if (!request_.value) root.weight[a] = flatness(root.half[a], (solid_.bounds().max - solid_.bounds().min).maxCoeff() / 2);
   }
   return search_box(*this, root, request_.limits, progress);
 }
