@@ -44,7 +44,7 @@ struct TourRequest {
 
   double chord_error_m = 0.1;  ///< of the legs that stand for the curves of a fixed wing
   std::uint64_t seed = 1;
-  int rounds = 0;  ///< of the search for the order; 0: as many as the number of targets asks for
+  int rounds = 0;  ///< of the search for the order, for a quick tour; 0: as many as the number of targets asks for
 };
 
 /// When a target is in view: in its volume, by the margin at least.

@@ -270,9 +270,8 @@ class WingPlan {
       const double between = space_.path_m(a, b);
       for (std::size_t v = 0; v < views.size(); ++v) {
         const double own = views[v].straight_m + views[v].circles_m;
-        const double straight = (leave(a).position - views[v].enter.position).norm() +
-                                (leave(views[v]).position - b.enter.position).norm();
-        if (base - between + straight + own >= most) continue;
+        const double bound = space_.path_bound_m(a, views[v]) + space_.path_bound_m(views[v], b);
+        if (base - between + bound + own >= most) continue;
         const double length = base - between + space_.path_m(a, views[v]) + own + space_.path_m(views[v], b);
         if (length < most) tries.push_back({length, p, v});
       }

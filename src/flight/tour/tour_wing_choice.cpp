@@ -12,32 +12,35 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = std::numbers::pi;
 
-/// Lengths from each view of a place to each of the next one, the latter's own length with them.
+/// Lengths from each view of a place to each of the next one, the latter's own length with them: bounds, until more is
+/// asked.
 class Lengths {
  public:
   Lengths(const std::vector<View>& from, const std::vector<View>& to, const WingSpace& space)
-      : columns_(to.size()), values_(from.size() * to.size()), is_clear_(values_.size(), false) {
+      : columns_(to.size()), values_(from.size() * to.size()), is_known_(values_.size(), false) {
     for (std::size_t i = 0; i < from.size(); ++i) {
-      for (std::size_t j = 0; j < columns_; ++j) {
-        values_[i * columns_ + j] = space.path_m(from[i], to[j]) + to[j].straight_m + to[j].circles_m;
-      }
+      for (std::size_t j = 0; j < columns_; ++j) values_[i * columns_ + j] = space.path_bound_m(from[i], to[j]) + own(to[j]);
     }
   }
   double at(std::size_t i, std::size_t j) const { return values_[i * columns_ + j]; }
-  void block(std::size_t i, std::size_t j) { values_[i * columns_ + j] = kInfinity; }
   bool is_blocked() const {
     return std::all_of(values_.begin(), values_.end(), [](double v) { return v == kInfinity; });
   }
-  /// Asked once.
-  bool is_clear(std::size_t i, std::size_t j, const View& from, const View& to, const WingSpace& space) {
-    if (!is_clear_[i * columns_ + j]) is_clear_[i * columns_ + j] = space.is_clear(from, to);
-    return is_clear_[i * columns_ + j];
+  /// Finds out the length, infinite where the path is not clear. Returns whether it was known before.
+  bool know(std::size_t i, std::size_t j, const View& from, const View& to, const WingSpace& space) {
+    const std::size_t index = i * columns_ + j;
+    if (is_known_[index]) return true;
+    is_known_[index] = true;
+    values_[index] = space.is_clear(from, to) ? space.path_m(from, to) + own(to) : kInfinity;
+    return false;
   }
 
  private:
+  static double own(const View& view) { return view.straight_m + view.circles_m; }
+
   std::size_t columns_;
   std::vector<double> values_;
-  std::vector<bool> is_clear_;
+  std::vector<bool> is_known_;
 };
 
 struct Picked {
@@ -133,8 +136,10 @@ class Refinement {
     std::vector<double> paths(course_.path_count());
     for (std::size_t i = 0; i < paths.size(); ++i) paths[i] = path_m(i);
     std::vector<Steps> steps(count, {Vec3(30, 30, 15), 0.5, 0.1});
-    constexpr std::size_t kForEach = 600;
-    for (std::size_t round = 0; round < kForEach * count; ++round) {
+    constexpr std::size_t kForEach = 600, kForEachRound = 10;
+    const auto rounds = static_cast<std::size_t>(space_.request().rounds);
+    const std::size_t for_each = rounds > 0 ? std::min(kForEach, kForEachRound * rounds) : kForEach;
+    for (std::size_t round = 0; round < for_each * count; ++round) {
       progress_.check();
       const std::size_t i = draw_.below(count);
       const bool better = move_view(i, steps[i], paths);
@@ -176,6 +181,9 @@ class Refinement {
     const View old = course_.views[i], next = moved(old, steps);
     if (count < 2 && course_.cyclic) return false;
     const double least = (has_before ? paths[before] : 0) + (has_after ? paths[i] : 0);
+    const double bound = (has_before ? space_.path_bound_m(course_.views[before], next) : 0) +
+                         (has_after ? space_.path_bound_m(next, course_.views[course_.next(i)]) : 0);
+    if (bound >= least) return false;
     const double in = has_before ? space_.path_m(course_.views[before], next) : 0;
     if (in >= least) return false;
     const double out = has_after ? space_.path_m(next, course_.views[course_.next(i)]) : 0;
@@ -223,14 +231,12 @@ Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const
     progress.check();
     const Picked picked = pick(choices, lengths, cyclic);
     if (picked.views.empty()) break;
-    bool is_clear = true;
+    bool is_known = true;
     for (std::size_t p = 0; p < lengths.size(); ++p) {
       const std::size_t i = picked.views[p], j = picked.views[next(p)];
-      if (lengths[p].is_clear(i, j, choices[p][i], choices[next(p)][j], space)) continue;
-      lengths[p].block(i, j);
-      is_clear = false;
+      if (!lengths[p].know(i, j, choices[p][i], choices[next(p)][j], space)) is_known = false;
     }
-    if (!is_clear) continue;
+    if (!is_known) continue;
     WingCourse course;
     course.cyclic = cyclic;
     for (std::size_t p = 0; p < places; ++p) course.views.push_back(choices[p][picked.views[p]]);

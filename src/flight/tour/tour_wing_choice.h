@@ -31,9 +31,9 @@ struct Choice {
   std::size_t blocked = 0;           ///< then: no view of this place has a clear path to one of the next place
 };
 
-/// The shortest course that takes one view of each place, all paths clear. Paths are asked whether they are clear only
-/// when the shortest course needs them. Cost: k^2 paths for k views in neighbouring places, k^3 sums where it is
-/// cyclic.
+/// The shortest course that takes one view of each place, all paths clear. How long a path is, and whether it is clear,
+/// is asked only when the shortest course by bounds takes it. Cost: k^2 bounds for k views in neighbouring places, and
+/// k^3 sums for each of some tens of courses.
 Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const core::ProgressReporter& progress);
 
 /// Draws views near those of the course and chooses again, nearer each time; then moves and turns single views while

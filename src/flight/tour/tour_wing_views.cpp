@@ -143,6 +143,15 @@ double WingSpace::path_m(const View& from, const View& to) const {
   return found ? found->length_m() : std::numeric_limits<double>::infinity();
 }
 
+double WingSpace::path_bound_m(const View& from, const View& to) const {
+  const SpacePose a = leave(from), &b = to.enter;
+  // A path with wider arcs is no shorter: the ones of the turn radius could follow it.
+  const double above = shortest_dubins({a.position.x(), a.position.y(), a.heading_rad},
+                                       {b.position.x(), b.position.y(), b.heading_rad}, limits_.turn_radius_m)
+                           .length_m();
+  return std::hypot(above, b.position.z() - a.position.z());
+}
+
 bool WingSpace::is_clear(const View& from, const View& to) const {
   const bool is_looking = from.region != Stop::kFixed && to.region != Stop::kFixed && !request_.settings.simultaneous;
   if (!request_.airspace && !is_looking) return true;

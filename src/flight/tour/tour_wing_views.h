@@ -48,6 +48,8 @@ class WingSpace {
   /// From the end of one view to the beginning of another; its length, infinite where there is none.
   std::optional<DubinsAirplanePath> path(const View& from, const View& to) const;
   double path_m(const View& from, const View& to) const;
+  /// No such path is shorter: the plane's shortest path, and the difference of heights. Some hundred times as fast.
+  double path_bound_m(const View& from, const View& to) const;
   /// Whether the airspace allows it all, and the camera can turn from the one target to the other meanwhile.
   bool is_clear(const View& from, const View& to) const;
 
