@@ -52,6 +52,7 @@
 #include "vantage/terrain.h"
 #include "vantage/threads.h"
 #include "vantage/tiles.h"
+#include "vantage/tour.h"
 #include "vantage/tour_settings.h"
 #include "vantage/verify.h"
 #include "vantage/version.h"

@@ -88,7 +88,7 @@ std::optional<DubinsAirplanePath> search(const SpacePose& from, const SpacePose&
   if (!best) return std::nullopt;
   double step = 0.1;
   constexpr int kMostSteps = 100;
-  for (int i = 0; i < kMostSteps && std::abs(step) > 1e-10 * factor; ++i) {
+  for (int i = 0; i < kMostSteps && std::abs(step) > 1e-8 * factor; ++i) {
     const double tried = std::max(1 + 1e-9, factor + step);
     const std::optional<DubinsAirplanePath> path = of_radius(from, to, limits, tried, may_turn);
     if (path && path->length_m() < best->length_m()) {
