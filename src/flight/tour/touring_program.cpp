@@ -365,8 +365,9 @@ double touring_bound(const TouringProgram& program, std::span<const Direction> d
   double added = 0;
   for (std::size_t leg = 0; leg < directions.size(); ++leg) {
     const double at_least = program.at_least(leg);
-    // A norm of three numbers is within three roundings.
-    if (at_least > 0) added += at_least * std::max(0.0, 1 - (1 + 4 * kRounding) * vector_of(directions[leg]).norm());
+    // A norm of three numbers is within three roundings. It is rounded up to whole units, as whoever checks it may do.
+    const double norm = std::ceil((1 + 4 * kRounding) * vector_of(directions[leg]).norm() / kDirectionUnit);
+    if (at_least > 0) added += at_least * std::max(0.0, 1 - norm * kDirectionUnit);
   }
   // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest() may
   // overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
