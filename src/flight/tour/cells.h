@@ -43,6 +43,8 @@ class Cells {
   const Cell& operator[](std::size_t cell) const { return *cells_[cell]; }
   std::size_t size() const { return cells_.size(); }
   std::size_t region_count() const { return shapes_.size(); }
+  /// Keeps a half-space that a program needed.
+  void learn(std::size_t cell, const HalfSpace& half_space) { cells_[cell]->hull->add(half_space); }
   /// Whole metres; subtracted from all points.
   const Vec3& origin() const { return origin_; }
 

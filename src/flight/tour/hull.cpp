@@ -11,6 +11,7 @@ namespace vantage::internal::flight::tour {
 namespace {
 
 constexpr std::uint32_t kPointsInLeaf = 8;
+constexpr std::size_t kFirstHalfSpaces = 26, kMostAdded = 32;
 constexpr int kMostSteps = 60;  // of the search for the nearest point; some ten are usual
 
 double lowest_of_box(const Box& box, const Vec3& direction) {
@@ -111,9 +112,8 @@ Hull::Hull(std::vector<Vec3> points, double moved_m) : points_(std::move(points)
     Vec3 normal(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (normal.isZero(0)) continue;
     normal.normalize();
-    const Vec3& farthest = lowest(-normal);
-    half_spaces_.push_back({normal, normal.dot(farthest)});
-    inside_ += farthest / 26.0;
+    half_spaces_.push_back(half_space(normal));
+    inside_ += lowest(-normal) / 26.0;
   }
 }
 
@@ -162,6 +162,20 @@ const Vec3& Hull::lowest(const Vec3& direction) const {
     }
   }
   return *best;
+}
+
+HalfSpace Hull::half_space(const Vec3& normal) const {
+  const double offset = normal.dot(lowest(-normal));
+  return {normal, offset, offset - normal.dot(lowest(normal))};
+}
+
+void Hull::add(const HalfSpace& half_space) {
+  if (half_spaces_.size() < kFirstHalfSpaces + kMostAdded) {
+    half_spaces_.push_back(half_space);
+  } else {
+    half_spaces_[kFirstHalfSpaces + added_ % kMostAdded] = half_space;
+  }
+  ++added_;
 }
 
 NearestInHull Hull::nearest(const Vec3& point, double tolerance_m) const {

@@ -15,6 +15,7 @@ namespace vantage::internal::flight::tour {
 struct HalfSpace {
   Vec3 normal = Vec3::Zero();  ///< unit length, but for rounding
   double offset = 0;
+  double thickness_m = 0;  ///< of the hull, along the normal
 };
 
 /// Where a hull is nearest to something, and how to keep apart from it.
@@ -46,7 +47,12 @@ class Hull {
   double reach_m() const { return reach_m_; }       ///< the largest coordinate, as a size
   double moved_m() const { return moved_m_; }
   const Box& box() const { return box_; }
-  const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }  ///< 26 that hold it, each touching it
+  /// That hold it, each touching it: 26, and those that were added.
+  const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
+  /// That touches the hull.
+  HalfSpace half_space(const Vec3& normal) const;
+  /// Keeps one for programs to come; of many the last ones.
+  void add(const HalfSpace& half_space);
 
  private:
   struct Node {
@@ -60,6 +66,7 @@ class Hull {
   std::vector<Vec3> points_;
   std::vector<Node> nodes_;
   std::vector<HalfSpace> half_spaces_;
+  std::size_t added_ = 0;
   Box box_;
   Vec3 middle_ = Vec3::Zero(), inside_ = Vec3::Zero();
   double extent_m_ = 0, reach_m_ = 0, moved_m_ = 0;

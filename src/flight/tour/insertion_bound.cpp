@@ -18,7 +18,7 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kAtOnce = 4;      // programs that are solved at once
 constexpr std::size_t kLookedAt = 6;    // regions of which all places are bounded before one is chosen
 constexpr std::size_t kMostOrders = 20;
-constexpr double kSolveGap = 0.02;      // of a program, in parts of the gap that is asked for
+constexpr double kPrecision = 0.01;     // of a program, in parts of the gap that is asked for
 constexpr double kTouches = 1e-6;       // of the size: a region so near to the polyline is met
 
 /// Lengths of a detour by a point at distance d from a leg are not less than this.
@@ -57,6 +57,7 @@ class Search {
     Box all;
     for (std::size_t r = 0; r < cells_.region_count(); ++r) all.extend(cells_[r].hull->box());
     size_ = (all.max - all.min).norm();
+    precision_ = std::clamp(kPrecision * options_.gap, 1e-7, 1e-4);
   }
 
   InsertionBound run() {
@@ -188,13 +189,17 @@ class Search {
       for (std::size_t i = begin; i < end; ++i) {
         sequences[i] = sequence_of(nodes_[batch[i]]);
         TouringOptions options;
-        options.gap = 1e-5;
-        options.in_hull = 1e-5;
+        options.gap = options.in_hull = precision_;
         options.most_rounds = 6;
         options.enough_m = options_.enough_m;
         solutions[i] = solve_touring(program_of(sequences[i]), options);
       }
     });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      std::vector<std::uint32_t> cell_of;
+      for (const std::uint32_t cell : sequences[i]) cell_of.insert(cell_of.end(), points_of(cell), cell);
+      for (const auto& [hull, half_space] : solutions[i].half_spaces) cells_.learn(cell_of[hull], half_space);
+    }
     for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], std::move(sequences[i]), std::move(solutions[i]));
   }
 
@@ -494,7 +499,7 @@ class Search {
   const InsertionOptions& options_;
   const core::ProgressReporter& progress_;
   core::Stopwatch watch_;
-  double size_ = 0;
+  double size_ = 0, precision_ = 0;
   double ended_ = std::numeric_limits<double>::infinity();
   std::vector<Node> nodes_;
   std::priority_queue<Entry> heap_;

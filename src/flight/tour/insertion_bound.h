@@ -39,7 +39,8 @@ struct InsertionTree {
 };
 
 struct InsertionOptions {
-  double enough_m = 0;              ///< the search ends when nothing shorter is left
+  double enough_m = 0;  ///< the search ends when nothing shorter is left
+  double gap = 0.01;    ///< that is aimed at: how well programs are solved
   double time_limit_s = 60;
   std::size_t most_nodes = 10'000'000;  ///< programs that are solved
 };

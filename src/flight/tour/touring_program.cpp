@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -73,8 +74,7 @@ struct Stop {
   std::vector<HalfSpace> half_spaces;
 
   void add(HalfSpace half_space, double least_thickness) {
-    const double thickness = half_space.offset - half_space.normal.dot(hull->lowest(half_space.normal));
-    if (thickness < least_thickness) half_space.offset += 0.5 * least_thickness;
+    if (half_space.thickness_m < least_thickness) half_space.offset += 0.5 * least_thickness;
     half_spaces.push_back(half_space);
   }
   double least_slack(const Vec3& at) const {
@@ -111,7 +111,7 @@ class Solver {
       }
     }
     keep_best();
-    TouringSolution solution{std::move(points_), std::move(best_), best_bound_};
+    TouringSolution solution{std::move(points_), std::move(best_), best_bound_, std::move(added_)};
     return solution;
   }
 
@@ -241,11 +241,17 @@ class Solver {
         diagonal_[k].setIdentity();
         gradient_[k].setZero();
       }
+      std::array<double, 9> sum = {};  // the gradient, and six numbers of the symmetric Hessian
       for (const HalfSpace& h : stops_[k].half_spaces) {
         const double by_slack = 1 / (h.offset - h.normal.dot(points_[k]));
-        gradient_[k] += strength_ * by_slack * h.normal;
-        diagonal_[k] += strength_ * by_slack * by_slack * h.normal * h.normal.transpose();
+        const double x = by_slack * h.normal.x(), y = by_slack * h.normal.y(), z = by_slack * h.normal.z();
+        const std::array<double, 9> more = {x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+        for (std::size_t i = 0; i < 9; ++i) sum[i] += more[i];
       }
+      gradient_[k] += strength_ * Vec3(sum[0], sum[1], sum[2]);
+      Eigen::Matrix3d hessian;
+      hessian << sum[3], sum[4], sum[5], sum[4], sum[6], sum[7], sum[5], sum[7], sum[8];
+      diagonal_[k] += strength_ * hessian;
     }
   }
 
@@ -290,7 +296,9 @@ class Solver {
       const NearestInHull near = stop.hull->nearest(points_[k], 0.1 * tolerance);
       if (near.distance_m <= tolerance) continue;
       const Vec3 normal = (points_[k] - near.point) / near.distance_m;
-      stop.add({normal, normal.dot(stop.hull->lowest(-normal))}, kFlat * size_);
+      const HalfSpace added = stop.hull->half_space(normal);
+      stop.add(added, kFlat * size_);
+      added_.emplace_back(k, added);
       any = true;
     }
     if (!any) return false;
@@ -310,6 +318,7 @@ class Solver {
   double strength_ = 0;
   double best_bound_ = -std::numeric_limits<double>::infinity();
   std::vector<Direction> best_;
+  std::vector<std::pair<std::size_t, HalfSpace>> added_;
   std::vector<Stop> stops_;
   std::vector<Vec3> points_, gradient_, step_;
   std::vector<Eigen::Matrix3d> diagonal_, next_, last_, inverse_;
@@ -356,8 +365,9 @@ double touring_bound(const TouringProgram& program, std::span<const Direction> d
   double added = 0;
   for (std::size_t leg = 0; leg < directions.size(); ++leg) {
     const double at_least = program.at_least(leg);
-    // A norm of three numbers is within three roundings.
-    if (at_least > 0) added += at_least * std::max(0.0, 1 - (1 + 4 * kRounding) * vector_of(directions[leg]).norm());
+    // A norm of three numbers is within three roundings. It is rounded up to whole units, as whoever checks it may do.
+    const double norm = std::ceil((1 + 4 * kRounding) * vector_of(directions[leg]).norm() / kDirectionUnit);
+    if (at_least > 0) added += at_least * std::max(0.0, 1 - norm * kDirectionUnit);
   }
   // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest() may
   // overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "flight/tour/hull.h"
@@ -42,6 +43,8 @@ struct TouringSolution {
   std::vector<Vec3> points;           ///< nearly in the hulls
   std::vector<Direction> directions;  ///< of the legs
   double bound_m = 0;                 ///< touring_bound of these
+  /// That were needed beside those of the hulls, and of which hull of the program: for Hull::add.
+  std::vector<std::pair<std::size_t, HalfSpace>> half_spaces;
 };
 
 struct TouringOptions {
