@@ -14,6 +14,7 @@
 #include "vantage/export.h"
 #include "vantage/faces.h"
 #include "vantage/flight.h"
+#include "vantage/flight_check.h"
 #include "vantage/flight_plan.h"
 #include "vantage/footprint.h"
 #include "vantage/fraction.h"
