@@ -107,6 +107,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_verify(app, chosen);
   add_prove(app, chosen);
   add_compare(app, chosen);
+  add_check(app, chosen);
   add_simplify(app, chosen);
   add_devices(app, chosen);
   add_cameras(app, chosen);
