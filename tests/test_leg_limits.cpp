@@ -216,7 +216,7 @@ void compare_tube(Random& random, const LegLimits& limits, const PointNames& poi
         shares.push_back(std::clamp(share + (share == part.begin ? -1e-7 : 1e-7), 0.0, 1.0));
         ++counts.ends[one.limit];
         counts.explained[one.limit] +=
-            points.of(testing::ball_points(random, place_on(leg, share), radius * 1.03, 500)).contains(one.limit);
+            points.of(testing::ball_points(random, place_on(leg, share), radius * 1.05, 2000)).contains(one.limit);
       }
     }
   }
