@@ -108,8 +108,8 @@ class Waylines {
     for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
       source_.progress.tick();
       if (xml_.name(node) != "Placemark" || xml_.child(node, "Point") == XmlTree::kNone) continue;
-      PlanItem& item = track.items.emplace_back();
-      item.place = source_.place(line_of(xml_, node) + ", waypoint " + std::to_string(track.items.size()));
+      PlanItem& item = new_item(track, total_,
+                                line_of(xml_, node) + ", waypoint " + std::to_string(track.items.size() + 1), source_);
       read_position(node, heights, item);
       item.follows_ground = heights.follows_ground && track.items.size() > 1;
       item.speed_m_s = speed;
@@ -238,7 +238,7 @@ class Waylines {
   FlightPlan plan_;
   std::vector<PlanTrack> tracks_;
   Camera camera_;
-  std::size_t curves_ = 0;
+  std::size_t curves_ = 0, total_ = 0;
 };
 
 }  // namespace
