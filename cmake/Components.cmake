@@ -164,7 +164,7 @@ if(VANTAGE_WITH_APP)
 endif()
 if(VANTAGE_WITH_FLIGHT)
   vantage_component(flight
-    MODULES flight LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json REQUIRES core app)
+    MODULES flight LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json REQUIRES core solid app)
 endif()
 get_property(VANTAGE_BUILT_COMPONENTS GLOBAL PROPERTY VANTAGE_BUILT_COMPONENTS)
 

@@ -44,6 +44,8 @@ void add_spheres(CLI::App& app, Command& chosen);
 void add_render(CLI::App& app, Command& chosen);
 void add_report(CLI::App& app, Command& chosen);
 void add_view(CLI::App& app, Command& chosen);
+void add_stand(CLI::App& app, Command& chosen);
+void add_orbit(CLI::App& app, Command& chosen);
 void add_scene(CLI::App& app, Command& chosen);
 void add_docs(CLI::App& app, Command& chosen);  ///< hidden: describes the commands of `app`, which must outlive it
 
