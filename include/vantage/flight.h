@@ -1,26 +1,16 @@
 // Flights: where a vehicle goes, in the scene frame.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "vantage/export.h"
 #include "vantage/geometry.h"
+#include "vantage/leg_query.h"
 
 namespace vantage {
-
-/// A straight piece of a flight.
-struct Leg {
-  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< scene frame, metres; may be the same point
-};
-
-/// A part of a leg, in shares of its length: 0 at its beginning, 1 at its end. Closed.
-struct LegInterval {
-  double begin = 0, end = 0;  ///< 0 <= begin <= end <= 1
-
-  bool operator==(const LegInterval&) const = default;
-};
 
 /// Where legs meet.
 struct FlightPoint {

@@ -1,0 +1,516 @@
+#include "flight/tour/insertion_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+
+namespace vantage::internal::flight::tour {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kAtOnce = 4;      // programs that are solved at once
+constexpr std::size_t kLookedAt = 6;    // regions of which all places are bounded before one is chosen
+constexpr std::size_t kMostOrders = 20;
+constexpr double kPrecision = 0.01;     // of a program, in parts of the gap that is asked for
+constexpr double kTouches = 1e-6;       // of the size: a region so near to the polyline is met
+
+/// Lengths of a detour by a point at distance d from a leg are not less than this.
+double least_detour(double distance, double leg) {
+  const double half = 0.5 * leg;
+  return 2 * (std::sqrt(distance * distance + half * half) - half);
+}
+
+double distance_to_leg(const Vec3& point, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from;
+  const double squared = along.squaredNorm();
+  const double place = squared > 0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (from + place * along - point).norm();
+}
+
+enum class Origin : std::uint8_t { root, inserted, cut };
+
+struct Node {
+  std::uint32_t parent = 0;
+  Origin origin = Origin::root;
+  bool solved = false, expanded = false, ended = false;
+  std::uint32_t place = 0;  // in the parent's sequence: the stop behind which, or that is cut
+  std::uint32_t cell = 0;
+  double own = 0, best = 0;  // bounds: of its own vectors; with those of its ancestors
+  std::vector<Direction> local;  // inserted, not solved: of the new legs
+  std::vector<std::uint32_t> sequence;  // of cells; solved ones only, like what follows
+  std::vector<Direction> directions;
+  std::vector<Vec3> points;
+  std::vector<std::uint32_t> children;
+};
+
+class Search {
+ public:
+  Search(Cells& cells, const TourSpace& space, const InsertionOptions& options, const core::ProgressReporter& progress)
+      : cells_(cells), space_(space), options_(options), progress_(progress) {
+    Box all;
+    for (std::size_t r = 0; r < cells_.region_count(); ++r) all.extend(cells_[r].hull->box());
+    size_ = (all.max - all.min).norm();
+    precision_ = std::clamp(kPrecision * options_.gap, 1e-7, 1e-4);
+  }
+
+  InsertionBound run() {
+    nodes_.emplace_back();
+    nodes_[0].sequence = root_sequence();
+    result_.tree.root.assign(nodes_[0].sequence.begin(), nodes_[0].sequence.end());
+    push(0);
+    double first = -1;
+    while (!heap_.empty()) {
+      const double low = std::get<0>(heap_.top()) * -1;
+      if (low >= options_.enough_m) break;
+      if (first < 0 && nodes_.size() > 1) first = low;
+      progress_.report(first < 0 ? 0 : std::clamp((low - first) / std::max(options_.enough_m - first, 1e-9), 0.0, 1.0));
+      if (watch_.seconds() > options_.time_limit_s || result_.solved >= options_.most_nodes) {
+        result_.stopped = true;
+        break;
+      }
+      step();
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  using Entry = std::tuple<double, std::size_t, std::uint32_t>;  // -bound, length, -number: largest first
+
+  double dwell_m(std::size_t region) const { return space_.dwell_m.empty() ? 0 : space_.dwell_m[region]; }
+  std::size_t points_of(std::uint32_t cell) const { return dwell_m(cells_[cell].region) > 0 ? 2 : 1; }
+
+  std::vector<std::uint32_t> root_sequence() const {
+    std::vector<std::uint32_t> sequence;
+    if (!space_.closed) {
+      sequence.push_back(static_cast<std::uint32_t>(*space_.first));
+      if (space_.last) sequence.push_back(static_cast<std::uint32_t>(*space_.last));
+      return sequence;
+    }
+    const auto count = static_cast<std::uint32_t>(cells_.region_count());
+    for (std::uint32_t r = 0; r < std::min(count, 3U); ++r) sequence.push_back(r);
+    if (count <= 3) return sequence;
+    std::vector<Vec3> at;
+    for (std::uint32_t r = 0; r < count; ++r) at.push_back(cells_[r].hull->inside());
+    double longest = -1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t j = i + 1; j < count; ++j) {
+        for (std::uint32_t k = j + 1; k < count; ++k) {
+          const double length = (at[i] - at[j]).norm() + (at[j] - at[k]).norm() + (at[k] - at[i]).norm();
+          if (length > longest) {
+            longest = length;
+            sequence = {i, j, k};
+          }
+        }
+      }
+    }
+    return sequence;
+  }
+
+  TouringProgram program_of(const std::vector<std::uint32_t>& sequence) const {
+    TouringProgram program;
+    program.closed = space_.closed;
+    bool any_dwell = false;
+    for (const std::uint32_t cell : sequence) {
+      const double dwell = dwell_m(cells_[cell].region);
+      program.hulls.push_back(cells_[cell].hull.get());
+      if (dwell > 0) {
+        any_dwell = true;
+        program.hulls.push_back(cells_[cell].hull.get());
+        program.at_least_m.push_back(dwell);
+      }
+      program.at_least_m.push_back(0);
+    }
+    program.at_least_m.resize(program.leg_count());
+    if (!any_dwell) program.at_least_m.clear();
+    return program;
+  }
+
+  /// Of the points of a sequence, the last one of a stop.
+  std::size_t last_point(const std::vector<std::uint32_t>& sequence, std::size_t stop) const {
+    std::size_t point = 0;
+    for (std::size_t s = 0; s <= stop; ++s) point += points_of(sequence[s]);
+    return point - 1;
+  }
+
+  std::vector<std::uint32_t> sequence_of(const Node& node) const {
+    if (node.solved || node.origin == Origin::root) return node.sequence;
+    std::vector<std::uint32_t> sequence = nodes_[node.parent].sequence;
+    if (node.origin == Origin::cut) {
+      sequence[node.place] = node.cell;
+    } else {
+      sequence.insert(sequence.begin() + node.place + 1, node.cell);
+    }
+    return sequence;
+  }
+
+  std::vector<Direction> directions_of(const Node& node) const {
+    if (node.solved || node.origin == Origin::root) return node.directions;
+    std::vector<Direction> directions = nodes_[node.parent].directions;
+    if (node.origin == Origin::cut) return directions;
+    const std::size_t leg = last_point(nodes_[node.parent].sequence, node.place);
+    if (leg < directions.size()) directions.erase(directions.begin() + static_cast<std::ptrdiff_t>(leg));
+    directions.insert(directions.begin() + static_cast<std::ptrdiff_t>(leg), node.local.begin(), node.local.end());
+    return directions;
+  }
+
+  void push(std::uint32_t number) {
+    const Node& node = nodes_[number];
+    const std::size_t depth = node.solved || node.origin == Origin::root ? node.sequence.size()
+                                                                         : nodes_[node.parent].sequence.size() + 1;
+    heap_.emplace(-node.best, depth, ~number);
+  }
+
+  /// Solves what is on top, or goes on from it.
+  void step() {
+    std::vector<std::uint32_t> batch;
+    while (!heap_.empty() && batch.size() < kAtOnce) {
+      const std::uint32_t number = ~std::get<2>(heap_.top());
+      if (nodes_[number].best >= options_.enough_m) break;
+      if (nodes_[number].solved) {
+        if (!batch.empty()) break;
+        heap_.pop();
+        expand(number);
+        return;
+      }
+      heap_.pop();
+      batch.push_back(number);
+    }
+    std::vector<TouringSolution> solutions(batch.size());
+    std::vector<std::vector<std::uint32_t>> sequences(batch.size());
+    parallel::for_ranges(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        sequences[i] = sequence_of(nodes_[batch[i]]);
+        TouringOptions options;
+        options.gap = options.in_hull = precision_;
+        options.most_rounds = 6;
+        options.enough_m = options_.enough_m;
+        solutions[i] = solve_touring(program_of(sequences[i]), options);
+      }
+    });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      std::vector<std::uint32_t> cell_of;
+      for (const std::uint32_t cell : sequences[i]) cell_of.insert(cell_of.end(), points_of(cell), cell);
+      for (const auto& [hull, half_space] : solutions[i].half_spaces) cells_.learn(cell_of[hull], half_space);
+    }
+    for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], std::move(sequences[i]), std::move(solutions[i]));
+  }
+
+  void take(std::uint32_t number, std::vector<std::uint32_t> sequence, TouringSolution solution) {
+    ++result_.solved;
+    Node& node = nodes_[number];
+    std::vector<Direction> before = directions_of(node);
+    if (node.origin == Origin::root || solution.bound_m >= node.own) {
+      node.own = solution.bound_m;
+      node.directions = std::move(solution.directions);
+    } else {
+      node.directions = std::move(before);
+    }
+    node.best = std::max(node.best, node.own);
+    node.sequence = std::move(sequence);
+    node.points = std::move(solution.points);
+    node.local.clear();
+    node.solved = true;
+    push(number);
+  }
+
+  // ---- children -----------------------------------------------------------------------------------------------------
+
+  /// A place for a region: behind which stop, by which point, how long the detour.
+  struct Place {
+    std::size_t stop = 0, leg = 0;
+    Vec3 point = Vec3::Zero();
+    double detour = std::numeric_limits<double>::infinity();
+  };
+
+  /// Where a stop may be inserted, as legs: those between stops, and behind the last one where an open tour may end
+  /// anywhere.
+  std::vector<Place> places_of(const Node& node) const {
+    std::vector<Place> places;
+    std::size_t point = 0;
+    for (std::size_t s = 0; s < node.sequence.size(); ++s) {
+      point += points_of(node.sequence[s]);
+      const bool behind_end = !space_.closed && s + 1 == node.sequence.size();
+      if (behind_end && space_.last) continue;
+      Place place;
+      place.stop = s;
+      place.leg = point - 1;
+      places.push_back(place);
+    }
+    return places;
+  }
+
+  const Vec3& from_of(const Node& node, const Place& place) const { return node.points[place.leg]; }
+  const Vec3& to_of(const Node& node, const Place& place) const {
+    if (!space_.closed && place.leg + 1 == node.points.size()) return node.points[place.leg];
+    return node.points[(place.leg + 1) % node.points.size()];
+  }
+
+  void measure(const Node& node, const Hull& hull, Place& place) const {
+    const Vec3 &from = from_of(node, place), &to = to_of(node, place);
+    const bool is_end = !space_.closed && place.leg + 1 == node.points.size();
+    place.point = hull.nearest_to_segment(from, to, 1e-7 * size_).point;
+    place.detour = (place.point - from).norm() + (is_end ? 0.0 : (to - place.point).norm() - (to - from).norm());
+  }
+
+  /// The least detour to a region, of all places. `none_below`: it is not measured where it is certainly more.
+  Place nearest_place(const Node& node, const std::vector<Place>& places, const Hull& hull) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    const double radius = 0.5 * hull.extent_m();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Vec3 &from = from_of(node, places[i]), &to = to_of(node, places[i]);
+      const double apart = std::max(0.0, distance_to_leg(hull.middle(), from, to) - radius);
+      const bool is_end = !space_.closed && places[i].leg + 1 == node.points.size();
+      order.emplace_back(is_end ? apart : least_detour(apart, (to - from).norm()), i);
+    }
+    std::sort(order.begin(), order.end());
+    Place best;
+    for (const auto& [low, i] : order) {
+      if (low >= best.detour) break;
+      Place place = places[i];
+      measure(node, hull, place);
+      if (place.detour < best.detour) best = place;
+    }
+    return best;
+  }
+
+  /// Vectors for the legs of a child that need no solver: to the point nearest to the leg and on.
+  std::vector<Direction> local_directions(const Node& node, const Place& place, std::size_t region) const {
+    const Vec3 &from = from_of(node, place), &to = to_of(node, place);
+    const bool is_end = !space_.closed && place.leg + 1 == node.points.size();
+    const double least = 1e-5 * size_;
+    const Direction known = is_end ? Direction{} : node.directions[place.leg];
+    const auto towards = [&](const Vec3& vector) { return vector.norm() > least ? direction_of(vector.normalized()) : known; };
+    std::vector<Direction> local = {towards(place.point - from)};
+    if (!is_end && place.detour < least * 1e-2) local[0] = known;
+    if (dwell_m(region) > 0) local.push_back({});
+    if (!is_end) local.push_back(place.detour < least * 1e-2 ? known : towards(to - place.point));
+    return local;
+  }
+
+  double bound_of(const Node& child) const {
+    const TouringProgram program = program_of(sequence_of(child));
+    return touring_bound(program, directions_of(child));
+  }
+
+  Node inserted(std::uint32_t parent, const Place& place, std::size_t region) const {
+    Node child;
+    child.parent = parent;
+    child.origin = Origin::inserted;
+    child.place = static_cast<std::uint32_t>(place.stop);
+    child.cell = static_cast<std::uint32_t>(region);
+    child.local = local_directions(nodes_[parent], place, region);
+    child.own = bound_of(child);
+    child.best = std::max(child.own, nodes_[parent].best);
+    return child;
+  }
+
+  std::vector<Node> insert_everywhere(std::uint32_t parent, const std::vector<Place>& places, std::size_t region) const {
+    std::vector<Node> children;
+    for (Place place : places) {
+      measure(nodes_[parent], *cells_[region].hull, place);
+      children.push_back(inserted(parent, place, region));
+    }
+    return children;
+  }
+
+  void expand(std::uint32_t number) {
+    const Node& node = nodes_[number];
+    const std::vector<Place> places = places_of(node);
+    std::vector<bool> has(cells_.region_count(), false);
+    for (const std::uint32_t cell : node.sequence) has[cells_[cell].region] = true;
+    std::vector<std::pair<double, std::size_t>> missing;  // -detour, region
+    for (std::size_t r = 0; r < has.size(); ++r) {
+      if (has[r]) continue;
+      const double detour = nearest_place(node, places, *cells_[r].hull).detour;
+      if (detour > kTouches * size_ || dwell_m(r) > 0) missing.emplace_back(-detour, r);
+    }
+    if (missing.empty()) {
+      const std::size_t hidden = missed_by_mesh(node, places, has);
+      if (hidden != kNone) missing.emplace_back(0.0, hidden);
+    }
+    if (missing.empty()) {
+      note_order(node, places, has);
+      cut_one(number);
+      return;
+    }
+    std::sort(missing.begin(), missing.end());
+    std::size_t chosen = missing.front().second;
+    std::vector<Node> children;
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < std::min(kLookedAt, missing.size()); ++i) {
+      std::vector<Node> some = insert_everywhere(number, places, missing[i].second);
+      // The least child counts, then how many are left.
+      double least = std::numeric_limits<double>::infinity(), open = 0;
+      for (const Node& child : some) {
+        least = std::min(least, child.best);
+        if (child.best < options_.enough_m) open += 1;
+      }
+      const double score = open == 0 ? std::numeric_limits<double>::max() : least - 1e-3 * size_ * open / has.size();
+      if (score > best) {
+        best = score;
+        chosen = missing[i].second;
+        children = std::move(some);
+      }
+    }
+    (void)chosen;
+    add_children(number, std::move(children));
+  }
+
+  void add_children(std::uint32_t number, std::vector<Node> children) {
+    nodes_[number].expanded = true;
+    nodes_[number].points.clear();
+    for (Node& child : children) {
+      const auto added = static_cast<std::uint32_t>(nodes_.size());
+      nodes_[number].children.push_back(added);
+      nodes_.push_back(std::move(child));
+      if (!cells_[nodes_[added].cell].hull) {  // nothing is on this side
+        nodes_[added].best = nodes_[added].own = std::numeric_limits<double>::infinity();
+      } else if (nodes_[added].best < options_.enough_m) {
+        push(added);
+      }
+    }
+  }
+
+  /// A region that no leg meets, although the hull of one is met; the farthest from the polyline, as far as some points of
+  /// it tell.
+  std::size_t missed_by_mesh(const Node& node, const std::vector<Place>& places, const std::vector<bool>& has) const {
+    std::size_t farthest = kNone;
+    double most = -1;
+    for (std::size_t r = 0; r < has.size(); ++r) {
+      if (has[r]) continue;
+      double near = std::numeric_limits<double>::infinity();
+      for (const Place& place : places) {
+        const Vec3 &from = from_of(node, place), &to = to_of(node, place);
+        if (cells_.meets_segment(r, from, to)) {
+          near = 0;
+          break;
+        }
+        for (const double t : {0.0, 0.25, 0.5, 0.75}) near = std::min(near, cells_.distance_m(r, from + t * (to - from)));
+      }
+      if (near > 2 * kTouches * size_ && near > most) {
+        most = near;
+        farthest = r;
+      }
+    }
+    return farthest;
+  }
+
+  /// The stop whose point is farthest from its region.
+  void cut_one(std::uint32_t number) {
+    const Node& node = nodes_[number];
+    std::size_t stop = kNone, point = 0;
+    double most = kTouches * size_;
+    Vec3 at = Vec3::Zero();
+    for (std::size_t s = 0; s < node.sequence.size(); ++s) {
+      for (std::size_t k = 0; k < points_of(node.sequence[s]); ++k, ++point) {
+        const double off = cells_.distance_m(cells_[node.sequence[s]].region, node.points[point]);
+        if (off > most) {
+          most = off;
+          stop = s;
+          at = node.points[point];
+        }
+      }
+    }
+    const std::uint32_t cell = stop == kNone ? 0 : node.sequence[stop];
+    const std::array<std::size_t, 2> halves =
+        stop == kNone ? std::array<std::size_t, 2>{0, 0} : cells_.halves(cell, at);
+    if (stop == kNone || halves[0] == cell) {  // a shortest polyline: nothing is to be won below this node
+      nodes_[number].ended = true;
+      ended_ = std::min(ended_, nodes_[number].best);
+      return;
+    }
+    std::vector<Node> children;
+    for (const std::size_t half : halves) {
+      Node child;
+      child.parent = number;
+      child.origin = Origin::cut;
+      child.place = static_cast<std::uint32_t>(stop);
+      child.cell = static_cast<std::uint32_t>(half);
+      if (cells_[half].hull) {
+        child.own = bound_of(child);
+        child.best = std::max(child.own, nodes_[number].best);
+      }
+      children.push_back(std::move(child));
+    }
+    add_children(number, std::move(children));
+  }
+
+  /// The order in which the polyline of a node meets all regions.
+  void note_order(const Node& node, const std::vector<Place>& places, const std::vector<bool>& has) {
+    if (result_.orders.size() >= kMostOrders) return;
+    std::vector<std::vector<std::size_t>> behind(node.sequence.size());
+    for (std::size_t r = 0; r < has.size(); ++r) {
+      if (!has[r]) behind[nearest_place(node, places, *cells_[r].hull).stop].push_back(r);
+    }
+    std::vector<std::size_t> order;
+    for (std::size_t s = 0; s < node.sequence.size(); ++s) {
+      order.push_back(cells_[node.sequence[s]].region);
+      order.insert(order.end(), behind[s].begin(), behind[s].end());
+    }
+    std::erase_if(order, [&](std::size_t r) { return r == space_.first || r == space_.last; });
+    if (std::find(result_.orders.begin(), result_.orders.end(), order) == result_.orders.end()) {
+      result_.orders.push_back(std::move(order));
+    }
+  }
+
+  // ---- the proof ----------------------------------------------------------------------------------------------------
+
+  void finish() {
+    double bound = ended_;
+    for (const Node& node : nodes_) {
+      if (!node.expanded && !node.ended) bound = std::min(bound, node.best);
+    }
+    result_.bound_m = bound;
+    result_.cells = cells_.size();
+    write_node(0);
+  }
+
+  std::size_t write_node(std::uint32_t number) {
+    const std::size_t written = result_.tree.nodes.size();
+    result_.tree.nodes.emplace_back();
+    const Node& node = nodes_[number];
+    InsertionNode out;
+    if (node.origin != Origin::root && !cells_[node.cell].hull) {
+      out.kind = InsertionNode::Kind::empty;
+    } else if (node.own >= result_.bound_m || node.children.empty()) {
+      out.directions = directions_of(node);
+    } else {
+      const Node& child = nodes_[node.children.front()];
+      const bool is_cut = child.origin == Origin::cut;
+      out.kind = is_cut ? InsertionNode::Kind::cut : InsertionNode::Kind::insert;
+      out.what = is_cut ? child.place : child.cell;
+      if (is_cut) out.plane = cells_[child.cell].plane;
+      for (const std::uint32_t c : node.children) out.children.push_back(write_node(c));
+    }
+    result_.tree.nodes[written] = std::move(out);
+    return written;
+  }
+
+  Cells& cells_;
+  const TourSpace& space_;
+  const InsertionOptions& options_;
+  const core::ProgressReporter& progress_;
+  core::Stopwatch watch_;
+  double size_ = 0, precision_ = 0;
+  double ended_ = std::numeric_limits<double>::infinity();
+  std::vector<Node> nodes_;
+  std::priority_queue<Entry> heap_;
+  InsertionBound result_;
+};
+
+}  // namespace
+
+InsertionBound insertion_bound(Cells& cells, const TourSpace& space, const InsertionOptions& options,
+                               const core::ProgressReporter& progress) {
+  return Search(cells, space, options, progress).run();
+}
+
+}  // namespace vantage::internal::flight::tour
