@@ -149,6 +149,11 @@ enum class ErrorCode {
   command_line_syntax,  ///< an argument is missing, or one too many
   table_syntax,         ///< a row of a table of points cannot be read
 
+  // plans of flights
+  plan_syntax,     ///< a file is no plan of a flight that can be read
+  plan_empty,      ///< a plan holds no positions
+  height_unknown,  ///< it is not known what a height is measured from, or where that level lies in the scene
+
   // output
   output_name_missing,      ///< an output has no file name
   output_format_unknown,    ///< the name of an output does not end in a known format

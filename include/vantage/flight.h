@@ -1,31 +1,21 @@
 // Flights: where a vehicle goes, in the scene frame.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "vantage/export.h"
 #include "vantage/geometry.h"
+#include "vantage/leg_query.h"
 
 namespace vantage {
 
-/// A straight piece of a flight.
-struct Leg {
-  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< scene frame, metres; may be the same point
-};
-
-/// A part of a leg, in shares of its length: 0 at its beginning, 1 at its end. Closed.
-struct LegInterval {
-  double begin = 0, end = 0;  ///< 0 <= begin <= end <= 1
-
-  bool operator==(const LegInterval&) const = default;
-};
-
 /// Where legs meet.
 struct FlightPoint {
-  Vec3 position = Vec3::Zero();  ///< scene frame, metres
-  double hold_s = 0;             ///< for so long it stays there; >= 0
+  Vec3 position = Vec3::Zero();                                 ///< scene frame, metres
+  double hold_s = 0;                                            ///< for so long it stays there; >= 0
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< of the leg that ends here; NaN: not stated
   std::string place = {};  ///< in the plan that it came from, for messages: "survey.plan: item 3"; may be empty
 };

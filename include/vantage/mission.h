@@ -25,6 +25,7 @@
 #include "vantage/scene_source.h"
 #include "vantage/spheres.h"
 #include "vantage/target.h"
+#include "vantage/tour_settings.h"
 #include "vantage/visual_range.h"
 #include "vantage/volume.h"
 #include "vantage/warning.h"
@@ -150,7 +151,7 @@ struct ZoneFile {
 
 /// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.
 struct MissionPlaces {
-  std::string scene, terrain, target, sensor, above_ground;
+  std::string scene, terrain, target, sensor, above_ground, tour;
   std::vector<std::string> navigation_meshes;
   std::vector<std::string> keep_in_zones, keep_out_zones, keep_in_files, keep_out_files;
 };
@@ -185,6 +186,8 @@ struct MissionFile {
   /// are combined and for the limits, not for the spheres.
   ExactOptions exact;
   SpheresOptions spheres;  ///< likewise
+  /// Of a flight that sees the targets, each by itself whatever `combine` says. Volumes do not depend on it.
+  std::optional<TourSettings> tour = std::nullopt;
   MissionPlaces places = {};
 };
 
@@ -231,8 +234,9 @@ struct Mission {
   std::vector<std::vector<Target>> views = {};
   Sensor sensor;
   Navigation navigation;
-  double read_seconds = 0;          ///< that reading and resolving took
-  std::vector<Warning> notes = {};  ///< what resolving changed or left out
+  double read_seconds = 0;                  ///< that reading and resolving took
+  std::vector<Warning> notes = {};          ///< what resolving changed or left out
+  std::optional<Vec3> home = std::nullopt;  ///< of the tour, where the mission file gives one
 
   const Scene& scene() const { return loaded->scene; }
 };

@@ -25,6 +25,9 @@ enum class WarningCode {
   clearance_from_all,  ///< the scene does not say what of it is ground: the clearance is kept from all of it
   above_surface,       ///< heights above the ground are measured from a raster's surface, with roofs and trees
   faces_together,      ///< the target is several faces of an object, all of which must be seen from one position
+  plan_left_out,       ///< a plan of a flight holds what is not flown here
+  plan_joined,         ///< several tracks of a plan are flown one after the other
+  plan_assumed,        ///< a plan leaves something open, and it says what was taken
   volume_small,        ///< the volume is smaller than a cubic metre, far less than the range allows
   // of a volume's file
   volume_changed,           ///< the mesh is not the one that the file was written with

@@ -13,6 +13,7 @@
 #include "app/sensor_section.h"
 #include "app/spheres_section.h"
 #include "app/target_section.h"
+#include "app/tour_section.h"
 #include "app/value_reader.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -63,6 +64,10 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
   if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
   if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, mission_.spheres);
+  if (const YamlNode* tour = find(root, "tour")) {
+    mission_.tour = parse_tour(*tour, *this);
+    mission_.places.tour = place_in(file(), tour->place);
+  }
   if (const YamlNode* limit = find(root, "work_limit")) parse_work_limit(*limit);
   return std::move(mission_);
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/sensor_section.h"
+#include "app/tour_section.h"
 #include "app/value_reader.h"
 #include "vantage/city.h"
 #include "vantage/input.h"
@@ -73,7 +74,9 @@ class Writer {
     text += std::string("method: ") + name_of(mission_.method) + "\n";
     text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
     if (mission_.exact.work_limit != kWorkLimit) text += "work_limit: " + shortest(mission_.exact.work_limit) + "\n";
-    return text + spheres();
+    text += spheres();
+    if (mission_.tour) text += internal::app::tour_section_text(*mission_.tour);
+    return text;
   }
 
  private:

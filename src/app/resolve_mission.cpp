@@ -9,6 +9,7 @@
 #include "app/input_file.h"
 #include "app/navigation_meshes.h"
 #include "app/places.h"
+#include "app/tour_home.h"
 #include "app/zone_files.h"
 #include "core/solid_check.h"
 #include "core/stopwatch.h"
@@ -56,6 +57,7 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   internal::app::add_file_zones(mission, progress);
   internal::app::find_ground(mission);
   internal::app::find_obstacles(mission);
+  internal::app::place_home(mission);
   return mission;
 }
 

@@ -15,11 +15,11 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 18>& table() {
-  static const std::array<SectionKeys, 18> kTable = {{
+const std::array<SectionKeys, 22>& table() {
+  static const std::array<SectionKeys, 22> kTable = {{
       {Section::mission,
        "the mission",
-       {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres",
+       {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres", "tour",
         "work_limit"}},
       {Section::scene,
        "scene",
@@ -50,6 +50,10 @@ const std::array<SectionKeys, 18>& table() {
        "spheres",
        {"sphere", "cubemap", "resolution", "merge", "split", "max_splits", "min_edge", "device"}},
       {Section::frame, "scene.frame", {"origin", "ground", "reach"}},
+      {Section::tour, "tour", {"vehicle", "home", "closed", "view", "gimbal", "clearance", "gap", "time_limit"}},
+      {Section::vehicle, "tour.vehicle", {"kind", "speed", "acceleration", "turn_radius", "climb"}},
+      {Section::tour_view, "tour.view", {"dwell", "margin", "simultaneous"}},
+      {Section::tour_gimbal, "tour.gimbal", {"rate"}},
   }};
   return kTable;
 }

@@ -30,7 +30,11 @@ enum class Section {
   mesh,
   exact,
   spheres,
-  frame
+  frame,
+  tour,
+  vehicle,
+  tour_view,
+  tour_gimbal
 };
 
 /// How messages call a section: "scene", "target"; "the mission" for the outermost one.

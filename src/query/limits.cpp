@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "query/zone_place.h"
+
 namespace vantage::internal::query {
 namespace {
 
@@ -59,42 +61,11 @@ void add_mesh_crossings(const Mesh& mesh, const ViewRay& line, std::vector<doubl
   }
 }
 
-template <typename Visit>
-void for_each_side(const Zone& zone, const Visit& visit) {
-  const auto visit_ring = [&](const Zone::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-  };
-  visit_ring(zone.outer);
-  for (const Zone::Ring& hole : zone.holes) visit_ring(hole);
-}
-
-Box box_of(const Zone& zone) {
-  Box box;
-  for (const Eigen::Vector2d& p : zone.outer) box.extend(Vec3(p.x(), p.y(), 0));
-  box.min.z() = zone.min_z_m;
-  box.max.z() = zone.max_z_m;
-  return box;
-}
-
-enum class Place { outside, border, inside };
-
-/// In plan: a ray eastward crosses the sides of a polygon and its holes an odd number of times from inside.
-Place place_in(const Zone& zone, const Eigen::Vector2d& p) {
-  bool is_inside = false, is_on_side = false;
-  for_each_side(zone, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    if (std::max(a.y(), b.y()) < p.y() || std::min(a.y(), b.y()) > p.y() || std::max(a.x(), b.x()) < p.x()) return;
-    const double area = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());  // > 0: p lies left
-    if (area == 0 && std::min(a.x(), b.x()) <= p.x()) is_on_side = true;
-    if ((a.y() > p.y()) != (b.y() > p.y()) && (area > 0) == (b.y() > a.y())) is_inside = !is_inside;
-  });
-  return is_on_side ? Place::border : is_inside ? Place::inside : Place::outside;
-}
-
 bool strictly_inside(const Zone& zone, const Box& box, const Vec3& p) {
-  return strictly_inside(box, p) && place_in(zone, p.head<2>()) == Place::inside;
+  return strictly_inside(box, p) && place_in(zone, p.head<2>()) == ZonePlace::inside;
 }
 bool inside(const Zone& zone, const Box& box, const Vec3& p) {
-  return inside(box, p) && place_in(zone, p.head<2>()) != Place::outside;
+  return inside(box, p) && place_in(zone, p.head<2>()) != ZonePlace::outside;
 }
 
 /// Where the line passes a side or a height, or nearly, as for meshes.

@@ -129,8 +129,9 @@ double LinkQuery::reach(const Vec3& direction, double farthest) const {
 }
 
 void LinkQuery::for_each_entering(const Vec3& direction, double distance,
-                                  const std::function<void(std::uint32_t)>& visit) const {
-  const LinkEllipsoid zone(direction, distance, excess_);
+                                  const std::function<void(std::uint32_t)>& visit, double more) const {
+  if (!(excess_ + more > 0)) return;
+  const LinkEllipsoid zone(direction, distance, excess_ + more);
   MappedPolygon mapped(scene_, antenna_);
   core::walk_bvh(
       scene_.bvh, [&](const core::BvhNode& node) { return zone.may_meet(node.bounds, antenna_); },

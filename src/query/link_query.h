@@ -19,8 +19,13 @@ class LinkQuery {
   /// scene's hierarchy, along the line.
   double reach(const Vec3& direction, double farthest) const;
 
-  /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more.
-  void for_each_entering(const Vec3& direction, double distance, const std::function<void(std::uint32_t)>& visit) const;
+  /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more. Of a
+  /// zone whose ways are longer by `more` metres, which may be negative: nothing enters one without length.
+  void for_each_entering(const Vec3& direction, double distance, const std::function<void(std::uint32_t)>& visit,
+                         double more = 0) const;
+
+  const Vec3& antenna() const { return antenna_; }  ///< relative to the scene's origin
+  double excess_m() const { return excess_; }       ///< how much longer the ways of a zone are than the straight one
 
  private:
   const PreparedScene::Data& scene_;

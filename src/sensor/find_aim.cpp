@@ -49,11 +49,15 @@ class Yaws {
 
 class Search {
  public:
-  Search(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners)
+  Search(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners, const AimRoom& room)
       : camera_(camera), yaw_(mount.yaw_deg), roll_(mount.roll_deg * std::numbers::pi / 180) {
     for (const Vec3& corner : corners) {
       const double distance = corner.norm();
-      if (distance > 0) directions_.push_back(corner / distance);
+      // A corner in the camera itself is not so far inside of any plane.
+      if (!(distance > 0) && room.inside_m > 0) is_possible_ = false;
+      if (!(distance > 0)) continue;
+      directions_.push_back(corner / distance);
+      rooms_.push_back(room.inside_m / distance - room.outside);
     }
   }
 
@@ -66,9 +70,10 @@ class Search {
       const double across = edge.head<2>().norm();
       // Turning the camera by a yaw y turns an edge's normal clockwise: its product with x is
       // sum of (e.x x.x + e.y x.y) cos y + (e.y x.x - e.x x.y) sin y + e.z x.z.
-      for (const Vec3& x : directions_) {
+      for (std::size_t i = 0; i < directions_.size(); ++i) {
+        const Vec3& x = directions_[i];
         const double along = edge.x() * x.x() + edge.y() * x.y(), beside = edge.y() * x.x() - edge.x() * x.y();
-        const double rest = edge.z() * x.z() + allowance * edge.norm();
+        const double rest = edge.z() * x.z() + (allowance - rooms_[i]) * edge.norm();
         const double reach = across * x.head<2>().norm();
         if (rest >= reach) continue;
         if (rest < -reach) return std::nullopt;
@@ -85,6 +90,7 @@ class Search {
 
   /// By halving: a normal turns by no more than the pitch does.
   std::optional<Aim> find(double min_pitch, double max_pitch, double slack) const {
+    if (!is_possible_) return std::nullopt;
     std::vector<std::pair<double, double>> open{{min_pitch, max_pitch}};
     while (!open.empty()) {
       const auto [low, high] = open.back();
@@ -103,16 +109,19 @@ class Search {
   const std::optional<double> yaw_;
   const Angle roll_;
   std::vector<Vec3> directions_;
+  std::vector<double> rooms_;  // sines
+  bool is_possible_ = true;
 };
 
 }  // namespace
 
-std::optional<Aim> find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners, double slack) {
+std::optional<Aim> find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners, double slack,
+                            const AimRoom& room) {
   constexpr double kRadians = std::numbers::pi / 180;
   // No rounding beyond straight down and up.
   const double low = std::max(mount.min_pitch_deg * kRadians, -std::numbers::pi / 2),
                high = std::min(mount.max_pitch_deg * kRadians, std::numbers::pi / 2);
-  return Search(camera, mount, corners).find(low, high, slack);
+  return Search(camera, mount, corners, room).find(low, high, slack);
 }
 
 }  // namespace vantage::internal::sensor

@@ -8,11 +8,17 @@
 
 namespace vantage::internal::sensor {
 
+/// By how much the corners must be in the picture, or may be out of it.
+struct AimRoom {
+  double inside_m = 0;  ///< metres from the planes through the camera and the edges of the picture; negative: outside
+  double outside = 0;   ///< and outside of them by the angle with this sine; 0 to 1
+};
+
 /// An orientation that the mount allows and that has all `corners` (positions relative to the camera) in the picture;
 /// nothing where there is none. Where the best orientation has a corner within `slack` radians of an edge of the
 /// picture either answer may come. Directions of corners in the camera itself are taken to be in the picture.
 /// Cost: some microseconds, more where the answer is close.
 std::optional<Aim> find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners,
-                            double slack = 1e-6);
+                            double slack = 1e-6, const AimRoom& room = {});
 
 }  // namespace vantage::internal::sensor

@@ -111,7 +111,6 @@ SensorLimits::SensorLimits(const Viewed& viewed, const Sensor& sensor) : viewed_
   if (sensor.sun) sun_ = sensor.sun->direction.normalized();
 }
 
-/// Metres from the nearest of the cones; negative outside.
 double SensorLimits::incidence_margin(const ViewedPart& part, const Vec3& point) const {
   const double angle = *sensor_.incidence_deg * kDegree;
   double least = kUnlimited;

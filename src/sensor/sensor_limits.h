@@ -32,8 +32,15 @@ class SensorLimits {
   /// changes from kept to broken or back.
   std::vector<double> changes(const Vec3& origin, const Vec3& direction, double reach) const;
 
- private:
+  /// For a sensor with an incidence, and a point about Viewed::origin: metres from the nearest of the cones; negative
+  /// outside.
   double incidence_margin(const ViewedPart& part, const Vec3& point) const;
+
+  const Viewed& viewed() const { return viewed_; }
+  const Sensor& sensor() const { return sensor_; }
+  const Vec3& sun() const { return sun_; }  ///< its direction, of unit length
+
+ private:
   double pixel_margin(const ViewedPart& part, const Vec3& point) const;
   double sun_margin(const ViewedPart& part, const Vec3& point) const;
   bool fits(const Vec3& point, const Mount& mount) const;

@@ -1,0 +1,98 @@
+// GeoJSON (RFC 7946): lines, or else points. The third number of a position is the height above the ellipsoid.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flight/plans/json_text.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+using nlohmann::json;
+
+class GeojsonTracks {
+ public:
+  explicit GeojsonTracks(const PlanSource& source) : source_(source) {}
+
+  FlightPlan read(const json& root) {
+    FlightPlan plan;
+    plan.format = PlanFormat::geojson;
+    plan.file = source_.name;
+    const auto features = root.find("features");
+    if (features != root.end() && features->is_array()) {
+      for (std::size_t i = 0; i < features->size(); ++i) add((*features)[i], "features[" + std::to_string(i) + "]");
+    } else {
+      add(root, "the object");
+    }
+    if (lines_.empty() && !points_.items.empty()) lines_.push_back(std::move(points_));
+    take_tracks(std::move(lines_), "line", "lines", source_, plan);
+    check_plan(plan, source_);
+    return plan;
+  }
+
+ private:
+  /// A feature, or a geometry.
+  void add(const json& object, const std::string& place) {
+    if (!object.is_object()) source_.fail(ErrorCode::plan_syntax, place, "it is not an object", "correct it");
+    std::string name;
+    const auto properties = object.find("properties");
+    if (properties != object.end() && properties->is_object()) {
+      const auto found = properties->find("name");
+      if (found != properties->end() && found->is_string()) name = printable(found->get<std::string>());
+    }
+    const auto geometry = object.find("geometry");
+    const json& shape = geometry == object.end() ? object : *geometry;
+    const auto type = shape.find("type");  // of null there is none
+    if (!shape.is_object() || type == shape.end() || !type->is_string()) return;
+    const std::string kind = type->get<std::string>();
+    const auto coordinates = shape.find("coordinates");
+    if (coordinates == shape.end() || !coordinates->is_array()) return;
+    if (kind == "LineString") add_line(*coordinates, name, place);
+    if (kind == "MultiLineString") {
+      for (std::size_t i = 0; i < coordinates->size(); ++i) {
+        add_line((*coordinates)[i], name, place + ", line " + std::to_string(i + 1));
+      }
+    }
+    if (kind == "Point") add_position(*coordinates, place, points_);
+  }
+
+  void add_line(const json& positions, const std::string& name, const std::string& place) {
+    if (!positions.is_array()) source_.fail(ErrorCode::plan_syntax, place, "a line is not an array", "correct it");
+    PlanTrack track;
+    track.name = name;
+    track.place = place;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      add_position(positions[i], place + ", position " + std::to_string(i + 1), track);
+    }
+    if (!track.items.empty()) lines_.push_back(std::move(track));
+  }
+
+  void add_position(const json& numbers, const std::string& place, PlanTrack& track) const {
+    source_.progress.tick();
+    const std::string where = source_.place(place);
+    const auto is_number = [&](std::size_t i) { return numbers[i].is_number(); };
+    const bool is_good = numbers.is_array() && numbers.size() >= 2 && is_number(0) && is_number(1) &&
+                         (numbers.size() < 3 || is_number(2));
+    if (!is_good) {
+      PlanSource::fail_at(ErrorCode::plan_syntax, where, "a position is not [longitude, latitude, height]",
+                          "give two or three numbers");
+    }
+    PlanItem& item = track.items.emplace_back();
+    item.place = where;
+    item.position.horizontal = checked_lonlat(numbers[0].get<double>(), numbers[1].get<double>(), where);
+    item.position.datum = HeightDatum::ellipsoid;
+    if (numbers.size() > 2) item.position.height_m = numbers[2].get<double>();
+  }
+
+  const PlanSource& source_;
+  std::vector<PlanTrack> lines_;
+  PlanTrack points_;
+};
+
+}  // namespace
+
+FlightPlan read_geojson(const json& root, const PlanSource& source) { return GeojsonTracks(source).read(root); }
+
+}  // namespace vantage::internal::flight::plans

@@ -1,0 +1,88 @@
+// GPX 1.1, https://www.topografix.com/GPX/1/1/: tracks, or else routes, or else waypoints.
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flight/plans/kml.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+class GpxTracks {
+ public:
+  GpxTracks(const XmlTree& xml, const PlanSource& source) : xml_(xml), source_(source) {}
+
+  FlightPlan read() {
+    FlightPlan plan;
+    plan.format = PlanFormat::gpx;
+    plan.file = source_.name;
+    PlanTrack waypoints;
+    std::vector<PlanTrack> tracks, routes;
+    for (XmlTree::Node node = xml_.first_child(xml_.root()); node != XmlTree::kNone; node = xml_.next(node)) {
+      const std::string_view kind = xml_.name(node);
+      if (kind == "trk") add_line(node, "trkpt", tracks);
+      if (kind == "rte") add_line(node, "rtept", routes);
+      if (kind == "wpt") add_point(node, waypoints);
+    }
+    std::map<std::string, std::size_t> left_out;
+    if (!tracks.empty()) {
+      if (!routes.empty()) left_out[routes.size() == 1 ? "route" : "routes"] = routes.size();
+      take_tracks(std::move(tracks), "track", "tracks", source_, plan);
+    } else if (!routes.empty()) {
+      take_tracks(std::move(routes), "route", "routes", source_, plan);
+    } else {
+      plan.items = std::move(waypoints.items);
+    }
+    if (!plan.items.empty() && !waypoints.items.empty())
+      left_out[waypoints.items.size() == 1 ? "waypoint" : "waypoints"] = waypoints.items.size();
+    if (!left_out.empty()) {
+      plan.notes.push_back(
+          {WarningCode::plan_left_out, source_.name + " has more than is flown: " + counted(left_out)});
+    }
+    check_plan(plan, source_);
+    return plan;
+  }
+
+ private:
+  void add_line(XmlTree::Node line, std::string_view point, std::vector<PlanTrack>& lines) const {
+    PlanTrack track;
+    track.name = printable(xml_.child_text(line, "name"));
+    track.place = line_of(xml_, line);
+    xml_.walk(line, [&](XmlTree::Node node) {
+      if (xml_.name(node) == point) add_point(node, track);
+      return xml_.name(node) == "trkseg";
+    });
+    if (!track.items.empty()) lines.push_back(std::move(track));
+  }
+
+  void add_point(XmlTree::Node point, PlanTrack& track) const {
+    source_.progress.tick();
+    PlanItem& item = track.items.emplace_back();
+    item.place = source_.place(line_of(xml_, point));
+    const XmlTree::Node latitude = xml_.child(point, "@lat"), longitude = xml_.child(point, "@lon");
+    if (latitude == XmlTree::kNone || longitude == XmlTree::kNone) {
+      PlanSource::fail_at(ErrorCode::plan_syntax, item.place, "the point has no \"lat\" and \"lon\"", "give both");
+    }
+    item.position.horizontal =
+        checked_lonlat(number_of(xml_, longitude, source_), number_of(xml_, latitude, source_), item.place);
+    // "Elevation of the point"; where <geoidheight> is beside it, that of NMEA is meant, above mean sea level.
+    item.position.datum = HeightDatum::sea_level;
+    const XmlTree::Node height = xml_.child(point, "ele");
+    if (height != XmlTree::kNone) item.position.height_m = number_of(xml_, height, source_);
+  }
+
+  const XmlTree& xml_;
+  const PlanSource& source_;
+};
+
+}  // namespace
+
+FlightPlan read_gpx(const PlanSource& source) {
+  const XmlTree xml(source);
+  return GpxTracks(xml, source).read();
+}
+
+}  // namespace vantage::internal::flight::plans

@@ -1,0 +1,30 @@
+#include "flight/plans/json_text.h"
+
+#include <string>
+
+#include "io/json_text.h"
+
+namespace vantage::internal::flight::plans {
+
+nlohmann::json parse_plan_json(const PlanSource& source) {
+  core::ReadLimits limits;
+  limits.json_values = 10'000'000;
+  limits.json_bytes = std::uint64_t{1} << 30;
+  try {
+    nlohmann::json root = io::parse_json(source.text, source.progress, limits);
+    if (root.is_object()) return root;
+  } catch (const io::JsonProblem& problem) {
+    const std::string place =
+        problem.line == 0 ? "" : "line " + std::to_string(problem.line) + ", column " + std::to_string(problem.column);
+    source.fail(ErrorCode::plan_syntax, place, "the JSON is broken: " + problem.text, "save the plan anew");
+  }
+  source.fail(ErrorCode::plan_syntax, "", "the JSON is not an object", "give a .plan of QGroundControl, or GeoJSON");
+}
+
+FlightPlan read_json(const PlanSource& source) {
+  const nlohmann::json root = parse_plan_json(source);
+  const bool is_geojson = root.contains("features") || root.contains("geometry") || root.contains("coordinates");
+  return is_geojson && !root.contains("mission") ? read_geojson(root, source) : read_qgroundcontrol(root, source);
+}
+
+}  // namespace vantage::internal::flight::plans

@@ -1,0 +1,139 @@
+// KML 2.2 (OGC 07-147r2) with Google's tracks: LineString, gx:Track, or else the points of placemarks.
+#include "flight/plans/kml.h"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flight/plans/text_lines.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+HeightDatum datum_of_mode(std::string_view mode) {
+  if (mode == "absolute") return HeightDatum::sea_level;
+  if (mode == "relativeToGround") return HeightDatum::ground;
+  return HeightDatum::unknown;  // clamped to the ground, or to the sea's
+}
+
+class KmlTracks {
+ public:
+  KmlTracks(const XmlTree& xml, const PlanSource& source) : xml_(xml), source_(source) {}
+
+  FlightPlan read() {
+    FlightPlan plan;
+    plan.format = PlanFormat::kml;
+    plan.file = source_.name;
+    xml_.walk(xml_.root(), [&](XmlTree::Node node) {
+      source_.progress.tick();
+      if (xml_.name(node) != "Placemark") return true;
+      const std::string name = printable(xml_.child_text(node, "name"));
+      xml_.walk(node, [&](XmlTree::Node part) { return add(part, name); });
+      return false;
+    });
+    if (tracks_.empty() && !points_.items.empty()) tracks_.push_back(std::move(points_));
+    take_tracks(std::move(tracks_), "track", "tracks", source_, plan);
+    check_plan(plan, source_);
+    return plan;
+  }
+
+ private:
+  /// Whether to go into the element.
+  bool add(XmlTree::Node part, const std::string& name) {
+    const std::string_view kind = xml_.name(part);
+    if (kind == "Polygon" || kind == "Model") return false;
+    if (kind != "LineString" && kind != "Track" && kind != "Point") return true;
+    PlanTrack track;
+    track.name = name;
+    track.place = line_of(xml_, part);
+    const HeightDatum datum = datum_of_mode(xml_.child_text(part, "altitudeMode"));
+    if (kind == "Track") {
+      for (XmlTree::Node child = xml_.first_child(part); child != XmlTree::kNone; child = xml_.next(child)) {
+        if (xml_.name(child) == "coord") add_position(xml_.text(child), ' ', datum, line_of(xml_, child), track);
+      }
+    } else {
+      add_list(xml_.child_text(part, "coordinates"), datum, track);
+    }
+    if (track.items.empty()) return false;
+    if (kind == "Point") {
+      points_.items.push_back(std::move(track.items.front()));
+    } else {
+      tracks_.push_back(std::move(track));
+    }
+    return false;
+  }
+
+  /// "longitude,latitude[,altitude]" with blanks between, and none within.
+  void add_list(std::string_view text, HeightDatum datum, PlanTrack& track) const {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    for (;;) {
+      const std::size_t begin = text.find_first_not_of(kBlanks);
+      if (begin == std::string_view::npos) return;
+      text.remove_prefix(begin);
+      const std::string_view tuple = text.substr(0, text.find_first_of(kBlanks));
+      text.remove_prefix(tuple.size());
+      source_.progress.tick();
+      add_position(tuple, ',', datum, track.place + ", position " + std::to_string(track.items.size() + 1), track);
+    }
+  }
+
+  void add_position(std::string_view text, char separator, HeightDatum datum, const std::string& within,
+                    PlanTrack& track) const {
+    const std::string where = source_.place(within);
+    const std::vector<double> numbers = numbers_of(text, separator, 2, 3, where);
+    PlanItem& item = track.items.emplace_back();
+    item.place = where;
+    item.position.horizontal = checked_lonlat(numbers[0], numbers[1], where);
+    // A height of 0 that is not to be used is what writers put in for none.
+    const bool is_given = numbers.size() > 2 && (datum != HeightDatum::unknown || numbers[2] != 0);
+    if (is_given) item.position.height_m = numbers[2];
+    item.position.datum = datum;
+  }
+
+  const XmlTree& xml_;
+  const PlanSource& source_;
+  std::vector<PlanTrack> tracks_;
+  PlanTrack points_;
+};
+
+}  // namespace
+
+double number_of(const XmlTree& xml, XmlTree::Node node, const PlanSource& source) {
+  const ParsedNumber number = parse_number(xml.text(node));
+  if (number.fault == NumberFault::none) return number.value;
+  const std::string_view name = xml.name(node);
+  source.fail(ErrorCode::not_a_number, line_of(xml, node),
+              in_quotes(name.substr(name.front() == '@' ? 1 : 0)) + " is not a number: " + in_quotes(xml.text(node)),
+              number_advice(xml.text(node), number.fault));
+}
+
+std::vector<double> numbers_of(std::string_view text, char separator, std::size_t least, std::size_t most,
+                               const std::string& where) {
+  std::vector<double> numbers;
+  std::string_view rest = without_blanks(text);
+  bool is_good = !rest.empty();
+  while (is_good && numbers.size() < most) {
+    const std::size_t end = rest.find(separator);
+    const ParsedNumber number = parse_number(without_blanks(rest.substr(0, end)));
+    is_good = number.fault == NumberFault::none;
+    numbers.push_back(number.value);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (end == std::string_view::npos) break;
+  }
+  if (is_good && rest.empty() && numbers.size() >= least) return numbers;
+  PlanSource::fail_at(ErrorCode::plan_syntax, where,
+                      "a position is not made of " + std::to_string(least) + " to " + std::to_string(most) +
+                          " finite numbers: " + in_quotes(text.substr(0, 60)),
+                      "write them in the order of the format, and no blanks within");
+}
+
+FlightPlan read_kml(const PlanSource& source) {
+  const XmlTree xml(source);
+  if (is_wpml(xml)) return read_wpml(xml, source);
+  return KmlTracks(xml, source).read();
+}
+
+}  // namespace vantage::internal::flight::plans

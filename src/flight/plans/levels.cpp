@@ -1,0 +1,44 @@
+#include "flight/plans/levels.h"
+
+#include <string_view>
+
+#include "geo/local_frame.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+
+Levels::Levels(const std::optional<Georeference>& georeference, const HeightLevels& given) {
+  const std::string vertical = georeference ? georeference->vertical : "";
+  const bool is_ellipsoid = vertical == geo::kEllipsoidalHeight;
+  level_ = vertical.empty() ? "an unknown level" : vertical;
+  sea_level_z_m_ = given.sea_level_z_m;
+  if (is_ellipsoid) {
+    ellipsoid_z_m_ = 0;
+    if (!sea_level_z_m_) sea_level_z_m_ = given.undulation_m;
+    return;
+  }
+  // "as in dem.tif": the file does not say. Other names are of levels that countries and the earth have at the sea.
+  const bool is_known = !vertical.empty() && vertical != kFlatGround && vertical.compare(0, 6, "as in ") != 0;
+  if (!sea_level_z_m_ && is_known) sea_level_z_m_ = 0;
+  if (sea_level_z_m_ && given.undulation_m) ellipsoid_z_m_ = *sea_level_z_m_ - *given.undulation_m;
+}
+
+double Levels::sea_level_z(const std::string& where) const {
+  if (sea_level_z_m_) return *sea_level_z_m_;
+  throw Error(ErrorCode::height_unknown,
+              "a height above sea level is needed, and heights of the scene are above " + level_, where,
+              level_ == geo::kEllipsoidalHeight
+                  ? "say how high the mean sea level lies above the ellipsoid there (the geoid's undulation)"
+                  : "say which z of the scene the mean sea level has ('scene.sea_level' of a mission)");
+}
+
+double Levels::ellipsoid_z(const std::string& where) const {
+  if (ellipsoid_z_m_) return *ellipsoid_z_m_;
+  throw Error(ErrorCode::height_unknown,
+              "a height above the WGS 84 ellipsoid is needed, and heights of the scene are above " + level_, where,
+              std::string("say how high the mean sea level lies above the ellipsoid there (the geoid's undulation)") +
+                  (sea_level_z_m_ ? "" : ", and which z of the scene it has ('scene.sea_level' of a mission)"));
+}
+
+}  // namespace vantage::internal::flight::plans

@@ -1,0 +1,538 @@
+// A plan in the frame of a scene.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "flight/plans/arcs.h"
+#include "flight/plans/ground_profile.h"
+#include "flight/plans/levels.h"
+#include "geo/local_frame.h"
+#include "vantage/error.h"
+#include "vantage/flight_plan.h"
+#include "vantage/input.h"
+
+namespace vantage {
+namespace {
+
+namespace plans = internal::flight::plans;
+namespace geo = internal::geo;
+using Point = Eigen::Vector2d;
+
+/// A corner of the way, before its legs are cut.
+struct Corner {
+  Vec3 position;
+  std::optional<double> above_ground_m;  ///< where its height is that
+  bool follows_ground = false;           ///< the leg that ends here
+  double hold_s = 0, speed_m_s = std::nan(""), cut_m = 0;
+  std::size_t item = 0;
+};
+
+[[noreturn]] void fail(ErrorCode code, const std::string& where, const std::string& problem, const std::string& fix) {
+  throw Error(code, problem, where, fix);
+}
+
+class Locator {
+ public:
+  Locator(const FlightPlan& plan, const LocateOptions& options)
+      : plan_(plan), options_(options), levels_(options.georeference, options.levels) {
+    check_options();
+    if (plan.is_in_scene_frame) return;
+    if (!options.georeference) {
+      fail(ErrorCode::not_georeferenced, plan.file,
+           "the plan is in longitudes and latitudes, and the scene does not say where on the earth it lies",
+           "give a scene of a map, or its place: 'origin' under 'scene'");
+    }
+    frame_.emplace(geo::LonLat{options.georeference->longitude_deg, options.georeference->latitude_deg});
+  }
+
+  LocatedPlan locate();
+
+ private:
+  void check_options() const;
+  Point local(const Point& horizontal, const std::string& where) const;
+  std::optional<Point> home_position() const;
+  std::optional<double> known_home_z();
+  double home_z(const std::string& where);
+  double ground_z(const Point& at, const std::string& where);
+  double stated_home_z(const std::string& where) const;
+  double z_of(const PlanPosition& position, const Point& at, const std::string& where);
+  Corner corner_of(std::size_t item);
+  void add(Corner corner) { corners_.push_back(std::move(corner)); }
+  void add_takeoff(std::size_t index);
+  void add_loiter(std::size_t index);
+  void add_landing(std::size_t index);
+  void add_return(std::size_t index);
+  double loiter_radius(const PlanItem& item) const;
+  double loiter_turns(const PlanItem& item, double radius_m);
+  std::vector<Corner> with_cut_corners() const;
+  void add_leg(const Corner& from, const Corner& to);
+  void add_following(const Corner& from, const Corner& to, bool is_last);
+  void cut_geodesic(const Point& from, const Point& to, double begin, double end, int depth,
+                    std::vector<double>& shares) const;
+  std::vector<double> geodesic_shares(const Point& from, const Point& to) const;
+  Point between(const Point& from, const Point& to, double share) const;
+  void push(const Vec3& position, const Corner& to, bool is_last);
+  void note(const std::string& text) {
+    located_.notes.push_back({WarningCode::plan_assumed, plan_.file + ": " + text});
+  }
+  const std::string& place(std::size_t item) const { return plan_.items[item].place; }
+  /// What is left of the allowed error for circles and corners, and for geodesics.
+  double arc_error_m() const { return 0.8 * options_.chord_error_m; }
+  double geodesic_error_m() const { return 0.1 * options_.chord_error_m; }
+
+  const FlightPlan& plan_;
+  const LocateOptions& options_;
+  plans::Levels levels_;
+  std::optional<geo::LocalFrame> frame_;  ///< none: the plan is in the scene frame
+  std::optional<GroundLevels> ground_;
+  std::optional<plans::GroundProfile> profile_;
+  std::optional<double> home_z_;
+  std::vector<Corner> corners_;
+  LocatedPlan located_;
+  std::size_t timed_circles_ = 0, level_returns_ = 0;
+  bool has_curves_ = false, has_following_ = false;
+};
+
+void Locator::check_options() const {
+  const auto check = [](bool holds, const char* what) {
+    if (!holds) fail(ErrorCode::value_out_of_range, what, "it is not a positive number", "give metres");
+  };
+  check(options_.chord_error_m > 0 && std::isfinite(options_.chord_error_m), "chord_error_m");
+  check(options_.ground_error_m > 0 && std::isfinite(options_.ground_error_m), "ground_error_m");
+  check(options_.farthest_m > 0, "farthest_m");
+  for (const auto& height : {options_.home_z_m, options_.missing_height_m, options_.return_height_m,
+                             options_.loiter_radius_m, options_.levels.sea_level_z_m, options_.levels.undulation_m}) {
+    if (height && !std::isfinite(*height)) {
+      fail(ErrorCode::value_out_of_range, plan_.file, "a height that is given is not finite", "give metres");
+    }
+  }
+  if (plan_.items.empty()) fail(ErrorCode::plan_empty, plan_.file, "the plan holds no positions", "give another plan");
+}
+
+Point Locator::local(const Point& horizontal, const std::string& where) const {
+  if (!frame_) return horizontal;
+  const geo::LonLat position{horizontal.x(), horizontal.y()};
+  const Point at = frame_->to_local(position);
+  const double farthest = std::min(options_.farthest_m, geo::kFarthestM);
+  if (at.norm() <= farthest) return at;
+  const geo::LonLat swapped{horizontal.y(), horizontal.x()};
+  const bool is_swapped = std::abs(swapped.latitude_deg) <= 90 && frame_->to_local(swapped).norm() <= farthest;
+  fail(ErrorCode::too_far_away, where,
+       "the plan is in another place: " + internal::core::number_text(std::round(at.norm() / 1000)) +
+           " km from the scene",
+       is_swapped ? "longitude and latitude seem to be swapped" : "give the plan and the scene of one place");
+}
+
+std::optional<Point> Locator::home_position() const {
+  if (options_.home) return local(*options_.home, "home");
+  if (plan_.home) return local(plan_.home->horizontal, plan_.file + ": home");
+  return std::nullopt;
+}
+
+double Locator::ground_z(const Point& at, const std::string& where) {
+  if (!options_.ground) {
+    fail(ErrorCode::ground_missing, where, "a height above ground is given, and the scene has no ground",
+         "give a scene with terrain, or say what of it is ground ('navigation.ground' of a mission)");
+  }
+  if (!ground_) ground_.emplace(*options_.ground);
+  if (const auto range = ground_->at(at.x(), at.y())) return range->highest_m;
+  fail(ErrorCode::ground_missing, where,
+       "there is no ground below it, at x " + internal::core::number_text(at.x()) + ", y " +
+           internal::core::number_text(at.y()) + " of the scene",
+       "take a scene that reaches so far");
+}
+
+double Locator::stated_home_z(const std::string& where) const {
+  const PlanPosition& home = *plan_.home;
+  switch (home.datum) {
+    case HeightDatum::scene_z:
+      return home.height_m;
+    case HeightDatum::ellipsoid:
+      return home.height_m + levels_.ellipsoid_z(where);
+    default:
+      return home.height_m + levels_.sea_level_z(where);
+  }
+}
+
+/// What is given; the ground there; what the plan states.
+std::optional<double> Locator::known_home_z() {
+  if (home_z_) return home_z_;
+  if (options_.home_z_m) return home_z_ = options_.home_z_m;
+  const std::string where = plan_.file + ": home";
+  const bool is_stated = plan_.home && !options_.home && std::isfinite(plan_.home->height_m);
+  const bool can_state = is_stated && (plan_.home->datum == HeightDatum::scene_z ||
+                                       (plan_.home->datum == HeightDatum::ellipsoid && levels_.knows_ellipsoid()) ||
+                                       (plan_.home->datum == HeightDatum::sea_level && levels_.knows_sea_level()));
+  const auto at = home_position();
+  std::optional<double> ground;
+  if (options_.ground && !options_.ground->surface) ground = options_.ground->plane_z_m;  // the same everywhere
+  if (!ground && options_.ground && at) {
+    if (!ground_) ground_.emplace(*options_.ground);
+    if (const auto range = ground_->at(at->x(), at->y())) ground = range->highest_m;
+  }
+  if (ground) {
+    constexpr double kMuchM = 5;
+    const double stated = can_state ? stated_home_z(where) : *ground;
+    if (std::abs(stated - *ground) > kMuchM) {
+      note("the home is taken to be on the ground of the scene, " +
+           internal::core::metres_text(std::abs(stated - *ground)) + (stated > *ground ? " below" : " above") +
+           " what the plan says");
+    }
+    return home_z_ = ground;
+  }
+  if (can_state) home_z_ = stated_home_z(where);
+  return home_z_;
+}
+
+double Locator::home_z(const std::string& where) {
+  if (const auto z = known_home_z()) return *z;
+  const auto at = home_position();
+  fail(ErrorCode::height_unknown, where,
+       plan_.home && !options_.home && std::isfinite(plan_.home->height_m)
+           ? "a height above the home is given, and the scene does not know the level that the home's own height "
+             "is measured from"
+           : "a height above the home is given, and the height of the home is not known",
+       at ? "give the z of the home in the scene, or a scene with ground there"
+          : "say where the vehicle takes off: the home's position, or its z in the scene");
+}
+
+double Locator::z_of(const PlanPosition& stated, const Point& at, const std::string& where) {
+  PlanPosition position = stated;
+  const bool is_missing = std::isnan(position.height_m);
+  if (is_missing && options_.missing_height_m) position.height_m = *options_.missing_height_m;
+  if (std::isnan(position.height_m)) {
+    fail(ErrorCode::height_unknown, where, "the plan gives no height here", "say at which height it is flown");
+  }
+  if (position.datum == HeightDatum::unknown && options_.unknown_heights) position.datum = *options_.unknown_heights;
+  switch (position.datum) {
+    case HeightDatum::scene_z:
+      return position.height_m;
+    case HeightDatum::sea_level:
+      return position.height_m + levels_.sea_level_z(where);
+    case HeightDatum::ellipsoid:
+      return position.height_m + levels_.ellipsoid_z(where);
+    case HeightDatum::ground:
+      return position.height_m + ground_z(at, where);
+    case HeightDatum::home:
+      return position.height_m + home_z(where);
+    case HeightDatum::unknown:
+      break;
+  }
+  fail(ErrorCode::height_unknown, where, "the plan does not say what its heights are measured from",
+       "say it: sea level, the ellipsoid, the ground or the home");
+}
+
+Corner Locator::corner_of(std::size_t index) {
+  const PlanItem& item = plan_.items[index];
+  Corner corner;
+  corner.item = index;
+  corner.hold_s = item.hold_s;
+  corner.speed_m_s = std::isnan(item.speed_m_s) ? plan_.speed_m_s : item.speed_m_s;
+  corner.cut_m = item.cut_m;
+  corner.follows_ground = item.follows_ground;
+  Point at;
+  if (item.position.horizontal.allFinite()) {
+    at = local(item.position.horizontal, item.place);
+  } else if (const auto home = home_position()) {
+    at = *home;
+  } else {
+    fail(ErrorCode::missing_key, item.place, "the item is at the home, and the plan does not say where that is",
+         "say where the vehicle takes off");
+  }
+  corner.position << at, 0;
+  if (item.kind != PlanItemKind::return_home && item.kind != PlanItemKind::land) {
+    corner.position.z() = z_of(item.position, at, item.place);
+    const bool is_above_ground =
+        item.position.datum == HeightDatum::ground ||
+        (item.position.datum == HeightDatum::unknown && options_.unknown_heights == HeightDatum::ground);
+    if (is_above_ground) {
+      corner.above_ground_m = std::isnan(item.position.height_m) ? *options_.missing_height_m : item.position.height_m;
+    }
+  }
+  return corner;
+}
+
+/// A multirotor climbs above the home, and then goes to the place of the item; a fixed wing climbs on the way to it.
+void Locator::add_takeoff(std::size_t index) {
+  const Corner corner = corner_of(index);
+  const auto home = home_position();
+  if (home && corners_.empty()) {
+    Corner above = corner;
+    above.hold_s = 0;
+    above.follows_ground = false;
+    above.above_ground_m.reset();
+    above.position.head<2>() = *home;
+    if (options_.with_ground_legs) {
+      Corner below = above;
+      below.position.z() = home_z(place(index));
+      add(below);
+    }
+    constexpr double kSameM = 1e-3;
+    const bool is_elsewhere = (corner.position - above.position).norm() > kSameM;
+    if (is_elsewhere && plan_.vehicle != PlanVehicle::fixed_wing) add(above);
+  }
+  add(corner);
+}
+
+double Locator::loiter_radius(const PlanItem& item) const {
+  if (item.loiter_radius_m != 0) return item.loiter_radius_m;
+  if (options_.loiter_radius_m && *options_.loiter_radius_m != 0) return *options_.loiter_radius_m;
+  fail(ErrorCode::missing_key, item.place, "the plan leaves the radius of the circle to the vehicle",
+       "say how large the circles of the vehicle are");
+}
+
+/// For a time: as often as that takes. The time is then in the legs.
+double Locator::loiter_turns(const PlanItem& item, double radius_m) {
+  if (item.hold_s <= 0) return item.turns;
+  const double speed = std::isnan(item.speed_m_s) ? plan_.speed_m_s : item.speed_m_s;
+  if (speed > 0) return item.hold_s * speed / (2 * std::numbers::pi * std::abs(radius_m));
+  ++timed_circles_;
+  return 1;
+}
+
+void Locator::add_loiter(std::size_t index) {
+  const PlanItem& item = plan_.items[index];
+  Corner centre = corner_of(index);
+  if (item.turns == 0) return add(centre);
+  const double radius = loiter_radius(item), turns = loiter_turns(item, radius);
+  centre.hold_s = 0;
+  centre.cut_m = 0;
+  if (plans::chord_count(radius, turns, arc_error_m()) > static_cast<double>(kMostFlightPoints)) {
+    fail(ErrorCode::work_too_large, item.place, "the circles take more than a million chords",
+         "allow a larger error of chords");
+  }
+  // On the earth about the circle's own centre: the frame bends circles that are far from its origin.
+  const Point before = corners_.empty() ? Point(centre.position.head<2>()) : Point(corners_.back().position.head<2>());
+  std::optional<geo::LocalFrame> about;
+  if (frame_) about.emplace(frame_->to_lonlat(centre.position.head<2>()));
+  const Point towards = about ? about->to_local(frame_->to_lonlat(before)) : Point(before - centre.position.head<2>());
+  constexpr double kNoDirectionM = 1e-6;
+  for (const Point& p :
+       plans::circle_points(towards.norm() > kNoDirectionM ? towards : Point(0, 0), radius, turns, arc_error_m())) {
+    Corner corner = centre;
+    corner.position.head<2>() = about ? frame_->to_local(about->to_lonlat(p)) : Point(centre.position.head<2>() + p);
+    if (corner.follows_ground && corner.above_ground_m) {
+      corner.position.z() = ground_z(corner.position.head<2>(), item.place) + *corner.above_ground_m;
+    }
+    add(corner);
+  }
+  has_curves_ = true;
+}
+
+/// At the height before, above the place; with ground legs down to it. A fixed wing comes down on a slope.
+void Locator::add_landing(std::size_t index) {
+  const PlanItem& item = plan_.items[index];
+  Corner corner = corner_of(index);
+  corner.follows_ground = false;
+  Corner below = corner;
+  const bool is_first = corners_.empty();
+  if (options_.with_ground_legs || is_first) {
+    below.position.z() = z_of(item.position, corner.position.head<2>(), item.place);
+  }
+  corner.position.z() = is_first ? below.position.z() : corners_.back().position.z();
+  if (!(options_.with_ground_legs && plan_.vehicle == PlanVehicle::fixed_wing)) add(corner);
+  if (options_.with_ground_legs && !is_first) add(below);
+}
+
+void Locator::add_return(std::size_t index) {
+  Corner corner = corner_of(index);
+  double z = corners_.empty() ? home_z(place(index)) : corners_.back().position.z();
+  if (options_.return_height_m) {
+    const double least = home_z(place(index)) + *options_.return_height_m;
+    if (z < least && !corners_.empty()) {
+      Corner climb = corner;
+      climb.position = corners_.back().position;
+      climb.position.z() = least;
+      climb.hold_s = 0;
+      add(climb);
+    }
+    z = std::max(z, least);
+  } else {
+    ++level_returns_;
+  }
+  corner.position.z() = z;
+  add(corner);
+  if (!options_.with_ground_legs) return;
+  corner.position.z() = home_z(place(index));
+  add(corner);
+}
+
+std::vector<Corner> Locator::with_cut_corners() const {
+  std::vector<Corner> corners;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Corner& corner = corners_[i];
+    const bool is_cut = corner.cut_m > 0 && corner.hold_s == 0 && i > 0 && i + 1 < corners_.size() &&
+                        !corner.follows_ground && !corners_[i + 1].follows_ground;
+    if (!is_cut) {
+      corners.push_back(corner);
+      continue;
+    }
+    for (const Vec3& position : plans::corner_points(corners_[i - 1].position, corner.position,
+                                                     corners_[i + 1].position, corner.cut_m, arc_error_m())) {
+      corners.push_back(corner);
+      corners.back().position = position;
+    }
+  }
+  return corners;
+}
+
+/// The point of the geodesic.
+Point Locator::between(const Point& from, const Point& to, double share) const {
+  if (!frame_) return from + share * (to - from);
+  const geo::LocalFrame about(frame_->to_lonlat(from));
+  return frame_->to_local(about.to_lonlat(share * about.to_local(frame_->to_lonlat(to))));
+}
+
+/// Halves until the middle is near enough to the chord's: a geodesic of less than 200 km is a parabola in the frame.
+void Locator::cut_geodesic(const Point& from, const Point& to, double begin, double end, int depth,
+                           std::vector<double>& shares) const {
+  constexpr int kDeepest = 16;
+  const double middle = (begin + end) / 2;
+  const Point chord = (between(from, to, begin) + between(from, to, end)) / 2;
+  if (depth == kDeepest || (between(from, to, middle) - chord).norm() <= geodesic_error_m()) return;
+  cut_geodesic(from, to, begin, middle, depth + 1, shares);
+  shares.push_back(middle);
+  cut_geodesic(from, to, middle, end, depth + 1, shares);
+}
+
+std::vector<double> Locator::geodesic_shares(const Point& from, const Point& to) const {
+  std::vector<double> shares;
+  if (frame_) {
+    // The frame bends a geodesic at the distance d from the origin by less than d / R^2 for each metre: nothing to ask
+    // where the sagitta of that is far below what is allowed.
+    constexpr double kRadiusM = 6.3e6;
+    const double bend = std::max(from.norm(), to.norm()) / (kRadiusM * kRadiusM), length = (to - from).norm();
+    if (length * length * bend / 8 > geodesic_error_m()) cut_geodesic(from, to, 0, 1, 0, shares);
+  }
+  shares.push_back(1);
+  return shares;
+}
+
+void Locator::push(const Vec3& position, const Corner& to, bool is_last) {
+  if (located_.flight.points.size() >= kMostFlightPoints) {
+    fail(ErrorCode::work_too_large, place(to.item), "the flight takes more than a million points",
+         "take a part of the plan, or allow larger errors of chords and of the ground");
+  }
+  FlightPoint& point = located_.flight.points.emplace_back();
+  point.position = position;
+  point.hold_s = is_last ? to.hold_s : 0;
+  point.speed_m_s = to.speed_m_s;
+  point.place = place(to.item);
+  located_.items.push_back(to.item);
+}
+
+/// From the point that was pushed last.
+void Locator::add_leg(const Corner& from, const Corner& to) {
+  const Point a = from.position.head<2>(), b = to.position.head<2>();
+  const bool follows = to.follows_ground && from.above_ground_m && to.above_ground_m;
+  Corner begin = from, end = to;
+  for (const double share : geodesic_shares(a, b)) {
+    const bool is_last = share == 1;
+    end = to;
+    if (!is_last) {
+      end.position.head<2>() = between(a, b, share);
+      end.position.z() = from.position.z() + share * (to.position.z() - from.position.z());
+      end.hold_s = 0;
+      if (follows) end.above_ground_m = *from.above_ground_m + share * (*to.above_ground_m - *from.above_ground_m);
+    }
+    if (follows) {
+      add_following(begin, end, is_last);
+    } else {
+      push(end.position, end, is_last);
+    }
+    begin = end;
+  }
+}
+
+void Locator::add_following(const Corner& from, const Corner& to, bool is_last) {
+  if (!options_.ground) (void)ground_z(to.position.head<2>(), place(to.item));
+  if (!profile_) profile_.emplace(*options_.ground);
+  has_following_ = true;
+  std::vector<plans::ProfilePoint> profile = profile_->along(from.position.head<2>(), to.position.head<2>());
+  if (profile.empty()) {
+    fail(ErrorCode::ground_missing, place(to.item), "the way to it follows the ground, and leaves it",
+         "take a scene that reaches so far");
+  }
+  const auto above = [&](double share) {
+    return *from.above_ground_m + share * (*to.above_ground_m - *from.above_ground_m);
+  };
+  for (plans::ProfilePoint& point : profile) point.z_m += above(point.share);
+  profile = plans::thinned(profile, options_.ground_error_m);
+  // Where the ground jumps at an end, the way goes up or down there.
+  constexpr double kSameM = 1e-6;
+  const auto push_at = [&](double share, double z, bool is_end) {
+    const Point at = from.position.head<2>() + share * (to.position - from.position).head<2>();
+    push({at.x(), at.y(), z}, to, is_end);
+  };
+  const bool jumps_at_begin = std::abs(profile.front().z_m - located_.flight.points.back().position.z()) > kSameM;
+  const bool jumps_at_end = is_last && std::abs(profile.back().z_m - to.position.z()) > kSameM;
+  for (std::size_t i = jumps_at_begin ? 0 : 1; i < profile.size(); ++i) {
+    push_at(profile[i].share, profile[i].z_m, is_last && !jumps_at_end && i + 1 == profile.size());
+  }
+  if (jumps_at_end) push_at(1, to.position.z(), true);
+}
+
+LocatedPlan Locator::locate() {
+  for (std::size_t i = 0; i < plan_.items.size(); ++i) {
+    switch (plan_.items[i].kind) {
+      case PlanItemKind::waypoint:
+        add(corner_of(i));
+        break;
+      case PlanItemKind::takeoff:
+        add_takeoff(i);
+        break;
+      case PlanItemKind::loiter:
+        add_loiter(i);
+        break;
+      case PlanItemKind::land:
+        add_landing(i);
+        break;
+      case PlanItemKind::return_home:
+        add_return(i);
+        break;
+    }
+    if (corners_.size() > kMostFlightPoints) {
+      fail(ErrorCode::work_too_large, place(i), "the flight takes more than a million points",
+           "take a part of the plan, or allow a larger error of chords");
+    }
+  }
+  for (const Corner& corner : corners_) has_curves_ = has_curves_ || corner.cut_m > 0;
+  const std::vector<Corner> corners = with_cut_corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i == 0) {
+      push(corners[i].position, corners[i], true);
+    } else {
+      add_leg(corners[i - 1], corners[i]);
+    }
+  }
+  located_.flight.chord_error_m =
+      (frame_ || has_curves_ ? options_.chord_error_m : 0) + (has_following_ ? options_.ground_error_m : 0);
+  const auto home = home_position();
+  if (home && known_home_z()) located_.home = Vec3(home->x(), home->y(), *known_home_z());
+  using internal::core::count_text;
+  if (timed_circles_ > 0) {
+    note(count_text(timed_circles_, "loiter is", "loiters are") +
+         " for a time, and no speed is known: one circle is taken");
+  }
+  if (level_returns_ > 0) {
+    note(
+        "the return to the home is taken at the height of the last item: the height that the vehicle is set to is not "
+        "in the plan");
+  }
+  check_flight_points(located_.flight);
+  return std::move(located_);
+}
+
+}  // namespace
+
+LocatedPlan locate_flight(const FlightPlan& plan, const LocateOptions& options) {
+  return Locator(plan, options).locate();
+}
+
+}  // namespace vantage

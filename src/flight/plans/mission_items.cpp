@@ -1,0 +1,333 @@
+#include "flight/plans/mission_items.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "core/text.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+
+/// Commands that move no vehicle: conditions, modes, cameras, servos, fences, parachutes, engines, markers.
+bool moves_nothing(int command) {
+  constexpr std::array kCommands = {91,   112,  114,  176,  180,  181,  182,  183,  184,  187,  189,   190,
+                                    194,  200,  202,  203,  204,  206,  207,  208,  209,  211,  212,   214,
+                                    215,  218,  220,  221,  222,  223,  224,  240,  241,  247,  530,   531,
+                                    532,  533,  534,  2000, 2001, 2003, 2500, 2501, 2502, 2503, 2510,  2511,
+                                    2520, 3000, 4000, 4001, 5000, 5001, 5002, 5003, 5004, 5100, 42600, 42700};
+  return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
+}
+
+bool is_given(double latitude, double longitude) {
+  if (std::isnan(latitude) || std::isnan(longitude)) return false;
+  return latitude != 0 || longitude != 0;  // both 0: "here", as autopilots take it
+}
+
+/// Runs one item after the other.
+class Runner {
+ public:
+  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, FlightPlan& plan)
+      : mission_(mission), source_(source), plan_(plan), jumps_left_(mission.size(), -1) {
+    for (std::size_t i = 0; i < mission.size(); ++i) {
+      if (mission[i].id >= 0) index_of_.emplace(mission[i].id, i);
+    }
+  }
+
+  void run();
+
+ private:
+  bool move(const MissionItem& item);  ///< false for a command of another kind
+  bool set(const MissionItem& item);   ///< likewise
+  void loiter(const MissionItem& item, double radius_m, double turns, double hold_s);
+  void land(const MissionItem& item);
+  void turn_camera(const MissionItem& item);
+  std::optional<std::size_t> jump(std::size_t at);
+  PlanItem& add(PlanItemKind kind, const MissionItem& item);
+  void add_notes();
+  void note(WarningCode code, const std::string& text) { plan_.notes.push_back({code, source_.name + ": " + text}); }
+  [[noreturn]] static void fail(ErrorCode code, const MissionItem& item, const std::string& problem,
+                                const std::string& fix) {
+    PlanSource::fail_at(code, item.place, problem, fix);
+  }
+
+  const std::vector<MissionItem>& mission_;
+  const PlanSource& source_;
+  FlightPlan& plan_;
+  std::unordered_map<long long, std::size_t> index_of_;
+  std::vector<long long> jumps_left_;  // of each DO_JUMP; -1: not come to yet
+  bool is_over_ = false;
+  // What holds for the items to come.
+  double speed_m_s_ = kNotGiven;
+  std::optional<double> yaw_deg_, gimbal_yaw_deg_, gimbal_pitch_deg_;
+  bool gimbal_yaw_from_north_ = false;
+  std::optional<PlanPosition> look_at_;
+  // For notes.
+  std::map<std::string, std::size_t> unknown_;
+  std::size_t splines_ = 0, airspeeds_ = 0, unlimited_ = 0, climbs_ = 0, endless_jumps_ = 0, not_flown_ = 0;
+};
+
+void Runner::run() {
+  // Each step is an item or a jump; a jump takes one of a count, or leads on.
+  std::size_t steps = 0;
+  for (std::size_t at = 0; at < mission_.size() && !is_over_;) {
+    source_.progress.tick();
+    const MissionItem& item = mission_[at];
+    if (++steps > 4 * kMostPlanItems || plan_.items.size() > kMostPlanItems) {
+      fail(ErrorCode::value_out_of_range, item,
+           "with its jumps the plan has more than " + std::to_string(kMostPlanItems) + " items",
+           "let it jump less often");
+    }
+    if (item.command == kDoJump) {
+      at = jump(at).value_or(at + 1);
+      continue;
+    }
+    if (!move(item) && !set(item) && !moves_nothing(item.command)) {
+      ++unknown_["of command " + std::to_string(item.command)];
+    }
+    ++at;
+    if (is_over_) not_flown_ = mission_.size() - at;
+  }
+  add_notes();
+}
+
+PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
+  PlanItem& added = plan_.items.emplace_back();
+  added.kind = kind;
+  added.place = item.place;
+  if (kind != PlanItemKind::return_home) {
+    added.position = position_of(item);
+    const PlanItem* const before = plan_.items.size() > 1 ? &*std::prev(plan_.items.end(), 2) : nullptr;
+    const bool is_here = !added.position.horizontal.allFinite();
+    if (is_here && kind != PlanItemKind::takeoff) {
+      if (!before || !before->position.horizontal.allFinite()) {
+        fail(ErrorCode::plan_empty, item, "the item has no position, and none is before it", "give it one");
+      }
+      added.position.horizontal = before->position.horizontal;
+    }
+    added.follows_ground = added.position.datum == HeightDatum::ground && before &&
+                           before->position.datum == HeightDatum::ground && item.frame != kGlobal;
+  }
+  added.speed_m_s = speed_m_s_;
+  added.yaw_deg = yaw_deg_;
+  added.gimbal_yaw_deg = gimbal_yaw_deg_;
+  added.gimbal_yaw_from_north = gimbal_yaw_from_north_;
+  added.gimbal_pitch_deg = gimbal_pitch_deg_;
+  added.look_at = look_at_;
+  return added;
+}
+
+bool Runner::move(const MissionItem& item) {
+  const auto& p = item.parameters;
+  const auto or_zero = [&](std::size_t i) { return std::isnan(p[i]) ? 0 : p[i]; };
+  switch (item.command) {
+    case kNavSpline:
+    case kNavWaypoint: {
+      splines_ += item.command == kNavSpline ? 1 : 0;
+      PlanItem& added = add(PlanItemKind::waypoint, item);
+      added.hold_s = std::max(or_zero(0), 0.0);
+      added.acceptance_radius_m = item.command == kNavSpline ? 0 : or_zero(1);
+      // 0 is north in the standard, and "not given" to those who write the files.
+      if (or_zero(3) != 0) added.yaw_deg = p[3];
+      return true;
+    }
+    case kNavLoiterUnlimited:
+      ++unlimited_;
+      loiter(item, or_zero(2), 1, 0);
+      return true;
+    case kNavLoiterTurns:
+      loiter(item, or_zero(2), std::max(or_zero(0), 0.0), 0);
+      return true;
+    case kNavLoiterTime:
+      loiter(item, or_zero(2), 1, std::max(or_zero(0), 0.0));
+      return true;
+    case kNavLoiterToAltitude:
+      ++climbs_;
+      loiter(item, or_zero(1), 1, 0);
+      return true;
+    case kNavReturn:
+      add(PlanItemKind::return_home, item);
+      is_over_ = true;
+      return true;
+    case kNavLand:
+    case kNavVtolLand:
+      land(item);
+      return true;
+    case kNavTakeoff:
+    case kNavVtolTakeoff:
+      add(PlanItemKind::takeoff, item);
+      return true;
+    case kNavDelay:
+      if (!plan_.items.empty() && or_zero(0) > 0) plan_.items.back().hold_s += p[0];
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// A multirotor that is told to loiter for a time stays where it is; others circle. Without a kind of vehicle the
+/// radius tells.
+void Runner::loiter(const MissionItem& item, double radius_m, double turns, double hold_s) {
+  PlanItem& added = add(PlanItemKind::loiter, item);
+  const bool can_stay =
+      plan_.vehicle == PlanVehicle::multirotor || (plan_.vehicle == PlanVehicle::unknown && radius_m == 0);
+  const bool is_circle = item.command == kNavLoiterTurns || !can_stay;
+  added.loiter_radius_m = is_circle ? radius_m : 0;
+  added.turns = is_circle ? turns : 0;
+  added.hold_s = hold_s;
+}
+
+/// At the height before, and then straight down, or for a fixed wing on a slope.
+void Runner::land(const MissionItem& item) {
+  PlanItem& added = add(PlanItemKind::land, item);
+  if (std::isnan(added.position.height_m)) added.position = {added.position.horizontal, 0, HeightDatum::home};
+}
+
+bool Runner::set(const MissionItem& item) {
+  const auto& p = item.parameters;
+  switch (item.command) {
+    case kDoChangeSpeed:  // 0: of the air, 1: over ground; others climb
+      if (!(p[0] >= 2) && p[1] > 0) {
+        speed_m_s_ = p[1];
+        airspeeds_ += p[0] != 1 && plan_.vehicle == PlanVehicle::fixed_wing ? 1 : 0;
+      }
+      return true;
+    case kDoSetHome:
+      if (p[0] != 1) {  // 1: where it is
+        const PlanPosition home = position_of(item);
+        if (home.horizontal.allFinite()) plan_.home = home;
+      }
+      return true;
+    case kConditionYaw:
+      if (p[3] == 0 && !std::isnan(p[0])) yaw_deg_ = p[0];
+      return true;
+    case kDoSetRoiLocation:
+    case kDoSetRoi:
+    case kNavRoi:
+    case kDoSetRoiNone:
+    case kDoMountControl:
+    case kDoGimbalPitchYaw:
+      turn_camera(item);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Runner::turn_camera(const MissionItem& item) {
+  const auto& p = item.parameters;
+  constexpr double kLocation = 3;    // MAV_ROI_LOCATION
+  constexpr unsigned kYawLock = 16;  // GIMBAL_MANAGER_FLAGS_YAW_LOCK: yaw is from north
+  const auto given = [](double angle) { return std::isnan(angle) ? std::nullopt : std::optional(angle); };
+  const bool is_location = item.command == kDoSetRoiLocation || (item.command != kDoSetRoiNone && p[0] == kLocation);
+  look_at_.reset();
+  gimbal_yaw_deg_.reset();
+  gimbal_pitch_deg_.reset();
+  if (item.command == kDoMountControl) {
+    gimbal_pitch_deg_ = given(p[0]);
+    gimbal_yaw_deg_ = given(p[2]);
+    gimbal_yaw_from_north_ = false;
+  } else if (item.command == kDoGimbalPitchYaw) {
+    gimbal_pitch_deg_ = given(p[0]);
+    gimbal_yaw_deg_ = given(p[1]);
+    gimbal_yaw_from_north_ = p[4] >= 0 && p[4] < 1e9 && (static_cast<unsigned>(p[4]) & kYawLock) != 0;
+  } else if (is_location) {
+    const PlanPosition position = position_of(item);
+    if (position.horizontal.allFinite()) look_at_ = position;
+  }
+}
+
+/// The item to go on with, or nothing where the jump was made often enough. As ArduPilot does, the count goes on when
+/// the jump is come to again.
+std::optional<std::size_t> Runner::jump(std::size_t at) {
+  const MissionItem& item = mission_[at];
+  const double id = item.parameters[0], repeat = item.parameters[1];
+  const auto target = std::abs(id) < 1e15 ? index_of_.find(std::llround(id)) : index_of_.end();
+  if (target == index_of_.end()) {
+    fail(ErrorCode::index_out_of_range, item, "it jumps to an item that is not there", "name an item of the plan");
+  }
+  long long& left = jumps_left_[at];
+  if (left < 0) {
+    if (!(repeat >= -1) || !(repeat <= 1e6)) {
+      fail(ErrorCode::value_out_of_range, item, "the number of its jumps is not one that can be followed",
+           "give 0 to 1000000, or -1 for jumps without end");
+    }
+    endless_jumps_ += repeat < 0 ? 1 : 0;
+    left = repeat < 0 ? 1 : std::llround(repeat);
+  }
+  if (left == 0) return std::nullopt;
+  --left;
+  return target->second;
+}
+
+void Runner::add_notes() {
+  if (!unknown_.empty()) {
+    const bool may_move = std::any_of(unknown_.begin(), unknown_.end(), [](const auto& entry) {
+      return std::stoi(entry.first.substr(entry.first.rfind(' '))) < 100;
+    });
+    note(WarningCode::plan_left_out, "items of commands that are not known here were left out: " + counted(unknown_) +
+                                         (may_move ? "; they may move the vehicle" : ""));
+  }
+  if (not_flown_ > 0) {
+    note(WarningCode::plan_left_out,
+         core::count_text(not_flown_, "item is", "items are") + " after the return to the home, and not flown");
+  }
+  const auto assume = [this](std::size_t count, const char* one, const char* many, const char* what) {
+    if (count > 0) note(WarningCode::plan_assumed, core::count_text(count, one, many) + what);
+  };
+  assume(splines_, "spline waypoint", "spline waypoints",
+         ": the legs are taken as straight, and the vehicle flies curves of its own");
+  assume(airspeeds_, "speed is", "speeds are", " through the air, and taken as over ground");
+  assume(unlimited_, "loiter has", "loiters have", " no end: one circle is taken, or a point, and then what follows");
+  assume(climbs_, "climb in circles is", "climbs in circles are", " taken as one circle at the height that it ends at");
+  assume(endless_jumps_, "jump has", "jumps have", " no end: taken once");
+}
+
+}  // namespace
+
+PlanPosition position_of(const MissionItem& item) {
+  const double latitude = item.parameters[4], longitude = item.parameters[5];
+  PlanPosition position;
+  if (item.frame == kMission && !is_given(latitude, longitude)) return position;
+  position.height_m = item.parameters[6];
+  switch (item.frame) {
+    case kGlobal:
+    case kGlobalInt:
+      position.datum = HeightDatum::sea_level;
+      if (std::isnan(position.height_m) && !std::isnan(item.above_ground_m)) {
+        position.height_m = item.above_ground_m;
+        position.datum = HeightDatum::ground;
+      }
+      break;
+    case kGlobalRelative:
+    case kGlobalRelativeInt:
+      position.datum = HeightDatum::home;
+      break;
+    case kGlobalTerrain:
+    case kGlobalTerrainInt:
+      position.datum = HeightDatum::ground;
+      break;
+    default:
+      PlanSource::fail_at(ErrorCode::value_unsupported, item.place,
+                          "its frame, " + std::to_string(item.frame) + ", is not one of the earth",
+                          "give positions in frame 0 (heights above sea level), 3 (above home) or 10 (above terrain)");
+  }
+  if (!is_given(latitude, longitude)) return position;
+  const bool is_scaled =
+      item.frame == kGlobalInt || item.frame == kGlobalRelativeInt || item.frame == kGlobalTerrainInt;
+  const double unit = is_scaled && (std::abs(latitude) > 180 || std::abs(longitude) > 180) ? 1e-7 : 1;
+  position.horizontal = checked_lonlat(longitude * unit, latitude * unit, item.place);
+  return position;
+}
+
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, FlightPlan& plan) {
+  Runner(mission, source, plan).run();
+}
+
+}  // namespace vantage::internal::flight::plans

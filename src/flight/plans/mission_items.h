@@ -1,0 +1,71 @@
+// The commands of MAVLink missions (https://mavlink.io/en/messages/common.html, "MAV_CMD"), as QGroundControl's plans
+// and tables of waypoints hold them, made into the items of a plan.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "flight/plans/plan_source.h"
+
+namespace vantage::internal::flight::plans {
+
+/// MAV_CMD.
+enum MissionCommand : int {
+  kNavWaypoint = 16,
+  kNavLoiterUnlimited = 17,
+  kNavLoiterTurns = 18,
+  kNavLoiterTime = 19,
+  kNavReturn = 20,
+  kNavLand = 21,
+  kNavTakeoff = 22,
+  kNavLoiterToAltitude = 31,
+  kNavRoi = 80,
+  kNavSpline = 82,
+  kNavVtolTakeoff = 84,
+  kNavVtolLand = 85,
+  kNavDelay = 93,
+  kConditionYaw = 115,
+  kDoJump = 177,
+  kDoChangeSpeed = 178,
+  kDoSetHome = 179,
+  kDoSetRoiLocation = 195,
+  kDoSetRoiNone = 197,
+  kDoSetRoi = 201,
+  kDoMountControl = 205,
+  kDoGimbalPitchYaw = 1000,
+  kImageStart = 2000,
+  kVideoStart = 2500,
+  kVideoStop = 2501,
+};
+
+/// MAV_FRAME. Those with INT have the same positions in units of 1e-7 degrees, in messages; files have degrees.
+enum MissionFrame : int {
+  kGlobal = 0,
+  kMission = 2,  ///< no position
+  kGlobalRelative = 3,
+  kGlobalInt = 5,
+  kGlobalRelativeInt = 6,
+  kGlobalTerrain = 10,
+  kGlobalTerrainInt = 11,
+};
+
+struct MissionItem {
+  int command = 0, frame = kMission;
+  std::array<double, 7> parameters{};  ///< NaN: not given
+  /// Of a height that QGroundControl computes from its terrain: that above ground, where its height above sea level is
+  /// missing.
+  double above_ground_m = std::numeric_limits<double>::quiet_NaN();
+  long long id = -1;  ///< what DO_JUMP names; below 0: none
+  std::string place;
+};
+
+/// Runs the mission from its first item to its last, jumps followed, into `plan`, whose vehicle and home are set.
+/// Throws Error(input) with the item's place.
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, FlightPlan& plan);
+
+/// Where an item is, if its frame is one of the earth. Throws Error(input) for one that is not.
+PlanPosition position_of(const MissionItem& item);
+
+}  // namespace vantage::internal::flight::plans

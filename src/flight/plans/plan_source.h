@@ -1,0 +1,68 @@
+// What all readers of plans share: the text with its name, tracks, checks and errors.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/progress_reporter.h"
+#include "vantage/error.h"
+#include "vantage/flight_plan.h"
+
+namespace vantage::internal::flight::plans {
+
+struct PlanSource {
+  std::string_view text;
+  std::string name;   ///< of the file, for messages
+  std::string track;  ///< ReadPlanOptions::track
+  core::ProgressReporter progress;
+
+  /// "a.plan: item 3".
+  std::string place(const std::string& within) const { return within.empty() ? name : name + ": " + within; }
+  /// `where` as place() makes it.
+  [[noreturn]] static void fail_at(ErrorCode code, const std::string& where, const std::string& problem,
+                                   const std::string& fix) {
+    throw Error(code, problem, where, fix);
+  }
+  [[noreturn]] void fail(ErrorCode code, const std::string& within, const std::string& problem,
+                         const std::string& fix) const {
+    fail_at(code, place(within), problem, fix);
+  }
+};
+
+/// Longitude and latitude, checked to be on the earth; `where` as place() makes it. Throws Error(input).
+Eigen::Vector2d checked_lonlat(double longitude_deg, double latitude_deg, const std::string& where);
+
+/// Of several that a file may have.
+struct PlanTrack {
+  std::string name;   ///< may be empty
+  std::string place;  ///< within the file: "line 12"
+  std::vector<PlanItem> items;
+};
+
+/// The track that was asked for, or all of them, one after the other, with a note. Throws Error(input) where there is
+/// none of that name, or none with items.
+void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* many, const PlanSource& source,
+                 FlightPlan& plan);
+
+/// "2 surveys, 1 point" of what was counted, the names as they are.
+std::string counted(const std::map<std::string, std::size_t>& counts);
+
+/// Throws Error(input) for a plan without positions or with too many items, and with an item's place for numbers that
+/// are not finite or cannot be.
+void check_plan(const FlightPlan& plan, const PlanSource& source);
+
+// ---- the formats ----
+
+/// A plan of QGroundControl, or GeoJSON: told by its members.
+FlightPlan read_json(const PlanSource& source);
+FlightPlan read_waypoints(const PlanSource& source);
+/// KML, or WPML: told by the names of its elements.
+FlightPlan read_kml(const PlanSource& source);
+FlightPlan read_gpx(const PlanSource& source);
+FlightPlan read_csv(const PlanSource& source);
+
+}  // namespace vantage::internal::flight::plans

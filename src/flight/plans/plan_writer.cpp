@@ -1,0 +1,235 @@
+#include "flight/plans/plan_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "core/format.h"
+#include "flight/plans/arcs.h"
+#include "vantage/atomic_file.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+double rounded(double value, double steps) { return std::round(value * steps) / steps + 0.0; }  // no -0
+
+bool is_finite(const std::optional<double>& value) { return !value || std::isfinite(*value); }
+
+}  // namespace
+
+PlanWriter::PlanWriter(const FlightOut& flight, PlanFormat format, const std::vector<HeightDatum>& allowed)
+    : flight_(flight), levels_(flight.georeference, flight.levels), heights_(allowed.front()) {
+  check_flight_points(flight.flight);
+  check_actions();
+  std::string choice;
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    const bool is_last = i + 1 == allowed.size();
+    choice.append(i == 0 ? "" : is_last ? " or " : ", ").append(name_of(allowed[i]));
+  }
+  if (!flight.heights && allowed.size() > 1) {
+    throw Error(ErrorCode::missing_key, std::string(name_of(format)) + " can state heights in several ways", place(),
+                "say what heights are measured from: " + choice);
+  }
+  if (flight.heights) heights_ = *flight.heights;
+  if (std::find(allowed.begin(), allowed.end(), heights_) == allowed.end()) {
+    throw Error(ErrorCode::value_unsupported,
+                std::string(name_of(format)) + " has no heights above " + name_of(heights_), place(),
+                "choose " + choice);
+  }
+  if (flight.georeference)
+    frame_.emplace(geo::LonLat{flight.georeference->longitude_deg, flight.georeference->latitude_deg});
+}
+
+void PlanWriter::check_actions() const {
+  const std::size_t count = flight_.flight.points.size();
+  if (!flight_.actions.empty() && flight_.actions.size() != count) {
+    throw Error(
+        ErrorCode::array_sizes_differ,
+        "there are " + std::to_string(flight_.actions.size()) + " actions for " + std::to_string(count) + " points",
+        place(), "give one for each point, or none");
+  }
+  if (!(flight_.chord_error_m > 0) || !std::isfinite(flight_.chord_error_m)) {
+    throw Error(ErrorCode::value_out_of_range, "the error of chords is not a positive number", place(), "give metres");
+  }
+  for (std::size_t i = 0; i < flight_.actions.size(); ++i) {
+    const FlightAction& action = flight_.actions[i];
+    const std::string where = place() + ", point " + std::to_string(i + 1);
+    if (action.look_at && !action.look_at->allFinite()) {
+      throw Error(ErrorCode::coordinate_not_finite, "what the camera is turned to is not finite", where,
+                  "give three numbers");
+    }
+    constexpr double kMostTurns = 1000, kWidestM = 100e3;
+    const bool is_good = is_finite(action.yaw_deg) && is_finite(action.gimbal_pitch_deg) &&
+                         std::abs(action.loiter_radius_m) <= kWidestM &&
+                         (action.loiter_radius_m == 0 || (action.turns > 0 && action.turns <= kMostTurns));
+    if (!is_good) {
+      throw Error(ErrorCode::value_out_of_range, "an angle, a radius or a number of turns cannot be flown", where,
+                  "give finite angles, a radius up to 100 km, and up to 1000 turns");
+    }
+  }
+}
+
+Eigen::Vector2d PlanWriter::lonlat(const Vec3& position) const {
+  if (!frame_) {
+    throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and a plan needs it",
+                place(),
+                "give a scene of a map, or its place: 'origin' under 'scene'; or write CSV with z of the scene");
+  }
+  constexpr double kSteps = 1e11;  // a millionth of a metre
+  const geo::LonLat at = frame_->to_lonlat(position.head<2>());
+  return {rounded(at.longitude_deg, kSteps), rounded(at.latitude_deg, kSteps)};
+}
+
+bool PlanWriter::knows(HeightDatum datum) const {
+  return datum == HeightDatum::sea_level ? levels_.knows_sea_level()
+                                         : datum != HeightDatum::ellipsoid || levels_.knows_ellipsoid();
+}
+
+double PlanWriter::height(const Vec3& position, HeightDatum datum) const {
+  double level = 0;
+  if (datum == HeightDatum::sea_level) level = levels_.sea_level_z(place());
+  if (datum == HeightDatum::ellipsoid) level = levels_.ellipsoid_z(place());
+  if (datum == HeightDatum::home) level = home().z();
+  return rounded(position.z() - level, 1e6);
+}
+
+const Vec3& PlanWriter::home() const {
+  if (!flight_.home || !flight_.home->allFinite()) {
+    throw Error(ErrorCode::missing_key, "the place of takeoff is not known", place(), "give the home");
+  }
+  return *flight_.home;
+}
+
+std::vector<OutPoint> PlanWriter::points(bool with_circles) const {
+  std::vector<OutPoint> points;
+  const std::vector<FlightPoint>& corners = flight_.flight.points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    OutPoint point;
+    point.position = corners[i].position;
+    point.hold_s = corners[i].hold_s;
+    point.speed_m_s = std::isnan(corners[i].speed_m_s) ? flight_.speed_m_s : corners[i].speed_m_s;
+    if (!flight_.actions.empty()) point.action = flight_.actions[i];
+    const double radius = point.action.loiter_radius_m, turns = point.action.turns;
+    if (radius == 0 || with_circles) {
+      points.push_back(point);
+      continue;
+    }
+    if (chord_count(radius, turns, flight_.chord_error_m) + static_cast<double>(points.size()) >
+        static_cast<double>(kMostPlanItems)) {
+      throw Error(ErrorCode::work_too_large, "the circles take too many chords", place(),
+                  "allow a larger error of chords");
+    }
+    const Eigen::Vector2d centre = point.position.head<2>();
+    const Eigen::Vector2d towards =
+        points.empty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(points.back().position.head<2>() - centre);
+    bool is_first = true;
+    for (const Eigen::Vector2d& at : circle_points(towards, radius, turns, flight_.chord_error_m)) {
+      OutPoint part = point;
+      part.position.head<2>() += at;
+      part.is_of_circle = true;
+      if (!is_first) {
+        part.hold_s = 0;
+        part.action.photo = part.action.video = false;
+      }
+      is_first = false;
+      points.push_back(part);
+    }
+  }
+  return points;
+}
+
+CameraAngles camera_angles(const OutPoint& point) {
+  const FlightAction& action = point.action;
+  CameraAngles angles{action.yaw_deg, action.gimbal_pitch_deg};
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  if (action.look_at) {
+    const Vec3 to = *action.look_at - point.position;
+    const double across = to.head<2>().norm();
+    if (across > 0) angles.yaw_deg = std::atan2(to.x(), to.y()) * kDegrees;
+    angles.pitch_deg = std::atan2(to.z(), across) * kDegrees;
+  }
+  if (angles.yaw_deg) angles.yaw_deg = std::remainder(*angles.yaw_deg, 360);
+  return angles;
+}
+
+std::string decimal(double number, int decimals) {
+  std::string text = core::format("{:.{}f}", number, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string xml_text(std::string_view text) {
+  std::string escaped;
+  for (const char c : printable(text)) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace vantage::internal::flight::plans
+
+namespace vantage {
+
+namespace plans = internal::flight::plans;
+
+PlanFormat plan_format_of(const std::filesystem::path& file) {
+  std::string end = file.extension().string();
+  for (char& c : end) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (end == ".plan") return PlanFormat::qgroundcontrol;
+  if (end == ".waypoints") return PlanFormat::waypoints;
+  if (end == ".kml") return PlanFormat::kml;
+  if (end == ".kmz") return PlanFormat::wpml;
+  if (end == ".gpx") return PlanFormat::gpx;
+  if (end == ".geojson") return PlanFormat::geojson;
+  if (end == ".csv") return PlanFormat::csv;
+  throw Error(ErrorCode::output_format_unknown, "the name does not say which plan is to be written", file.string(),
+              "let it end in .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv");
+}
+
+std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format) {
+  switch (format) {
+    case PlanFormat::qgroundcontrol:
+      return plans::write_qgroundcontrol(flight);
+    case PlanFormat::waypoints:
+      return plans::write_waypoints(flight);
+    case PlanFormat::kml:
+      return plans::write_kml(flight);
+    case PlanFormat::wpml:
+      return plans::write_wpml(flight);
+    case PlanFormat::gpx:
+      return plans::write_gpx(flight);
+    case PlanFormat::geojson:
+      return plans::write_geojson(flight);
+    case PlanFormat::csv:
+      break;
+  }
+  return plans::write_csv(flight);
+}
+
+void write_flight_plan(const FlightOut& flight, const std::filesystem::path& file) {
+  write_whole_file(file, flight_plan_bytes(flight, plan_format_of(file)));
+}
+
+}  // namespace vantage

@@ -1,0 +1,79 @@
+// What all writers of plans share: positions on the earth, heights, and numbers as text.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "flight/plans/levels.h"
+#include "geo/local_frame.h"
+#include "vantage/flight_plan.h"
+
+namespace vantage::internal::flight::plans {
+
+/// A point as it is written.
+struct OutPoint {
+  Vec3 position;                     ///< scene frame
+  double hold_s = 0, speed_m_s = 0;  ///< the speed of the leg that ends here; NaN: not stated
+  FlightAction action;
+  bool is_of_circle = false;  ///< one of the chords' ends
+};
+
+class PlanWriter {
+ public:
+  /// Checks the flight, its actions and its heights, which `allowed` lists; where there is one alone, it need not be
+  /// given. Throws Error(input).
+  PlanWriter(const FlightOut& flight, PlanFormat format, const std::vector<HeightDatum>& allowed);
+
+  const FlightOut& flight() const { return flight_; }
+  HeightDatum heights() const { return heights_; }
+  const std::string& place() const { return flight_.name; }  ///< for messages
+
+  bool is_on_earth() const { return frame_.has_value(); }
+  /// Longitude and latitude, rounded to 1e-11 degrees. Throws Error(not_georeferenced).
+  Eigen::Vector2d lonlat(const Vec3& position) const;
+  /// Rounded to a micrometre. Throws Error(height_unknown), and missing_key for a home that is needed.
+  double height(const Vec3& position, HeightDatum datum) const;
+  double height(const Vec3& position) const { return height(position, heights_); }
+  bool knows(HeightDatum datum) const;
+  /// Throws Error(missing_key).
+  const Vec3& home() const;
+
+  /// The points with their actions. `with_circles`: circles stay one point; else they become chords.
+  std::vector<OutPoint> points(bool with_circles) const;
+
+ private:
+  void check_actions() const;
+
+  const FlightOut& flight_;
+  Levels levels_;
+  std::optional<geo::LocalFrame> frame_;
+  HeightDatum heights_;
+};
+
+/// Angles to what the camera is turned to, or those that are given. Degrees; the yaw in -180 to 180.
+struct CameraAngles {
+  std::optional<double> yaw_deg, pitch_deg;
+};
+CameraAngles camera_angles(const OutPoint& point);
+
+/// A number with so many decimals at most, none that are zero: "48.1", "-0.5", "0".
+std::string decimal(double number, int decimals);
+
+/// "&lt;" and so on; characters that XML cannot hold become blanks.
+std::string xml_text(std::string_view text);
+
+// ---- the formats ----
+
+std::string write_qgroundcontrol(const FlightOut& flight);
+std::string write_waypoints(const FlightOut& flight);
+std::string write_wpml(const FlightOut& flight);
+std::string write_kml(const FlightOut& flight);
+std::string write_gpx(const FlightOut& flight);
+std::string write_geojson(const FlightOut& flight);
+std::string write_csv(const FlightOut& flight);
+
+}  // namespace vantage::internal::flight::plans

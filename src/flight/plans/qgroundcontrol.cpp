@@ -1,0 +1,227 @@
+// Plans of QGroundControl: https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/plan.html
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flight/plans/json_text.h"
+#include "flight/plans/mission_items.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+/// A number, or NaN for null; nothing else.
+double number_or_nan(const json& value, const std::string& where, const std::string& what) {
+  if (value.is_null()) return kNoNumber;
+  if (value.is_number()) return value.get<double>();
+  PlanSource::fail_at(ErrorCode::not_a_number, where, what + " is not a number", "give a number, or null");
+}
+
+double member_or_nan(const json& object, const char* key, const std::string& where) {
+  const auto found = object.find(key);
+  return found == object.end() ? kNoNumber : number_or_nan(*found, where, in_quotes(key));
+}
+
+int integer_member(const json& object, const char* key, const std::string& where) {
+  const double value = member_or_nan(object, key, where);
+  if (std::abs(value) < 1e6 && value == std::floor(value)) return static_cast<int>(value);
+  PlanSource::fail_at(ErrorCode::plan_syntax, where, std::string("it has no ") + in_quotes(key) + ", an integer",
+                      "save the plan anew with the ground station");
+}
+
+/// What DO_JUMP calls it; -1: nothing.
+long long id_of(const json& item, const std::string& where) {
+  const double id = member_or_nan(item, "doJumpId", where);
+  return id >= 0 && id < 1e15 ? std::llround(id) : -1;
+}
+
+bool is_true(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
+class GroundStationPlan {
+ public:
+  explicit GroundStationPlan(const PlanSource& source) : source_(source) {}
+
+  FlightPlan read(const json& root) {
+    plan_.format = PlanFormat::qgroundcontrol;
+    plan_.file = source_.name;
+    const auto mission = root.find("mission");
+    if (mission == root.end() || !mission->is_object()) {
+      source_.fail(ErrorCode::plan_empty, "mission", "the plan has no mission", "save it anew with the ground station");
+    }
+    read_vehicle(*mission);
+    const auto items = mission->find("items");
+    if (items == mission->end() || !items->is_array()) {
+      source_.fail(ErrorCode::plan_syntax, "mission.items", "it is not an array",
+                   "save the plan anew with the ground station");
+    }
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      add((*items)[i], source_.place("item " + std::to_string(i + 1)));
+    }
+    run_mission(items_, source_, plan_);
+    check_plan(plan_, source_);
+    return std::move(plan_);
+  }
+
+ private:
+  void read_vehicle(const json& mission) {
+    const std::string where = source_.place("mission");
+    const double type = member_or_nan(mission, "vehicleType", where);  // MAV_TYPE
+    const auto is_one_of = [&](std::initializer_list<int> types) {
+      return std::any_of(types.begin(), types.end(), [&](int other) { return type == other; });
+    };
+    if (is_one_of({1})) plan_.vehicle = PlanVehicle::fixed_wing;
+    if (is_one_of({2, 3, 4, 13, 14, 15, 29, 35})) plan_.vehicle = PlanVehicle::multirotor;
+    if (is_one_of({19, 20, 21, 22, 23, 24, 25})) plan_.vehicle = PlanVehicle::vtol;
+    const bool hovers = plan_.vehicle == PlanVehicle::multirotor;
+    const double speed = member_or_nan(mission, hovers ? "hoverSpeed" : "cruiseSpeed", where);
+    if (speed > 0 && std::isfinite(speed)) plan_.speed_m_s = speed;
+    const auto home = mission.find("plannedHomePosition");
+    if (home == mission.end() || home->is_null()) return;
+    PlanPosition position = coordinate(*home, source_.place("plannedHomePosition"));
+    position.datum = HeightDatum::sea_level;
+    plan_.home = position;
+  }
+
+  /// [latitude, longitude, height].
+  static PlanPosition coordinate(const json& list, const std::string& where) {
+    if (!list.is_array() || list.size() < 2) {
+      PlanSource::fail_at(ErrorCode::plan_syntax, where, "it is not [latitude, longitude, height]", "correct it");
+    }
+    PlanPosition position;
+    position.horizontal = checked_lonlat(number_or_nan(list[1], where, "the longitude"),
+                                         number_or_nan(list[0], where, "the latitude"), where);
+    if (list.size() > 2) position.height_m = number_or_nan(list[2], where, "the height");
+    return position;
+  }
+
+  void add(const json& item, const std::string& where) {
+    if (!item.is_object()) PlanSource::fail_at(ErrorCode::plan_syntax, where, "it is not an object", "correct it");
+    const std::string type = item.value("type", json()).is_string() ? item["type"].get<std::string>() : "";
+    if (type == "SimpleItem" || type == "missionItem") return add_simple(item, where);
+    if (type == "ComplexItem") return add_complex(item, where);
+    PlanSource::fail_at(ErrorCode::plan_syntax, where, "its type is neither \"SimpleItem\" nor \"ComplexItem\"",
+                        "save the plan anew with the ground station");
+  }
+
+  void add_simple(const json& item, const std::string& where) {
+    MissionItem& added = items_.emplace_back();
+    added.place = where;
+    added.command = integer_member(item, "command", where);
+    added.frame = integer_member(item, "frame", where);
+    const auto parameters = item.find("params");
+    if (parameters == item.end() || !parameters->is_array() || parameters->size() != 7) {
+      PlanSource::fail_at(ErrorCode::plan_syntax, where, "it does not have seven \"params\"",
+                          "save the plan anew with QGroundControl 3.3 or later");
+    }
+    for (std::size_t i = 0; i < 7; ++i) {
+      added.parameters[i] = number_or_nan((*parameters)[i], where, "params[" + std::to_string(i) + "]");
+    }
+    added.id = id_of(item, where);
+    // 3: above terrain, from which the ground station computes the height above sea level; null where it has no
+    // terrain.
+    constexpr double kAboveTerrain = 3;
+    if (member_or_nan(item, "AltitudeMode", where) == kAboveTerrain) {
+      if (std::isnan(added.parameters[6])) added.parameters[6] = member_or_nan(item, "AMSLAltAboveTerrain", where);
+      added.above_ground_m = member_or_nan(item, "Altitude", where);
+    }
+  }
+
+  void add_complex(const json& item, const std::string& where) {
+    const json kind = item.value("complexItemType", json());
+    const std::string name = kind.is_string() ? kind.get<std::string>() : "";
+    const bool is_landing = name == "fwLandingPattern" || name == "vtolLandingPattern";
+    if (is_landing) return add_landing(item, where);
+    const auto style = item.find("TransectStyleComplexItem");
+    const json* stored = style != item.end() && style->is_object() ? &*style : &item;
+    const auto items = stored->find("Items");
+    if (items != stored->end() && items->is_array() && !items->empty()) {
+      for (std::size_t i = 0; i < items->size(); ++i) {
+        const std::string place = where + " (" + name + "), item " + std::to_string(i + 1);
+        if (!(*items)[i].is_object())
+          PlanSource::fail_at(ErrorCode::plan_syntax, place, "it is not an object", "correct it");
+        add_simple((*items)[i], place);
+      }
+      return;
+    }
+    if (add_transects(*stored, where + " (" + name + ")")) return;
+    PlanSource::fail_at(
+        ErrorCode::value_unsupported, where,
+        "its items are not stored in the plan: it is " + (name.empty() ? "a complex item" : "a " + in_quotes(name)),
+        "save the plan with a QGroundControl that stores them, or download it from the vehicle after uploading it");
+  }
+
+  /// The points that a survey shows on the map, at the distance to the surface that it states.
+  bool add_transects(const json& style, const std::string& where) {
+    const auto points = style.find("VisualTransectPoints");
+    const auto camera = style.find("CameraCalc");
+    if (points == style.end() || !points->is_array() || points->empty()) return false;
+    if (camera == style.end() || !camera->is_object()) return false;
+    const double height = member_or_nan(*camera, "DistanceToSurface", where);
+    const double mode = member_or_nan(*camera, "DistanceMode", where);  // 1: above home, 2: above sea level
+    const bool is_relative = is_true(*camera, "DistanceToSurfaceRelative") || mode == 1;
+    const bool is_known = is_relative || mode == 2 || camera->contains("DistanceToSurfaceRelative");
+    if (is_true(style, "FollowTerrain") || std::isnan(height) || !is_known || mode > 2) return false;
+    for (std::size_t i = 0; i < points->size(); ++i) {
+      MissionItem& added = items_.emplace_back();
+      added.place = where + ", point " + std::to_string(i + 1);
+      added.command = kNavWaypoint;
+      added.frame = is_relative ? kGlobalRelative : kGlobal;
+      added.id = -1;
+      const PlanPosition position = coordinate((*points)[i], added.place);
+      added.parameters = {0, 0, 0, kNoNumber, position.horizontal.y(), position.horizontal.x(), height};
+    }
+    return true;
+  }
+
+  /// A circle down to the height of the approach, and a slope to the place of landing.
+  void add_landing(const json& item, const std::string& where) {
+    const bool is_relative = item.value("altitudesAreRelative", json(true)) != json(false);
+    const auto add_at = [&](std::initializer_list<const char*> keys, int command, double radius) {
+      for (const char* key : keys) {
+        const auto found = item.find(key);
+        if (found == item.end()) continue;
+        const PlanPosition position = coordinate(*found, where + ", " + key);
+        MissionItem& added = items_.emplace_back();
+        added.place = where;
+        added.command = command;
+        added.frame = is_relative ? kGlobalRelative : kGlobal;
+        added.id = command == kNavLand ? -1 : id_of(item, where);
+        added.parameters = {
+            0, radius, 0, kNoNumber, position.horizontal.y(), position.horizontal.x(), position.height_m};
+        return;
+      }
+      PlanSource::fail_at(ErrorCode::plan_syntax, where, std::string("it has no ") + in_quotes(*keys.begin()),
+                          "save the plan anew with the ground station");
+    };
+    const double radius = member_or_nan(item, "loiterRadius", where);
+    const bool clockwise = item.value("loiterClockwise", json(true)) != json(false);
+    const bool circles = item.value("useLoiterToAlt", json(true)) != json(false) && radius > 0;
+    add_at({"landingApproachCoordinate", "finalApproachCoordinate", "loiterCoordinate"},
+           circles ? kNavLoiterToAltitude : kNavWaypoint, circles ? (clockwise ? radius : -radius) : 0);
+    add_at({"landCoordinate"}, kNavLand, 0);
+  }
+
+  const PlanSource& source_;
+  FlightPlan plan_;
+  std::vector<MissionItem> items_;
+};
+
+}  // namespace
+
+FlightPlan read_qgroundcontrol(const json& root, const PlanSource& source) {
+  return GroundStationPlan(source).read(root);
+}
+
+}  // namespace vantage::internal::flight::plans

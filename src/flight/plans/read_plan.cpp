@@ -1,0 +1,156 @@
+// Which format a plan is of, and what it is packed in.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/progress_reporter.h"
+#include "flight/plans/plan_source.h"
+#include "flight/plans/text_lines.h"
+#include "io/zip.h"
+#include "vantage/error.h"
+#include "vantage/flight_plan.h"
+#include "vantage/input.h"
+
+namespace vantage {
+namespace {
+
+namespace plans = internal::flight::plans;
+using internal::io::ZipProblem;
+
+constexpr const char* kPlanAdvice =
+    "give a .plan of QGroundControl, a table of waypoints, KML, KMZ, GPX, GeoJSON, or a CSV table with a header";
+
+/// What is in a KMZ archive: DJI's waylines, or else "doc.kml" or the first KML.
+std::string unpacked(const plans::PlanSource& source) {
+  const auto fail = [&](const ZipProblem& problem) {
+    source.fail(problem.is_too_large ? ErrorCode::file_too_large : ErrorCode::plan_syntax, "",
+                "the file is a zip archive, as KMZ is, and " + problem.text,
+                "give a KMZ file, or the .kml or .wpml that is in it");
+  };
+  try {
+    return internal::io::unzipped(source.text, "wpmz/waylines.wpml", ".wpml", kMostPlanBytes);
+  } catch (const ZipProblem& problem) {
+    if (problem.is_too_large) fail(problem);
+  }
+  try {
+    return internal::io::unzipped(source.text, "doc.kml", ".kml", kMostPlanBytes);
+  } catch (const ZipProblem& problem) {
+    fail(problem);
+  }
+  return {};
+}
+
+/// The name of the first element, without its name space.
+std::string_view root_element(std::string_view text) {
+  for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at + 1)) {
+    if (text.substr(at, 4) == "<!--") {  // a comment may hold what looks like elements
+      at = text.find("-->", at);
+      if (at == std::string_view::npos) return {};
+      continue;
+    }
+    if (at + 1 < text.size() && (text[at + 1] == '?' || text[at + 1] == '!')) continue;
+    const std::string_view name = text.substr(at + 1, text.find_first_of(" \t\r\n/>", at + 1) - at - 1);
+    return name.substr(name.rfind(':') + 1);
+  }
+  return {};
+}
+
+FlightPlan parse_text(const plans::PlanSource& source) {
+  const std::string_view text = plans::without_blanks(source.text);
+  if (text.empty()) source.fail(ErrorCode::file_empty, "", "the plan is empty", kPlanAdvice);
+  if (text.front() == '<') {
+    const std::string_view root = root_element(text);
+    if (root == "gpx") return plans::read_gpx(source);
+    if (root == "kml") return plans::read_kml(source);
+    source.fail(ErrorCode::plan_syntax, "", "not a plan: XML about <" + printable(root.substr(0, 60)) + ">",
+                kPlanAdvice);
+  }
+  if (text.front() == '{') return plans::read_json(source);
+  if (text.substr(0, 7) == "QGC WPL") return plans::read_waypoints(source);
+  const bool is_text = std::none_of(text.begin(), text.begin() + std::min<std::size_t>(text.size(), 1000), [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return code < 0x20 && c != '\t' && c != '\r' && c != '\n';
+  });
+  if (!is_text) source.fail(ErrorCode::plan_syntax, "", "not a plan: the file is not text", kPlanAdvice);
+  return plans::read_csv(source);
+}
+
+FlightPlan parse_bytes(std::string_view bytes, const std::string& name, const ReadPlanOptions& options) {
+  plans::PlanSource source;
+  source.text = bytes;
+  source.name = name;
+  source.track = options.track;
+  source.progress = internal::core::ProgressReporter(options.progress, name);
+  source.progress.begin("read the plan");
+  if (bytes.size() > kMostPlanBytes) {
+    source.fail(
+        ErrorCode::file_too_large, "",
+        "the plan is too large: " + std::to_string(bytes.size()) + " bytes, at most " + std::to_string(kMostPlanBytes),
+        "take a part of it");
+  }
+  std::string made;
+  if (internal::io::is_zip(bytes)) {
+    made = unpacked(source);
+    source.text = made;
+    if (internal::io::is_zip(made)) {
+      source.fail(ErrorCode::plan_syntax, "", "the file is a zip archive in a zip archive", "unpack it");
+    }
+  }
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (source.text.substr(0, kMark.size()) == kMark) source.text.remove_prefix(kMark.size());
+  FlightPlan plan = parse_text(source);
+  source.progress.finish();
+  return plan;
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+  check_readable(file, "the plan");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw Error(ErrorCode::file_unreadable, std::string("the plan cannot be read: ") + std::strerror(errno),
+                file.string(), "check its permissions");
+  }
+  // In portions: what a pipe holds is not known before.
+  std::string bytes;
+  constexpr std::size_t kPortion = 1 << 20;
+  while (stream.good() && bytes.size() <= kMostPlanBytes) {
+    const std::size_t read = bytes.size();
+    bytes.resize(read + kPortion);
+    stream.read(bytes.data() + read, static_cast<std::streamsize>(kPortion));
+    bytes.resize(read + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) {
+    throw Error(ErrorCode::file_unreadable, "the plan cannot be read to its end", file.string(),
+                "check the disk that it lies on");
+  }
+  return bytes;
+}
+
+}  // namespace
+
+const char* name_of(HeightDatum datum) {
+  constexpr std::array kNames = {"z of the scene", "sea level", "the WGS 84 ellipsoid",
+                                 "the ground",     "the home",  "an unknown level"};
+  return kNames.at(static_cast<std::size_t>(datum));
+}
+
+const char* name_of(PlanFormat format) {
+  constexpr std::array kNames = {
+      "a plan of QGroundControl", "a table of waypoints", "KML", "WPML", "GPX", "GeoJSON", "CSV"};
+  return kNames.at(static_cast<std::size_t>(format));
+}
+
+FlightPlan parse_flight_plan(std::string_view bytes, const std::string& name, const ReadPlanOptions& options) {
+  return parse_bytes(bytes, name, options);
+}
+
+FlightPlan read_flight_plan(const std::filesystem::path& file, const ReadPlanOptions& options) {
+  return parse_bytes(read_bytes(file), file.string(), options);
+}
+
+}  // namespace vantage

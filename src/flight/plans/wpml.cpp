@@ -1,0 +1,253 @@
+// WPML, the plans of DJI: https://developer.dji.com/doc/cloud-api-tutorial/en/api-reference/dji-wpml/overview.html.
+// waylines.wpml is what the aircraft flies; template.kml is what a person has drawn, and is read where it is alone.
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "flight/plans/kml.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+XmlTree::Node document_of(const XmlTree& xml) { return xml.child(xml.root(), "Document"); }
+
+class Waylines {
+ public:
+  Waylines(const XmlTree& xml, const PlanSource& source) : xml_(xml), source_(source) {}
+
+  FlightPlan read() {
+    plan_.format = PlanFormat::wpml;
+    plan_.file = source_.name;
+    plan_.vehicle = PlanVehicle::multirotor;
+    const XmlTree::Node document = document_of(xml_);
+    const XmlTree::Node config = xml_.child(document, "missionConfig");
+    if (config != XmlTree::kNone) read_home(config);
+    for (XmlTree::Node node = xml_.first_child(document); node != XmlTree::kNone; node = xml_.next(node)) {
+      if (xml_.name(node) == "Folder") add_folder(node);
+    }
+    take_tracks(std::move(tracks_), "wayline", "waylines", source_, plan_);
+    if (config != XmlTree::kNone && !plan_.items.empty()) add_ends(config);
+    if (curves_ > 0) {
+      plan_.notes.push_back({WarningCode::plan_assumed,
+                             source_.name + ": " + core::count_text(curves_, "waypoint is", "waypoints are") +
+                                 " flown through in a curve of the aircraft's own: the legs are taken as straight"});
+    }
+    check_plan(plan_, source_);
+    return std::move(plan_);
+  }
+
+ private:
+  double number(XmlTree::Node parent, const char* name) const {
+    const XmlTree::Node node = parent == XmlTree::kNone ? XmlTree::kNone : xml_.child(parent, name);
+    return node == XmlTree::kNone || xml_.text(node).empty() ? kNoValue : number_of(xml_, node, source_);
+  }
+  std::string_view word(XmlTree::Node parent, const char* name) const {
+    return parent == XmlTree::kNone ? std::string_view() : xml_.child_text(parent, name);
+  }
+
+  /// "latitude,longitude,height", the height above the ellipsoid.
+  void read_home(XmlTree::Node config) {
+    const XmlTree::Node node = xml_.child(config, "takeOffRefPoint");
+    if (node == XmlTree::kNone || xml_.text(node).empty()) return;
+    const std::string where = source_.place(line_of(xml_, node));
+    const std::vector<double> numbers = numbers_of(xml_.text(node), ',', 2, 3, where);
+    PlanPosition home;
+    home.horizontal = checked_lonlat(numbers[1], numbers[0], where);
+    home.datum = HeightDatum::ellipsoid;
+    if (numbers.size() > 2) home.height_m = numbers[2];
+    plan_.home = home;
+  }
+
+  struct Heights {
+    HeightDatum datum = HeightDatum::unknown;
+    bool follows_ground = false;
+    bool is_template = false;
+    double global_m = kNoValue;
+  };
+
+  Heights heights_of(XmlTree::Node folder) const {
+    Heights heights;
+    XmlTree::Node mode = xml_.child(folder, "executeHeightMode");
+    if (mode == XmlTree::kNone) {
+      heights.is_template = true;
+      const std::string_view kind = xml_.child_text(folder, "templateType");
+      if (!kind.empty() && kind != "waypoint") {
+        source_.fail(ErrorCode::value_unsupported, line_of(xml_, folder),
+                     "a template of the type " + in_quotes(kind) + " does not say where the aircraft flies",
+                     "give the KMZ file with wpmz/waylines.wpml, as DJI Pilot 2 and FlightHub 2 export it");
+      }
+      const XmlTree::Node system = xml_.child(folder, "waylineCoordinateSysParam");
+      mode = system == XmlTree::kNone ? XmlTree::kNone : xml_.child(system, "heightMode");
+      heights.global_m = number(folder, "globalHeight");
+    }
+    const std::string_view name = mode == XmlTree::kNone ? std::string_view() : xml_.text(mode);
+    heights.follows_ground = name == "realTimeFollowSurface";
+    if (name == "WGS84") heights.datum = HeightDatum::ellipsoid;
+    if (name == "EGM96") heights.datum = HeightDatum::sea_level;
+    if (name == "relativeToStartPoint") heights.datum = HeightDatum::home;
+    if (name == "aboveGroundLevel" || heights.follows_ground) heights.datum = HeightDatum::ground;
+    return heights;
+  }
+
+  void add_folder(XmlTree::Node folder) {
+    PlanTrack track;
+    track.place = line_of(xml_, folder);
+    track.name = std::string(xml_.child_text(folder, "waylineId"));
+    const Heights heights = heights_of(folder);
+    const double folder_speed = number(folder, "autoFlightSpeed");
+    const std::string_view folder_turn = xml_.child_text(folder, "globalWaypointTurnMode");
+    double speed = kNoValue;  // of the leg to come: that of the waypoint before
+    camera_ = {};
+    for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
+      source_.progress.tick();
+      if (xml_.name(node) != "Placemark" || xml_.child(node, "Point") == XmlTree::kNone) continue;
+      PlanItem& item = track.items.emplace_back();
+      item.place = source_.place(line_of(xml_, node) + ", waypoint " + std::to_string(track.items.size()));
+      read_position(node, heights, item);
+      item.follows_ground = heights.follows_ground && track.items.size() > 1;
+      item.speed_m_s = speed;
+      const double own_speed =
+          xml_.child_text(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
+      speed = own_speed > 0 ? own_speed : folder_speed > 0 ? folder_speed : kNoValue;
+      read_turn(node, folder_turn, item);
+      read_camera(node, item);
+    }
+    if (!track.items.empty()) tracks_.push_back(std::move(track));
+  }
+
+  void read_position(XmlTree::Node placemark, const Heights& heights, PlanItem& item) const {
+    const XmlTree::Node point = xml_.child(placemark, "Point");
+    const std::vector<double> numbers = numbers_of(xml_.child_text(point, "coordinates"), ',', 2, 3, item.place);
+    item.position.horizontal = checked_lonlat(numbers[0], numbers[1], item.place);
+    item.position.datum = heights.datum;
+    if (!heights.is_template) {
+      item.position.height_m = number(placemark, "executeHeight");
+    } else if (xml_.child_text(placemark, "useGlobalHeight") == "1") {
+      item.position.height_m = heights.global_m;
+    } else {
+      item.position.height_m =
+          number(placemark, heights.datum == HeightDatum::ellipsoid ? "ellipsoidHeight" : "height");
+    }
+  }
+
+  void read_turn(XmlTree::Node placemark, std::string_view folder_turn, PlanItem& item) {
+    const XmlTree::Node turn = xml_.child(placemark, "waypointTurnParam");
+    const bool is_global = turn == XmlTree::kNone || xml_.child_text(placemark, "useGlobalTurnParam") == "1";
+    const std::string_view mode = is_global ? folder_turn : xml_.child_text(turn, "waypointTurnMode");
+    if (mode == "coordinateTurn") {
+      const double distance = number(turn, "waypointTurnDampingDist");
+      item.cut_m = distance > 0 ? distance : 0;
+    }
+    const bool is_curve = mode.find("ContinuityCurvature") != std::string_view::npos;  // not "Discontinuity..."
+    if (is_curve && xml_.child_text(placemark, "useStraightLine") != "1") ++curves_;
+  }
+
+  /// What an action has set stays so.
+  struct Camera {
+    std::optional<double> yaw_deg, gimbal_yaw_deg, gimbal_pitch_deg;
+    bool from_north = false;
+  };
+
+  void read_camera(XmlTree::Node placemark, PlanItem& item) {
+    const auto given = [](double angle) { return std::isnan(angle) ? std::nullopt : std::optional(angle); };
+    const XmlTree::Node heading = xml_.child(placemark, "waypointHeadingParam");
+    const std::string_view mode = word(heading, "waypointHeadingMode");
+    if (mode == "smoothTransition" || mode == "fixed") camera_.yaw_deg = given(number(heading, "waypointHeadingAngle"));
+    const XmlTree::Node gimbal = xml_.child(placemark, "waypointGimbalHeadingParam");
+    if (const auto pitch = given(number(gimbal, "waypointGimbalPitchAngle"))) camera_.gimbal_pitch_deg = pitch;
+    if (const auto pitch = given(number(placemark, "gimbalPitchAngle"))) camera_.gimbal_pitch_deg = pitch;
+    for (XmlTree::Node group = xml_.first_child(placemark); group != XmlTree::kNone; group = xml_.next(group)) {
+      if (xml_.name(group) != "actionGroup") continue;
+      const XmlTree::Node trigger = xml_.child(group, "actionTrigger");
+      if (word(trigger, "actionTriggerType") != "reachPoint") continue;
+      for (XmlTree::Node action = xml_.first_child(group); action != XmlTree::kNone; action = xml_.next(action)) {
+        if (xml_.name(action) == "action") act(action, item);
+      }
+    }
+    item.yaw_deg = camera_.yaw_deg;
+    item.gimbal_yaw_deg = camera_.gimbal_yaw_deg;
+    item.gimbal_yaw_from_north = camera_.from_north;
+    item.gimbal_pitch_deg = camera_.gimbal_pitch_deg;
+  }
+
+  void act(XmlTree::Node action, PlanItem& item) {
+    const std::string_view what = word(action, "actionActuatorFunc");
+    const XmlTree::Node how = xml_.child(action, "actionActuatorFuncParam");
+    if (what == "hover") {
+      const double time_s = number(how, "hoverTime");
+      if (!std::isnan(time_s)) item.hold_s += time_s;
+    }
+    if (what == "rotateYaw") {
+      const double yaw = number(how, "aircraftHeading");
+      if (!std::isnan(yaw)) camera_.yaw_deg = yaw;
+    }
+    if (what != "gimbalRotate" || word(how, "gimbalRotateMode") == "relativeAngle") return;
+    const double pitch = number(how, "gimbalPitchRotateAngle"), yaw = number(how, "gimbalYawRotateAngle");
+    if (word(how, "gimbalPitchRotateEnable") == "1" && !std::isnan(pitch)) camera_.gimbal_pitch_deg = pitch;
+    if (word(how, "gimbalYawRotateEnable") == "1" && !std::isnan(yaw)) {
+      camera_.gimbal_yaw_deg = yaw;
+      camera_.from_north = word(how, "gimbalHeadingYawBase") == "north";
+    }
+  }
+
+  /// The way to the first waypoint, where the place of takeoff is known, and what comes after the last.
+  void add_ends(XmlTree::Node config) {
+    const double transit = number(config, "globalTransitionalSpeed");
+    if (transit > 0) plan_.items.front().speed_m_s = transit;
+    const std::string_view finish = xml_.child_text(config, "finishAction");
+    PlanItem last = plan_.items.back();
+    last.hold_s = last.cut_m = 0;
+    last.place = source_.place("finishAction");
+    last.speed_m_s = transit > 0 ? transit : kNoValue;
+    if (finish == "goHome") {
+      last.kind = PlanItemKind::return_home;
+      last.position = {};
+      last.follows_ground = false;
+      plan_.items.push_back(last);
+    } else if (finish == "autoLand") {
+      last.kind = PlanItemKind::land;
+      last.position = {last.position.horizontal, 0, HeightDatum::ground};
+      last.follows_ground = false;
+      plan_.items.push_back(last);
+    } else if (finish == "gotoFirstWaypoint") {
+      last.position = plan_.items.front().position;
+      plan_.items.push_back(last);
+    }
+    const double security = number(config, "takeOffSecurityHeight");
+    if (!plan_.home || !(security > 0)) return;
+    PlanItem takeoff;
+    takeoff.kind = PlanItemKind::takeoff;
+    takeoff.place = source_.place("takeOffRefPoint");
+    takeoff.position = {plan_.home->horizontal, security, HeightDatum::home};
+    plan_.items.insert(plan_.items.begin(), takeoff);
+  }
+
+  const XmlTree& xml_;
+  const PlanSource& source_;
+  FlightPlan plan_;
+  std::vector<PlanTrack> tracks_;
+  Camera camera_;
+  std::size_t curves_ = 0;
+};
+
+}  // namespace
+
+bool is_wpml(const XmlTree& xml) {
+  const XmlTree::Node document = document_of(xml);
+  if (xml.name(xml.root()) != "kml" || document == XmlTree::kNone) return false;
+  if (xml.child(document, "missionConfig") != XmlTree::kNone) return true;
+  const XmlTree::Node folder = xml.child(document, "Folder");
+  return folder != XmlTree::kNone && (xml.child(folder, "executeHeightMode") != XmlTree::kNone ||
+                                      xml.child(folder, "templateType") != XmlTree::kNone);
+}
+
+FlightPlan read_wpml(const XmlTree& xml, const PlanSource& source) { return Waylines(xml, source).read(); }
+
+}  // namespace vantage::internal::flight::plans

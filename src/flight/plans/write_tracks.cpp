@@ -1,0 +1,166 @@
+// KML, GPX, GeoJSON and CSV: the flight as a line of points.
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flight/plans/plan_writer.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kPlace = 11, kHeight = 6, kSmall = 3;
+
+/// "11.5,48.1,520".
+std::string kml_position(const PlanWriter& writer, const Vec3& position) {
+  const Eigen::Vector2d at = writer.lonlat(position);
+  return decimal(at.x(), kPlace) + "," + decimal(at.y(), kPlace) + "," + decimal(writer.height(position), kHeight);
+}
+
+std::string kml_volume(const PlanWriter& writer, const NamedVolume& volume) {
+  std::string text = "<Placemark><name>" + xml_text(volume.name) +
+                     "</name><Style><LineStyle><width>0</width></LineStyle><PolyStyle><color>7f00a0ff</color>"
+                     "</PolyStyle></Style><MultiGeometry>\n";
+  for (const Triangle& triangle : volume.mesh.triangles) {
+    text += "<Polygon><altitudeMode>absolute</altitudeMode><outerBoundaryIs><LinearRing><coordinates>";
+    for (const std::size_t corner : {0U, 1U, 2U, 0U}) {
+      const std::uint32_t vertex = triangle[corner];
+      if (vertex >= volume.mesh.vertices.size()) {
+        throw Error(ErrorCode::index_out_of_range, "a vertex index is out of range", volume.name, "mend the mesh");
+      }
+      text += kml_position(writer, volume.mesh.vertices[vertex]) + " ";
+    }
+    text.pop_back();
+    text += "</coordinates></LinearRing></outerBoundaryIs></Polygon>\n";
+  }
+  return text + "</MultiGeometry></Placemark>\n";
+}
+
+/// The name of a point for people: what is seen there, and its number.
+std::string title(const OutPoint& point, std::size_t index) {
+  return std::to_string(index + 1) + (point.action.sees.empty() ? "" : " " + point.action.sees);
+}
+
+json json_or_null(const std::optional<double>& number) { return number ? json(*number) : json(); }
+
+json properties_of(const OutPoint& point, std::size_t index) {
+  const CameraAngles angles = camera_angles(point);
+  return {{"name", printable(title(point, index))},
+          {"point", index + 1},
+          {"hold_s", point.hold_s},
+          {"speed_m_s", std::isnan(point.speed_m_s) ? json() : json(point.speed_m_s)},
+          {"yaw_deg", json_or_null(angles.yaw_deg)},
+          {"gimbal_pitch_deg", json_or_null(angles.pitch_deg)},
+          {"photo", point.action.photo},
+          {"video", point.action.video},
+          {"sees", printable(point.action.sees)}};
+}
+
+json position_of_json(const PlanWriter& writer, const Vec3& position) {
+  const Eigen::Vector2d at = writer.lonlat(position);
+  return {at.x(), at.y(), writer.height(position)};
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : printable(text)) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+std::string field(const std::optional<double>& number, int decimals) {
+  return "," + (number && !std::isnan(*number) ? decimal(*number, decimals) : std::string());
+}
+
+}  // namespace
+
+std::string write_kml(const FlightOut& flight) {
+  const PlanWriter writer(flight, PlanFormat::kml, {HeightDatum::sea_level});
+  const std::vector<OutPoint> points = writer.points(false);
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n<name>" +
+      xml_text(flight.name) + "</name>\n<Placemark><name>" + xml_text(flight.name) +
+      "</name><Style><LineStyle><color>ff0000ff</color><width>3</width></LineStyle></Style>"
+      "<LineString><altitudeMode>absolute</altitudeMode><coordinates>\n";
+  for (const OutPoint& point : points) text += kml_position(writer, point.position) + "\n";
+  text += "</coordinates></LineString></Placemark>\n";
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].is_of_circle) continue;
+    text += "<Placemark><name>" + xml_text(title(points[i], i)) +
+            "</name><Point><altitudeMode>absolute</altitudeMode><coordinates>" +
+            kml_position(writer, points[i].position) + "</coordinates></Point></Placemark>\n";
+  }
+  for (const NamedVolume& volume : flight.volumes) text += kml_volume(writer, volume);
+  return text + "</Document>\n</kml>\n";
+}
+
+std::string write_gpx(const FlightOut& flight) {
+  const PlanWriter writer(flight, PlanFormat::gpx, {HeightDatum::sea_level});
+  const std::vector<OutPoint> points = writer.points(false);
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<gpx version=\"1.1\" creator=\"vantage\" "
+      "xmlns=\"http://www.topografix.com/GPX/1/1\">\n<metadata><name>" +
+      xml_text(flight.name) + "</name><desc>heights above mean sea level</desc></metadata>\n<rte><name>" +
+      xml_text(flight.name) + "</name>\n";
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d at = writer.lonlat(points[i].position);
+    text += "<rtept lat=\"" + decimal(at.y(), kPlace) + "\" lon=\"" + decimal(at.x(), kPlace) + "\"><ele>" +
+            decimal(writer.height(points[i].position), kHeight) + "</ele><name>" + xml_text(title(points[i], i)) +
+            "</name></rtept>\n";
+  }
+  return text + "</rte>\n</gpx>\n";
+}
+
+std::string write_geojson(const FlightOut& flight) {
+  const PlanWriter writer(flight, PlanFormat::geojson, {HeightDatum::ellipsoid});
+  const std::vector<OutPoint> points = writer.points(false);
+  json line = json::array(), features = json::array();
+  for (const OutPoint& point : points) line.push_back(position_of_json(writer, point.position));
+  features.push_back({{"type", "Feature"},
+                      {"properties", {{"name", printable(flight.name)}, {"heights", "WGS 84 ellipsoid"}}},
+                      {"geometry", {{"type", "LineString"}, {"coordinates", std::move(line)}}}});
+  if (points.size() == 1) features.clear();  // a line has two positions
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].is_of_circle) continue;
+    features.push_back(
+        {{"type", "Feature"},
+         {"properties", properties_of(points[i], i)},
+         {"geometry", {{"type", "Point"}, {"coordinates", position_of_json(writer, points[i].position)}}}});
+  }
+  const json collection{{"type", "FeatureCollection"}, {"features", std::move(features)}};
+  return collection.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::string write_csv(const FlightOut& flight) {
+  const PlanWriter writer(flight, PlanFormat::csv,
+                          {HeightDatum::sea_level, HeightDatum::ellipsoid, HeightDatum::home, HeightDatum::scene_z});
+  const bool is_of_scene = writer.heights() == HeightDatum::scene_z;
+  const char* height = "height_amsl_m";
+  if (writer.heights() == HeightDatum::ellipsoid) height = "height_ellipsoid_m";
+  if (writer.heights() == HeightDatum::home) height = "height_home_m";
+  std::string text = "name,";
+  if (!is_of_scene) text += std::string("longitude_deg,latitude_deg,") + height + ",";
+  text += "x_m,y_m,z_m,hold_s,speed_m_s,yaw_deg,gimbal_pitch_deg,photo,video,sees\n";
+  const std::vector<OutPoint> points = writer.points(false);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const OutPoint& point = points[i];
+    const CameraAngles angles = camera_angles(point);
+    text += std::to_string(i + 1);
+    if (!is_of_scene) {
+      const Eigen::Vector2d at = writer.lonlat(point.position);
+      text += field(at.x(), kPlace) + field(at.y(), kPlace) + field(writer.height(point.position), kHeight);
+    }
+    for (const double coordinate : point.position) text += field(coordinate, kHeight);
+    text += field(point.hold_s, kSmall) + field(point.speed_m_s, kSmall) + field(angles.yaw_deg, kSmall) +
+            field(angles.pitch_deg, kSmall) + (point.action.photo ? ",1" : ",0") +
+            (point.action.video ? ",1," : ",0,") + quoted(point.action.sees) + "\n";
+  }
+  return text;
+}
+
+}  // namespace vantage::internal::flight::plans

@@ -1,0 +1,195 @@
+// WPML, the plans of DJI: https://developer.dji.com/doc/cloud-api-tutorial/en/api-reference/dji-wpml/overview.html.
+// waylines.wpml is what the aircraft flies, template.kml what its ground station shows.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "flight/plans/plan_writer.h"
+#include "io/write_zip.h"
+#include "vantage/error.h"
+
+namespace vantage::internal::flight::plans {
+namespace {
+
+constexpr int kAngleDecimals = 2, kPlaceDecimals = 11, kHeightDecimals = 6, kSpeedDecimals = 3, kTimeDecimals = 3;
+
+std::string element(const char* name, const std::string& content) {
+  return std::string("<wpml:").append(name).append(">").append(content).append("</wpml:").append(name).append(">");
+}
+std::string element(const char* name, int number) { return element(name, std::to_string(number)); }
+
+class WaylineWriter {
+ public:
+  explicit WaylineWriter(const FlightOut& flight)
+      : writer_(flight, PlanFormat::wpml, {HeightDatum::home, HeightDatum::ellipsoid, HeightDatum::sea_level}),
+        points_(writer_.points(false)) {
+    check();
+  }
+
+  std::string archive() const {
+    return io::zipped({{"wpmz/template.kml", document(true)}, {"wpmz/waylines.wpml", document(false)}});
+  }
+
+ private:
+  const DjiAircraft& aircraft() const { return *writer_.flight().aircraft; }
+
+  void check() const {
+    const auto fail = [this](ErrorCode code, const std::string& problem, const std::string& fix) {
+      throw Error(code, problem, writer_.place(), fix);
+    };
+    if (!writer_.flight().aircraft) {
+      fail(ErrorCode::missing_key, "a plan of DJI names its aircraft",
+           "give the numbers of its type in DJI's documents, such as 77 and 0 for the Mavic 3E");
+    }
+    if (points_.size() < 2) {
+      fail(ErrorCode::value_unsupported, "a plan of DJI has two waypoints at least", "write another format");
+    }
+    constexpr double kLowestM = 1.2, kHighestM = 1500, kFastest = 15;  // as the format states
+    if (!(aircraft().takeoff_height_m >= kLowestM && aircraft().takeoff_height_m <= kHighestM)) {
+      fail(ErrorCode::value_out_of_range, "the height to climb to at first is out of range", "give 1.2 to 1500 m");
+    }
+    for (const OutPoint& point : points_) {
+      if (std::isnan(point.speed_m_s)) {
+        fail(ErrorCode::missing_key, "a plan of DJI states the speed", "give the speed of the flight");
+      }
+      if (point.speed_m_s > kFastest) {
+        fail(ErrorCode::value_out_of_range, "the aircraft of DJI fly at 15 m/s at most", "give a lower speed");
+      }
+      if ((point.action.photo || point.action.video) && !aircraft().payload) {
+        fail(ErrorCode::missing_key, "photos and videos need the type of the camera",
+             "give the number of the payload in DJI's documents, such as 66 for the Mavic 3E's camera");
+      }
+    }
+  }
+
+  /// What the aircraft flies by: heights above the ellipsoid, or above the home.
+  HeightDatum flown() const {
+    return writer_.heights() == HeightDatum::home ? HeightDatum::home : HeightDatum::ellipsoid;
+  }
+
+  std::string document(bool is_template) const {
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\" "
+           "xmlns:wpml=\"http://www.dji.com/wpmz/1.0.2\">\n<Document>\n" +
+           (is_template ? element("author", "vantage") + "\n" : "") + config() + "<Folder>\n" +
+           (is_template ? template_head() : wayline_head()) + placemarks(is_template) +
+           "</Folder>\n</Document>\n</kml>\n";
+  }
+
+  std::string config() const {
+    const DjiAircraft& type = aircraft();
+    std::string text = "<wpml:missionConfig>\n" + element("flyToWaylineMode", "safely") +
+                       element("finishAction", writer_.flight().returns_home ? "goHome" : "noAction") +
+                       element("exitOnRCLost", "executeLostAction") + element("executeRCLostAction", "goBack") +
+                       element("takeOffSecurityHeight", decimal(type.takeoff_height_m, kSpeedDecimals));
+    if (writer_.flight().home && writer_.knows(HeightDatum::ellipsoid)) {
+      const Eigen::Vector2d home = writer_.lonlat(writer_.home());
+      text += element("takeOffRefPoint",
+                      decimal(home.y(), kPlaceDecimals) + "," + decimal(home.x(), kPlaceDecimals) + "," +
+                          decimal(writer_.height(writer_.home(), HeightDatum::ellipsoid), kHeightDecimals));
+    }
+    text +=
+        element("globalTransitionalSpeed", decimal(points_.front().speed_m_s, kSpeedDecimals)) +
+        element("droneInfo", element("droneEnumValue", type.drone) + element("droneSubEnumValue", type.drone_sub_type));
+    if (type.payload) {
+      text += element("payloadInfo", element("payloadEnumValue", *type.payload) + element("payloadPositionIndex", 0));
+    }
+    return text + "\n</wpml:missionConfig>\n";
+  }
+
+  std::string speed() const { return element("autoFlightSpeed", decimal(points_[1].speed_m_s, kSpeedDecimals)) + "\n"; }
+
+  std::string wayline_head() const {
+    return element("templateId", 0) +
+           element("executeHeightMode", flown() == HeightDatum::home ? "relativeToStartPoint" : "WGS84") +
+           element("waylineId", 0) + speed();
+  }
+
+  std::string template_head() const {
+    const char* const mode = writer_.heights() == HeightDatum::home        ? "relativeToStartPoint"
+                             : writer_.heights() == HeightDatum::sea_level ? "EGM96"
+                                                                           : "WGS84";
+    return element("templateType", "waypoint") + element("templateId", 0) +
+           element("waylineCoordinateSysParam", element("coordinateMode", "WGS84") + element("heightMode", mode)) +
+           speed() + element("gimbalPitchMode", "manual") +
+           element("globalWaypointHeadingParam", element("waypointHeadingMode", "followWayline")) +
+           element("globalWaypointTurnMode", "toPointAndStopWithDiscontinuityCurvature") +
+           element("globalUseStraightLine", 1) + "\n";
+  }
+
+  std::string placemarks(bool is_template) const {
+    std::string text;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const OutPoint& point = points_[i];
+      const Eigen::Vector2d at = writer_.lonlat(point.position);
+      // The speed of a waypoint is that of the leg that begins there.
+      const double speed_m_s = points_[std::min(i + 1, points_.size() - 1)].speed_m_s;
+      text += "<Placemark><Point><coordinates>" + decimal(at.x(), kPlaceDecimals) + "," +
+              decimal(at.y(), kPlaceDecimals) + "</coordinates></Point>" + element("index", static_cast<int>(i));
+      const std::string flown_height = decimal(writer_.height(point.position, flown()), kHeightDecimals);
+      if (is_template) {
+        text += element("useGlobalHeight", 0) + element("ellipsoidHeight", flown_height) +
+                element("height", decimal(writer_.height(point.position), kHeightDecimals)) +
+                element("useGlobalSpeed", 0);
+      } else {
+        text += element("executeHeight", flown_height);
+      }
+      text += element("waypointSpeed", decimal(speed_m_s, kSpeedDecimals));
+      if (is_template) text += element("useGlobalHeadingParam", 0) + element("useGlobalTurnParam", 0);
+      text += heading(point) +
+              element("waypointTurnParam", element("waypointTurnMode", "toPointAndStopWithDiscontinuityCurvature") +
+                                               element("waypointTurnDampingDist", 0)) +
+              element("useStraightLine", 1) + actions(point, i) + "</Placemark>\n";
+    }
+    return text;
+  }
+
+  static std::string heading(const OutPoint& point) {
+    const auto yaw = camera_angles(point).yaw_deg;
+    return element("waypointHeadingParam",
+                   element("waypointHeadingMode", yaw ? "smoothTransition" : "followWayline") +
+                       element("waypointHeadingAngle", decimal(yaw.value_or(0), kAngleDecimals)) +
+                       element("waypointPoiPoint", "0.000000,0.000000,0.000000") +
+                       element("waypointHeadingAngleEnable", yaw ? 1 : 0) +
+                       element("waypointHeadingPathMode", "followBadArc"));
+  }
+
+  static std::string actions(const OutPoint& point, std::size_t index) {
+    std::vector<std::string> all;
+    const auto add = [&](const char* what, const std::string& how) {
+      all.push_back(element("action", element("actionId", static_cast<int>(all.size())) +
+                                          element("actionActuatorFunc", what) +
+                                          element("actionActuatorFuncParam", how)));
+    };
+    const std::string payload = element("payloadPositionIndex", 0);
+    if (const auto pitch = camera_angles(point).pitch_deg) {
+      add("gimbalRotate", element("gimbalHeadingYawBase", "aircraft") + element("gimbalRotateMode", "absoluteAngle") +
+                              element("gimbalPitchRotateEnable", 1) +
+                              element("gimbalPitchRotateAngle", decimal(*pitch, kAngleDecimals)) +
+                              element("gimbalRollRotateEnable", 0) + element("gimbalRollRotateAngle", 0) +
+                              element("gimbalYawRotateEnable", 0) + element("gimbalYawRotateAngle", 0) +
+                              element("gimbalRotateTimeEnable", 0) + element("gimbalRotateTime", 0) + payload);
+    }
+    const std::string file = element("fileSuffix", "point" + std::to_string(index + 1)) + payload;
+    if (point.action.video) add("startRecord", file);
+    if (point.hold_s > 0) add("hover", element("hoverTime", decimal(point.hold_s, kTimeDecimals)));
+    if (point.action.video) add("stopRecord", payload);
+    if (point.action.photo) add("takePhoto", file);
+    if (all.empty()) return {};
+    const int number = static_cast<int>(index);
+    std::string group = element("actionGroupId", number) + element("actionGroupStartIndex", number) +
+                        element("actionGroupEndIndex", number) + element("actionGroupMode", "sequence") +
+                        element("actionTrigger", element("actionTriggerType", "reachPoint"));
+    for (const std::string& action : all) group += action;
+    return element("actionGroup", group);
+  }
+
+  PlanWriter writer_;
+  std::vector<OutPoint> points_;
+};
+
+}  // namespace
+
+std::string write_wpml(const FlightOut& flight) { return WaylineWriter(flight).archive(); }
+
+}  // namespace vantage::internal::flight::plans

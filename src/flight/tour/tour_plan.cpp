@@ -1,0 +1,211 @@
+// From a request to a tour: regions, the order, ways clear of obstacles, when what is viewed; then all is checked again.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/format.h"
+#include "core/progress_reporter.h"
+#include "core/stopwatch.h"
+#include "flight/tour/tour_course.h"
+#include "flight/tour/tour_obstacles.h"
+#include "flight/tour/tour_random.h"
+#include "flight/tour/tour_region.h"
+#include "flight/tour/tour_schedule.h"
+#include "flight/tour/tour_search.h"
+#include "flight/tour/tour_wing.h"
+#include "vantage/error.h"
+#include "vantage/tour.h"
+
+namespace vantage {
+namespace internal::flight::tour {
+namespace {
+
+constexpr double kOfTimeForOrder = 0.6;
+constexpr std::size_t kMostTried = 3;  ///< courses that are flown round obstacles
+
+void check_request(const TourRequest& request) {
+  check_tour_settings(request.settings);
+  if (request.targets.empty()) {
+    throw Error(ErrorCode::nothing_given, "a tour has no targets", "tour", "give one target or more");
+  }
+  if (!(request.chord_error_m > 0) || !std::isfinite(request.chord_error_m)) {
+    throw Error(ErrorCode::value_out_of_range, "the chord error of a tour is not positive", "tour",
+                "give metres above 0");
+  }
+  if (!request.home) return;
+  const Vec3& home = *request.home;
+  if (!home.allFinite()) {
+    throw Error(ErrorCode::coordinate_not_finite, "the home of the tour is not finite", "tour.home",
+                "give three finite numbers");
+  }
+  const double deviation =
+      request.settings.vehicle.kind == TourVehicle::Kind::fixed_wing ? request.chord_error_m : 0;
+  if (!request.airspace || request.airspace->allows({home, home}, deviation)) return;
+  throw Error(ErrorCode::value_out_of_range,
+              core::format("the tour may not begin at its home: {}", request.airspace->obstacle({home, home}, deviation)),
+              "tour.home", "move it to where the vehicle may fly, or change the limits");
+}
+
+Regions regions_of(const TourRequest& request, double margin, const core::ProgressReporter& progress) {
+  progress.begin("volumes of the tour");
+  Regions regions;
+  for (const TourTarget& target : request.targets) {
+    regions.push_back(std::make_unique<const TourRegion>(target.name, target.volume, margin));
+    progress.report(regions.size(), request.targets.size());
+  }
+  progress.finish();
+  return regions;
+}
+
+Tour::End end_of(SearchEnd end) {
+  return end == SearchEnd::done ? Tour::End::done
+         : end == SearchEnd::cancelled ? Tour::End::cancelled
+                                       : Tour::End::time_limit;
+}
+
+/// Of different lengths: the same flight may serve its targets in several orders.
+std::vector<Course> different(const std::vector<Course>& courses) {
+  std::vector<Course> result;
+  for (const Course& course : courses) {
+    const bool is_new = result.empty() || course.length_m() > result.back().length_m() * (1 + 1e-6);
+    if (is_new && result.size() < kMostTried) result.push_back(course);
+  }
+  return result;
+}
+
+/// A closed course without a home begins where it turns most: it would rest there anyway.
+void begin_at_turn(Course& course) {
+  if (!course.closed || course.first_free() == 1 || course.stops.size() < 2) return;
+  std::size_t sharpest = 0;
+  double least = 2;
+  for (std::size_t i = 0; i < course.stops.size(); ++i) {
+    const Vec3 in = course.stops[i].point - *course.before(i), out = *course.after(i) - course.stops[i].point;
+    const double cosine = in.norm() > 0 && out.norm() > 0 ? in.dot(out) / (in.norm() * out.norm()) : 1;
+    if (cosine >= least) continue;
+    least = cosine;
+    sharpest = i;
+  }
+  std::rotate(course.stops.begin(), course.stops.begin() + static_cast<std::ptrdiff_t>(sharpest), course.stops.end());
+}
+
+bool is_better(const FlownCourse& a, const FlownCourse& b) {
+  if (a.problems.size() != b.problems.size()) return a.problems.size() < b.problems.size();
+  return a.course.length_m() < b.course.length_m();
+}
+
+class MultirotorPlan {
+ public:
+  MultirotorPlan(const TourRequest& request, const core::ProgressReporter& progress)
+      : request_(request),
+        progress_(progress),
+        regions_(regions_of(request, request.settings.margin_m, progress)) {}
+
+  Tour run() {
+    progress_.begin("order of the tour");
+    const CourseKind kind = {request_.settings.closed, request_.home};
+    const SearchOptions options = {request_.seed, kOfTimeForOrder * request_.settings.time_limit_s, request_.rounds};
+    const SearchResult found = search_order(regions_, kind, options, progress_);
+    end_ = end_of(found.end);
+    FlownCourse flown = fly(different(found.courses));
+    begin_at_turn(flown.course);
+    Tour tour = tour_of(flown, false);
+    if (!is_sound(tour)) {
+      tour = tour_of(flown, true);
+      if (!is_sound(tour)) throw Error(ErrorCode::internal_defect, "a tour breaks its own limits", "", "");
+    }
+    return tour;
+  }
+
+ private:
+  FlownCourse fly(const std::vector<Course>& courses) {
+    const CourseLimits limits = {regions_, request_.airspace.get()};
+    std::optional<FlownCourse> best;
+    for (const Course& course : courses) {
+      // After a call to stop, the first course is still made safe.
+      const bool is_over = end_ == Tour::End::cancelled || watch_.seconds() > request_.settings.time_limit_s;
+      if (best && is_over) break;
+      Draw draw(request_.seed);
+      try {
+        const FlownCourse flown =
+            fly_clear(course, limits, draw, is_over ? core::ProgressReporter() : progress_);
+        if (!best || is_better(flown, *best)) best = flown;
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::cancelled) throw;
+        end_ = Tour::End::cancelled;
+        if (best) break;
+        Draw again(request_.seed);
+        best = fly_clear(course, limits, again, {});
+      }
+    }
+    return *best;
+  }
+
+  Tour tour_of(const FlownCourse& flown, bool hovers_only) const {
+    Tour tour;
+    tour.problems = flown.problems;
+    tour.end = end_;
+    const std::vector<Stop>& stops = flown.course.stops;
+    std::vector<Vec3> points;
+    for (const Stop& stop : stops) {
+      points.push_back(stop.point);
+      if (stop.region >= 0) tour.order.push_back(static_cast<std::size_t>(stop.region));
+    }
+    if (tour.order.empty()) return tour;
+    if (flown.course.closed && points.size() > 1) points.push_back(points.front());
+    const Way way(points);
+    std::vector<Viewing> viewings;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      if (stops[i].region < 0) continue;
+      const auto target = static_cast<std::size_t>(stops[i].region);
+      viewings.push_back({target, way.station(i), {}});
+      if (!hovers_only) viewings.back().stretches = stretches_in(*regions_[target], way);
+    }
+    Scheduling scheduling = flight_of(way, schedule(viewings, request_.settings), request_);
+    tour.flight = std::move(scheduling.flight);
+    tour.visits = std::move(scheduling.visits);
+    tour.length_m = length_m(tour.flight);
+    tour.time_s = multirotor_seconds(tour.flight, request_.settings);
+    return tour;
+  }
+
+  /// All legs and all visits, as they are in the flight.
+  bool is_sound(const Tour& tour) const {
+    const Flight& flight = tour.flight;
+    for (std::size_t i = 0; i < flight.leg_count(); ++i) {
+      if (request_.airspace && !request_.airspace->allows(flight.leg(i), 0)) return false;
+    }
+    return std::all_of(tour.visits.begin(), tour.visits.end(), [&](const TourVisit& visit) {
+      const TourRegion& region = *regions_[visit.target];
+      double seconds = 0;
+      for (std::size_t i = visit.first_point; i <= visit.last_point; ++i) seconds += flight.points[i].hold_s;
+      for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
+        if (!region.holds_leg(flight.leg(i))) return false;
+        seconds += length_of(flight.leg(i)) / request_.settings.vehicle.speed_m_s;
+      }
+      return region.holds(flight.points[visit.first_point].position) && seconds >= visit.dwell_s;
+    });
+  }
+
+  static double length_of(const Leg& leg) { return (leg.to - leg.from).norm(); }
+
+  const TourRequest& request_;
+  const core::ProgressReporter& progress_;
+  core::Stopwatch watch_;
+  Regions regions_;
+  Tour::End end_ = Tour::End::done;
+};
+
+}  // namespace
+}  // namespace internal::flight::tour
+
+Airspace::~Airspace() = default;
+
+Tour plan_tour(const TourRequest& request, const Progress& progress) {
+  namespace tour = internal::flight::tour;
+  tour::check_request(request);
+  const internal::core::ProgressReporter reporter(progress, "tour");
+  if (request.settings.vehicle.kind == TourVehicle::Kind::fixed_wing) return tour::plan_wing_tour(request, reporter);
+  return tour::MultirotorPlan(request, reporter).run();
+}
+
+}  // namespace vantage

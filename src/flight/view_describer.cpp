@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "flight/view_describer_data.h"
+#include "vantage/error.h"
+#include "vantage/view_description.h"
+
+namespace vantage::internal::flight {
+namespace {
+
+constexpr double kToDegrees = 180 / std::numbers::pi;
+
+std::optional<GroundLevels> ground_levels(const Mission& mission) {
+  try {
+    return std::optional<GroundLevels>(std::in_place, ground_of(mission));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::ground_missing) throw;
+    return std::nullopt;
+  }
+}
+
+std::optional<geo::LocalFrame> earth_frame(const Mission& mission) {
+  const auto& place = mission.scene().georeference;
+  if (!place) return std::nullopt;
+  return std::optional<geo::LocalFrame>(std::in_place, geo::LonLat{place->longitude_deg, place->latitude_deg});
+}
+
+void aim(ViewDescription& view, const Vec3& line, const Mount& mount) {
+  const double level = std::hypot(line.x(), line.y());
+  double yaw = level > 0 ? std::atan2(line.x(), line.y()) * kToDegrees : mount.yaw_deg.value_or(0);
+  if (yaw < 0) yaw += 360;
+  view.yaw_deg = yaw < 360 ? yaw : 0;
+  view.pitch_deg = std::atan2(line.z(), level) * kToDegrees;
+  constexpr double kSame = 1e-9;  // degrees: rounding of a direction at the border of what is allowed
+  const double pitch = std::clamp(view.pitch_deg, mount.min_pitch_deg, mount.max_pitch_deg);
+  if (std::abs(pitch - view.pitch_deg) > kSame) view.is_centred = false;
+  view.pitch_deg = pitch;
+  if (!mount.yaw_deg) return;
+  const double turn = std::abs(std::remainder(*mount.yaw_deg - view.yaw_deg, 360));
+  // Straight up or down all yaws are centred.
+  if (turn > kSame && level > 0) view.is_centred = false;
+  view.yaw_deg = std::fmod(std::fmod(*mount.yaw_deg, 360) + 360, 360);
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const Mission& mission)
+    : obstacles(mission),
+      ground(ground_levels(mission)),
+      earth(earth_frame(mission)),
+      sea_level_m(vantage::sea_level_m(mission)) {}
+
+}  // namespace vantage::internal::flight
+
+namespace vantage {
+namespace {
+
+using internal::flight::Surroundings;
+using internal::flight::TargetView;
+
+std::shared_ptr<const ViewDescriber::Data> describer_data(const Mission& mission,
+                                                          std::shared_ptr<const Surroundings> around) {
+  if (volume_count(mission) != 1) {
+    throw Error(ErrorCode::not_applicable, "the mission asks for a volume for each of several targets", "mission",
+                "take one_volume of it");
+  }
+  if (!around) around = std::make_shared<const Surroundings>(mission);
+  return std::make_shared<const ViewDescriber::Data>(
+      ViewDescriber::Data{TargetView(mission), mission.sensor.mount, std::move(around)});
+}
+
+}  // namespace
+
+ViewDescriber::ViewDescriber(const Mission& mission) : data_(describer_data(mission, nullptr)) {}
+
+ViewDescriber::ViewDescriber(const Mission& mission, const ViewDescriber& other)
+    : data_(describer_data(mission, other.data_->around)) {}
+
+ViewDescription ViewDescriber::describe(const Vec3& position) const {
+  if (!position.allFinite()) {
+    throw Error(ErrorCode::coordinate_not_finite, "a position is not finite", "position", "give three finite numbers");
+  }
+  const TargetView& target = data_->target;
+  const Surroundings& around = *data_->around;
+  ViewDescription view;
+  view.position = position;
+  if (around.earth) {
+    const internal::geo::LonLat place = around.earth->to_lonlat(position.head<2>());
+    view.longitude_deg = place.longitude_deg;
+    view.latitude_deg = place.latitude_deg;
+  }
+  if (around.ground) {
+    if (const auto level = around.ground->at(position.x(), position.y())) {
+      view.above_ground_m = position.z() - level->highest_m;
+    }
+  }
+  if (around.sea_level_m) view.above_sea_m = position.z() - *around.sea_level_m;
+  internal::flight::aim(view, target.centre() - position, data_->mount);
+  view.distance_m = target.distance_m(position);
+  if (target.has_pixels()) {
+    const double pixel_m = target.pixel_m(position);
+    if (std::isfinite(pixel_m)) view.pixel_m = pixel_m;
+  }
+  if (target.has_incidence()) view.incidence_deg = target.incidence_deg(position);
+  if (!around.obstacles.empty()) {
+    const internal::flight::Obstacles::Nearest nearest = around.obstacles.nearest(position);
+    view.obstacle_distance_m = nearest.distance_m;
+    view.obstacle = nearest.name;
+  }
+  return view;
+}
+
+}  // namespace vantage

@@ -1,0 +1,36 @@
+// What ViewDescriber knows.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "flight/obstacles.h"
+#include "flight/target_view.h"
+#include "geo/local_frame.h"
+#include "vantage/ground.h"
+#include "vantage/sensor.h"
+#include "vantage/view_description.h"
+
+namespace vantage::internal::flight {
+
+/// Of the scene alone: shared by the targets in it.
+struct Surroundings {
+  explicit Surroundings(const Mission& mission);
+
+  Obstacles obstacles;
+  std::optional<GroundLevels> ground;
+  std::optional<geo::LocalFrame> earth;
+  std::optional<double> sea_level_m;
+};
+
+}  // namespace vantage::internal::flight
+
+namespace vantage {
+
+struct ViewDescriber::Data {
+  internal::flight::TargetView target;
+  Mount mount;
+  std::shared_ptr<const internal::flight::Surroundings> around;
+};
+
+}  // namespace vantage

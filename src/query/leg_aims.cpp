@@ -1,0 +1,131 @@
+// Legs and the picture of a camera: can it take in all of the target from there?
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "query/leg_convex.h"
+#include "query/leg_limits.h"
+#include "sensor/aim.h"
+#include "sensor/find_aim.h"
+
+namespace vantage::internal::query {
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180;
+
+/// One mount along one leg. Positions are about the target's origin.
+class AimLook {
+ public:
+  AimLook(const sensor::SensorLimits& limits, const Mount& mount, const Tube& local)
+      : camera_(*limits.sensor().camera), mount_(mount), corners_(limits.viewed().corners), local_(local) {}
+
+  LegIntervals broken(const LegIntervals& within) {
+    parts_.clear();
+    for (const LegInterval& part : within) {
+      if (mount_.is_fixed()) {
+        parts_ = common(within, fixed());
+        return parts_;
+      }
+      look(part.begin, part.end);
+    }
+    return joined(std::move(parts_));
+  }
+
+  /// The angle by which a corner is out of the picture at least, degrees.
+  double out_of_picture(double share) {
+    double low = 0, high = 1;
+    if (has_aim(local_.at(share), {})) return 0;
+    for (int i = 0; i < 30; ++i) {
+      const double middle = 0.5 * (low + high);
+      (has_aim(local_.at(share), {.outside = middle}) ? high : low) = middle;
+    }
+    return std::asin(high) / kRadian;
+  }
+
+ private:
+  bool has_aim(const Vec3& place, const sensor::AimRoom& room) {
+    seen_.clear();
+    for (const Vec3& corner : corners_) seen_.push_back(corner - place);
+    return sensor::find_aim(camera_, mount_, seen_, 1e-6, room).has_value();
+  }
+
+  /// All corners inside of four planes: linear.
+  LegIntervals fixed() const {
+    const sensor::PictureEdges edges =
+        sensor::picture_edges(camera_, {*mount_.yaw_deg * kRadian, mount_.min_pitch_deg * kRadian},
+                              sensor::Angle(mount_.roll_deg * kRadian));
+    LegIntervals parts;
+    for (const Vec3& edge : edges) {
+      const Vec3 normal = edge.normalized();
+      for (const Vec3& corner : corners_) {
+        for (const LegInterval& part :
+             where_positive(local_.radius - normal.dot(corner - local_.leg.from),
+                            local_.radius - normal.dot(corner - local_.leg.to))) {
+          parts.push_back(part);
+        }
+      }
+    }
+    return joined(std::move(parts));
+  }
+
+  // From places r away an orientation has each corner inside of the picture's planes by no more than r less, or r more.
+  void look(double begin, double end) {
+    const double shortest = std::min(1e-3, 1e-5 * local_.length());  // metres
+    const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin) * local_.length(), radius = local_.radius;
+    const Vec3 place = local_.at(middle);
+    if (has_aim(place, {.inside_m = half + radius})) return;
+    const bool is_short = 2 * half <= std::max(shortest, radius / 8);
+    if (!has_aim(place, {.inside_m = -half}) || (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
+      parts_.push_back({begin, end});
+      return;
+    }
+    if (is_short) return;
+    look(begin, middle);
+    look(middle, end);
+  }
+
+  /// Whether each place of the ball about the middle of this cube, `half` more, has its orientation. The cube's centre
+  /// is `aside` from the ball's.
+  bool all_near(const Vec3& place, const Vec3& aside, double side, double half) {
+    const double corner = std::sqrt(3.0) * side;
+    if (aside.norm() - corner > local_.radius) return true;  // beside the ball
+    if (has_aim(place + aside, {.inside_m = corner + half})) return true;
+    if (!(side > local_.radius / 8)) return false;
+    for (int child = 0; child < 8; ++child) {
+      const Vec3 to(child & 1 ? 1 : -1, child & 2 ? 1 : -1, child & 4 ? 1 : -1);
+      if (!all_near(place, aside + 0.5 * side * to, 0.5 * side, half)) return false;
+    }
+    return true;
+  }
+
+  Pinhole camera_;
+  Mount mount_;
+  const std::vector<Vec3>& corners_;
+  Tube local_;
+  std::vector<Vec3> seen_;
+  LegIntervals parts_;
+};
+
+}  // namespace
+
+void add_aim_breaks(const sensor::SensorLimits& limits, const Tube& tube, std::vector<LegBreak>& breaks) {
+  const Tube local = tube.moved(-limits.viewed().origin);
+  const Mount& mount = limits.sensor().mount;
+  const Mount free{.yaw_deg = {}, .roll_deg = mount.roll_deg};
+  AimLook look(limits, mount, local), free_look(limits, free, local);
+  const LegIntervals broken = look.broken({{0, 1}});
+  if (broken.empty()) return;
+  const LegIntervals frame = free_look.broken(broken);
+  const auto amount = [&](double share) {
+    double nearest = INFINITY;
+    for (const Vec3& corner : limits.viewed().corners) nearest = std::min(nearest, (corner - local.at(share)).norm());
+    const double turn = nearest > tube.radius ? std::asin(tube.radius / nearest) / kRadian : 90.0;
+    return look.out_of_picture(share) + turn;
+  };
+  add_break(breaks, "frame", LegBreak::Unit::degrees, frame, amount);
+  add_break(breaks, "gimbal", LegBreak::Unit::degrees, without(broken, frame), amount);
+}
+
+}  // namespace vantage::internal::query

@@ -1,0 +1,134 @@
+// Legs in zones and out of them.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "query/leg_convex.h"
+#include "query/leg_limits.h"
+#include "query/zone_place.h"
+
+namespace vantage::internal::query {
+namespace {
+
+using Plan = Eigen::Vector2d;
+
+double distance_to_side(const Plan& place, const Plan& a, const Plan& b) {
+  const Plan side = b - a;
+  const double square = side.squaredNorm();
+  const double share = square > 0 ? std::clamp((place - a).dot(side) / square, 0.0, 1.0) : 0.0;
+  return (place - a - share * side).norm();
+}
+
+bool boxes_meet(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+}  // namespace
+
+double outside_box(const Box& box, const Vec3& place) {
+  const Vec3 beyond = (box.min - place).cwiseMax(place - box.max);
+  const double farthest = beyond.maxCoeff();
+  return farthest <= 0 ? farthest : beyond.cwiseMax(0).norm();
+}
+
+LegZone::LegZone(const Zone& zone, std::shared_ptr<const LegGround> ground)
+    : zone_(zone), box_(box_of(zone)), ground_(std::move(ground)) {}
+
+/// Of the leg itself: between two places where it passes a side, or nearly, all of it is inside or none.
+LegIntervals LegZone::in_plan(const Tube& tube, bool with_border) const {
+  const Plan from = tube.leg.from.head<2>(), along = tube.leg.to.head<2>() - from;
+  constexpr double kNear = 1e-9;  // of a side's length
+  std::vector<double> cuts{0, 1};
+  for_each_side(zone_, [&](const Plan& a, const Plan& b) {
+    const Plan side = b - a, to_a = a - from;
+    const double slope = along.x() * side.y() - along.y() * side.x();
+    if (slope == 0) {
+      // It slides along the side, or passes beside it: from end to end.
+      for (const Plan& end : {a, b}) {
+        const double square = along.squaredNorm();
+        if (square > 0) cuts.push_back((end - from).dot(along) / square);
+      }
+      return;
+    }
+    const double at = (to_a.x() * along.y() - to_a.y() * along.x()) / slope;
+    if (at >= -kNear && at <= 1 + kNear) cuts.push_back((to_a.x() * side.y() - to_a.y() * side.x()) / slope);
+  });
+  std::erase_if(cuts, [](double cut) { return !(cut >= 0 && cut <= 1); });
+  std::sort(cuts.begin(), cuts.end());
+  LegIntervals parts;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (!(cuts[i] < cuts[i + 1])) continue;
+    const ZonePlace place = place_in(zone_, from + 0.5 * (cuts[i] + cuts[i + 1]) * along);
+    if (place == ZonePlace::inside || (with_border && place == ZonePlace::border)) {
+      parts.push_back({cuts[i], cuts[i + 1]});
+    }
+  }
+  return joined(std::move(parts));
+}
+
+/// Where the leg is nearer than the radius to a side: in plan, or to the wall that stands on it between the zone's
+/// heights.
+LegIntervals LegZone::near_sides(const Tube& tube, bool within_heights) const {
+  LegIntervals parts;
+  const Box near = tube.box();
+  for_each_side(zone_, [&](const Plan& a, const Plan& b) {
+    const Plan low = a.cwiseMin(b), high = a.cwiseMax(b);
+    if (low.x() > near.max.x() || high.x() < near.min.x() || low.y() > near.max.y() || high.y() < near.min.y()) return;
+    const auto distance = [&](double share) {
+      const Vec3 place = tube.at(share);
+      const double aside = distance_to_side(place.head<2>(), a, b);
+      const double beyond =
+          within_heights ? std::max({0.0, zone_.min_z_m - place.z(), place.z() - zone_.max_z_m}) : 0.0;
+      return std::hypot(aside, beyond);
+    };
+    if (const auto part = below_level(distance, tube.radius)) parts.push_back(*part);
+  });
+  return joined(std::move(parts));
+}
+
+LegIntervals LegZone::kept(const Tube& tube) const {
+  if (!boxes_meet(box_, tube.box())) return {};
+  const double from = tube.leg.from.z(), to = tube.leg.to.z(), radius = tube.radius;
+  LegIntervals parts = in_plan(tube, true);
+  if (parts.empty()) return parts;
+  parts = without(parts, where_positive(zone_.min_z_m - from + radius, zone_.min_z_m - to + radius));
+  parts = without(parts, where_positive(from - zone_.max_z_m + radius, to - zone_.max_z_m + radius));
+  if (radius > 0) parts = without(parts, near_sides(tube, false));
+  if (!zone_.above_ground) return parts;
+  parts = without(parts, ground_->below(tube, zone_.above_ground->min_m));
+  parts = without(parts, ground_->over(tube, zone_.above_ground->max_m));
+  return without(parts, ground_->beside(tube));
+}
+
+LegIntervals LegZone::broken(const Tube& tube) const {
+  if (!boxes_meet(box_, tube.box())) return {};
+  const double from = tube.leg.from.z(), to = tube.leg.to.z(), radius = tube.radius;
+  LegIntervals parts = in_plan(tube, false);
+  parts = common(parts, where_positive(from - zone_.min_z_m + radius, to - zone_.min_z_m + radius));
+  parts = common(parts, where_positive(zone_.max_z_m - from + radius, zone_.max_z_m - to + radius));
+  if (radius > 0) {
+    const LegIntervals near = near_sides(tube, true);
+    parts.insert(parts.end(), near.begin(), near.end());
+    parts = joined(std::move(parts));
+  }
+  if (!zone_.above_ground || parts.empty()) return parts;
+  // Above the lowest height over some piece of ground, and below the highest one over some other; or without ground.
+  LegIntervals between = common(ground_->over(tube, zone_.above_ground->min_m),
+                                ground_->below(tube, zone_.above_ground->max_m));
+  const LegIntervals beside = ground_->beside(tube);
+  between.insert(between.end(), beside.begin(), beside.end());
+  return common(parts, joined(std::move(between)));
+}
+
+double LegZone::outside(const Vec3& place) const {
+  double aside = INFINITY;
+  for_each_side(zone_, [&](const Plan& a, const Plan& b) {
+    aside = std::min(aside, distance_to_side(place.head<2>(), a, b));
+  });
+  if (place_in(zone_, place.head<2>()) != ZonePlace::outside) aside = -aside;
+  const double beyond = std::max(zone_.min_z_m - place.z(), place.z() - zone_.max_z_m);
+  if (aside <= 0 && beyond <= 0) return std::max(aside, beyond);
+  return std::hypot(std::max(aside, 0.0), std::max(beyond, 0.0));
+}
+
+}  // namespace vantage::internal::query

@@ -1,0 +1,758 @@
+// Plans of ground stations: what is read, and where it lies in a scene.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "geo/local_frame.h"
+#include "support/grounds.h"
+#include "support/internals.h"
+#include "support/plan_texts.h"
+#include "support/random.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+#include "vantage/flight_plan.h"
+
+namespace vantage::testing {
+namespace {
+
+using namespace plan_texts;
+
+FlightPlan parsed_plan(const std::string& text, const std::string& track = "") {
+  ReadPlanOptions options;
+  options.track = track;
+  return parse_flight_plan(text, "/data/flight.plan", options);
+}
+
+bool has_note(const std::vector<Warning>& notes, WarningCode code) {
+  return std::any_of(notes.begin(), notes.end(), [&](const Warning& note) { return note.code == code; });
+}
+
+Georeference munich(const std::string& vertical = "EGM96 geoid") {
+  Georeference place;
+  place.latitude_deg = 48;
+  place.longitude_deg = 11;
+  place.vertical = vertical;
+  return place;
+}
+
+LocateOptions in_munich() {
+  LocateOptions options;
+  options.georeference = munich();
+  return options;
+}
+
+/// The distance of the vertical or slanted segment's line to a point.
+double distance_to_leg(const Leg& leg, const Vec3& p) {
+  const Vec3 along = leg.to - leg.from;
+  const double share =
+      along.squaredNorm() > 0 ? std::clamp((p - leg.from).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
+  return (leg.from + share * along - p).norm();
+}
+
+// ---- reading ----
+
+TEST(ReadFlightPlan, TakesTheItemsOfQGroundControl) {
+  const FlightPlan read = parsed_plan(plan({
+      simple(22, 3, "[0, 0, 0, null, null, null, 20]", 1),
+      simple(178, 2, "[1, 8, -1, 0, 0, 0, 0]", 2),
+      simple(195, 3, "[0, 0, 0, 0, 48.002, 11.002, 7]", 3),
+      simple(16, 3, "[2.5, 3, 0, 90, 48.001, 11.001, 40]", 4),
+      simple(2000, 2, "[0, 0, 1, 0, 0, 0, 0]", 5),
+      simple(197, 2, "[0, 0, 0, 0, 0, 0, 0]", 6),
+      simple(205, 2, "[-30, 0, 15, 0, 0, 0, 2]", 7),
+      simple(16, 0, "[0, 0, 0, null, 48.002, 11.001, 560]", 8),
+      simple(1000, 2, "[-45, 200, null, null, 16, 0, 0]", 9),
+      simple(18, 3, "[2, 0, -30, 0, 48.003, 11.001, 50]", 10),
+      simple(19, 10, "[7, 0, 0, 0, 48.003, 11.002, 60]", 11),
+      simple(16, 10, "[0, 0, 0, null, 48.004, 11.002, 70]", 12),
+      simple(93, 2, "[4, 0, 0, 0, 0, 0, 0]", 13),
+      simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]", 14),
+  }));
+  EXPECT_EQ(read.format, PlanFormat::qgroundcontrol);
+  EXPECT_EQ(read.vehicle, PlanVehicle::multirotor);
+  EXPECT_EQ(read.speed_m_s, 5);
+  ASSERT_TRUE(read.home);
+  EXPECT_EQ(read.home->horizontal, Eigen::Vector2d(11, 48));
+  EXPECT_EQ(read.home->datum, HeightDatum::sea_level);
+  ASSERT_EQ(read.items.size(), 7u);
+  EXPECT_EQ(read.items[0].kind, PlanItemKind::takeoff);
+  EXPECT_FALSE(read.items[0].position.horizontal.allFinite());
+  EXPECT_TRUE(std::isnan(read.items[0].speed_m_s));
+  const PlanItem& first = read.items[1];
+  EXPECT_EQ(first.position.horizontal, Eigen::Vector2d(11.001, 48.001));
+  EXPECT_EQ(first.position.height_m, 40);
+  EXPECT_EQ(first.position.datum, HeightDatum::home);
+  EXPECT_EQ(first.hold_s, 2.5);
+  EXPECT_EQ(first.acceptance_radius_m, 3);
+  EXPECT_EQ(first.yaw_deg, 90);
+  EXPECT_EQ(first.speed_m_s, 8);
+  EXPECT_EQ(first.place, "/data/flight.plan: item 4");
+  ASSERT_TRUE(first.look_at);
+  EXPECT_EQ(first.look_at->horizontal, Eigen::Vector2d(11.002, 48.002));
+  EXPECT_EQ(read.items[2].position.datum, HeightDatum::sea_level);
+  EXPECT_FALSE(read.items[2].look_at);
+  EXPECT_EQ(read.items[2].gimbal_pitch_deg, -30);
+  EXPECT_EQ(read.items[2].gimbal_yaw_deg, 15);
+  EXPECT_FALSE(read.items[2].gimbal_yaw_from_north);
+  EXPECT_EQ(read.items[3].kind, PlanItemKind::loiter);
+  EXPECT_EQ(read.items[3].turns, 2);
+  EXPECT_EQ(read.items[3].loiter_radius_m, -30);
+  EXPECT_TRUE(read.items[3].gimbal_yaw_from_north);
+  EXPECT_EQ(read.items[4].turns, 0);  // a multirotor stays
+  EXPECT_EQ(read.items[4].hold_s, 7);
+  EXPECT_EQ(read.items[4].position.datum, HeightDatum::ground);
+  EXPECT_FALSE(read.items[4].follows_ground);  // what comes before is not above ground
+  EXPECT_TRUE(read.items[5].follows_ground);
+  EXPECT_EQ(read.items[5].hold_s, 4);
+  EXPECT_EQ(read.items[6].kind, PlanItemKind::return_home);
+  EXPECT_TRUE(read.notes.empty());
+}
+
+TEST(ReadFlightPlan, TakesHeightsThatAreComputedFromTerrain) {
+  const auto item = [](const std::string& height, const std::string& above_sea) {
+    return simple(16, 0, "[0, 0, 0, null, 48, 11, " + height + "]", 1,
+                  ", \"AltitudeMode\": 3, \"Altitude\": 30, \"AMSLAltAboveTerrain\": " + above_sea);
+  };
+  const FlightPlan read = parsed_plan(plan({item("531", "531"), item("null", "532"), item("null", "null")}));
+  ASSERT_EQ(read.items.size(), 3u);
+  EXPECT_EQ(read.items[0].position.height_m, 531);
+  EXPECT_EQ(read.items[1].position.height_m, 532);
+  EXPECT_EQ(read.items[1].position.datum, HeightDatum::sea_level);
+  EXPECT_EQ(read.items[2].position.height_m, 30);
+  EXPECT_EQ(read.items[2].position.datum, HeightDatum::ground);
+  EXPECT_FALSE(read.items[2].follows_ground);
+}
+
+TEST(ReadFlightPlan, FollowsJumps) {
+  const auto jump = [](int to, int repeat) {
+    return simple(177, 2, "[" + std::to_string(to) + ", " + std::to_string(repeat) + ", 0, 0, 0, 0, 0]");
+  };
+  const std::vector<std::string> two{waypoint(48, 11, 10, 3, 1), waypoint(48.001, 11, 20, 3, 2)};
+  const auto heights = [&](const std::string& last) {
+    std::vector<double> found;
+    for (const PlanItem& item : parsed_plan(plan({two[0], two[1], last, waypoint(48, 11, 30)})).items) {
+      found.push_back(item.position.height_m);
+    }
+    return found;
+  };
+  EXPECT_EQ(heights(jump(1, 2)), (std::vector<double>{10, 20, 10, 20, 10, 20, 30}));
+  EXPECT_EQ(heights(jump(2, 1)), (std::vector<double>{10, 20, 20, 30}));
+  EXPECT_EQ(heights(jump(1, 0)), (std::vector<double>{10, 20, 30}));
+  EXPECT_EQ(heights(jump(1, -1)), (std::vector<double>{10, 20, 10, 20, 30}));
+  EXPECT_TRUE(has_note(parsed_plan(plan({two[0], two[1], jump(1, -1)})).notes, WarningCode::plan_assumed));
+  expect_error([&] { parsed_plan(plan({two[0], jump(7, 1)})); }, ErrorCode::index_out_of_range, "item 2");
+  expect_error([&] { parsed_plan(plan({two[0], jump(1, 1000000)})); }, ErrorCode::value_out_of_range, "item");
+  // A jump onto itself comes to an end, too.
+  EXPECT_EQ(parsed_plan(plan({two[0], simple(177, 2, "[5, 3, 0, 0, 0, 0, 0]", 5)})).items.size(), 1u);
+}
+
+TEST(ReadFlightPlan, TakesWhatSurveysStore) {
+  const auto complex = [](const std::string& type, const std::string& style) {
+    return "{\"type\": \"ComplexItem\", \"complexItemType\": \"" + type + "\"" + style + "}";
+  };
+  const auto style = [](const std::string& members) { return ", \"TransectStyleComplexItem\": {" + members + "}"; };
+  const FlightPlan stored = parsed_plan(plan(
+      {complex("survey", style("\"Items\": [" + waypoint(48, 11, 40) + ", " + simple(206, 2, "[9, 0, 1, 0, 0, 0, 0]") +
+                               ", " + waypoint(48.001, 11, 40) + "]"))}));
+  ASSERT_EQ(stored.items.size(), 2u);
+  EXPECT_EQ(stored.items[1].place, "/data/flight.plan: item 1 (survey), item 3");
+  const std::string points = "\"VisualTransectPoints\": [[48, 11], [48.001, 11]]";
+  const auto camera = [](const std::string& more) {
+    return ", \"CameraCalc\": {\"DistanceToSurface\": 45" + more + "}";
+  };
+  const FlightPlan drawn =
+      parsed_plan(plan({complex("CorridorScan", style(points + camera(", \"DistanceToSurfaceRelative\": true")))}));
+  ASSERT_EQ(drawn.items.size(), 2u);
+  EXPECT_EQ(drawn.items[0].position.height_m, 45);
+  EXPECT_EQ(drawn.items[0].position.datum, HeightDatum::home);
+  EXPECT_EQ(
+      parsed_plan(plan({complex("survey", style(points + camera(", \"DistanceMode\": 2")))})).items[0].position.datum,
+      HeightDatum::sea_level);
+  expect_error(
+      [&] {
+        parsed_plan(plan({waypoint(48, 11, 40), complex("StructureScan", "")}));
+      },
+      ErrorCode::value_unsupported, "item 2");
+  // The height is over a terrain that the plan does not hold.
+  expect_code([&] { parsed_plan(plan({complex("survey", style(points + camera(", \"DistanceMode\": 3")))})); },
+              ErrorCode::value_unsupported, "item 1");
+  expect_code(
+      [&] {
+        parsed_plan(plan({complex(
+            "survey", style(points + ", \"FollowTerrain\": true" + camera(", \"DistanceToSurfaceRelative\": true")))}));
+      },
+      ErrorCode::value_unsupported, "item 1");
+}
+
+TEST(ReadFlightPlan, TakesPatternsOfLanding) {
+  const FlightPlan read = parsed_plan(
+      plan({waypoint(48, 11, 40),
+            "{\"type\": \"ComplexItem\", \"complexItemType\": \"fwLandingPattern\", \"altitudesAreRelative\": true, "
+            "\"landCoordinate\": [48.01, 11, 0], \"landingApproachCoordinate\": [48.02, 11, 30], \"loiterRadius\": 80, "
+            "\"loiterClockwise\": false}"},
+           1));
+  ASSERT_EQ(read.items.size(), 3u);
+  EXPECT_EQ(read.items[1].loiter_radius_m, -80);
+  EXPECT_EQ(read.items[1].position.height_m, 30);
+  EXPECT_EQ(read.items[2].kind, PlanItemKind::land);
+  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
+}
+
+TEST(ReadFlightPlan, CountsWhatItDoesNotKnow) {
+  const FlightPlan read = parsed_plan(
+      plan({waypoint(48, 11, 10), simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"), simple(40, 3, "[0, 0, 0, 0, 48, 11, 5]"),
+            simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"), simple(82, 3, "[0, 0, 0, 0, 48.001, 11, 5]"),
+            simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]"), waypoint(48, 11, 10)}));
+  EXPECT_EQ(read.items.size(), 3u);
+  std::vector<std::string> texts;
+  for (const Warning& note : read.notes) texts.push_back(note.text);
+  expect_wording(texts);
+  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_left_out));
+  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
+}
+
+TEST(ReadFlightPlan, TakesTablesOfWaypoints) {
+  const std::string table =
+      "QGC WPL 110\r\n"
+      "0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t510\t1\r\n"
+      "1\t0\t3\t22\t0\t0\t0\t0\t0\t0\t20\t1\r\n"
+      "2\t0\t3\t16\t1.5\t0\t0\tnan\t48.001\t11.001\t40\t1\r\n"
+      "3\t0\t3\t177\t2\t1\t0\t0\t0\t0\t0\t1\r\n";
+  const FlightPlan read = parsed_plan(table);
+  EXPECT_EQ(read.format, PlanFormat::waypoints);
+  ASSERT_TRUE(read.home);
+  EXPECT_EQ(read.home->height_m, 510);
+  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
+  ASSERT_EQ(read.items.size(), 3u);
+  EXPECT_EQ(read.items[0].kind, PlanItemKind::takeoff);
+  EXPECT_EQ(read.items[1].hold_s, 1.5);
+  EXPECT_EQ(read.items[1].place, "/data/flight.plan: line 4, item 2");
+  expect_error([] { parsed_plan("QGC WPL 100\n"); }, ErrorCode::value_unsupported, "line 1");
+  expect_error([] { parsed_plan("QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t510\n"); }, ErrorCode::plan_syntax,
+               "line 2");
+  expect_error([] { parsed_plan("QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\tnan\t11\t510\t1\n"); }, ErrorCode::not_a_number,
+               "line 2, item 0");
+  expect_error([] { parsed_plan("QGC WPL 110\n"); }, ErrorCode::plan_empty);
+}
+
+TEST(ReadFlightPlan, TakesLinesAndTracksOfKml) {
+  const FlightPlan line = parsed_plan(kml(kml_line("11,48,520 11.001,48,530\n11.001,48.001,540")));
+  EXPECT_EQ(line.format, PlanFormat::kml);
+  ASSERT_EQ(line.items.size(), 3u);
+  EXPECT_EQ(line.items[2].position.horizontal, Eigen::Vector2d(11.001, 48.001));
+  EXPECT_EQ(line.items[2].position.height_m, 540);
+  EXPECT_EQ(line.items[2].position.datum, HeightDatum::sea_level);
+  EXPECT_EQ(line.items[2].place, "/data/flight.plan: line 3, position 3");
+  EXPECT_EQ(parsed_plan(kml(kml_line("11,48,20", "relativeToGround"))).items[0].position.datum, HeightDatum::ground);
+  const PlanItem clamped = parsed_plan(kml(kml_line("11,48,20", "clampToGround"))).items[0];
+  EXPECT_EQ(clamped.position.datum, HeightDatum::unknown);
+  EXPECT_EQ(clamped.position.height_m, 20);
+  EXPECT_TRUE(std::isnan(parsed_plan(kml(kml_line("11,48,0", "clampToGround"))).items[0].position.height_m));
+  const FlightPlan track = parsed_plan(
+      kml("<Placemark><gx:Track><altitudeMode>absolute</altitudeMode><when>2020</when><gx:coord>11 48 500</gx:coord>"
+          "<gx:coord>11.5 48 510</gx:coord></gx:Track></Placemark><Placemark><Point><coordinates>1,2,3</coordinates>"
+          "</Point></Placemark>"));
+  ASSERT_EQ(track.items.size(), 2u);
+  EXPECT_EQ(track.items[1].position.height_m, 510);
+  const auto point = [](const std::string& at) {
+    return "<Placemark><Point><altitudeMode>absolute</altitudeMode><coordinates>" + at +
+           "</coordinates></Point></Placemark>";
+  };
+  EXPECT_EQ(parsed_plan(kml(point("11,48,500") + point("11.1,48,500"))).items.size(), 2u);
+}
+
+TEST(ReadFlightPlan, JoinsTracksOrTakesOne) {
+  const std::string text =
+      kml(kml_line("11,48,1 11,48.001,2", "absolute", "out") + kml_line("11,48.001,3", "absolute", "back"));
+  const FlightPlan both = parsed_plan(text);
+  EXPECT_EQ(both.items.size(), 3u);
+  ASSERT_EQ(both.notes.size(), 1u);
+  EXPECT_EQ(both.notes[0].code, WarningCode::plan_joined);
+  expect_wording(both.notes[0].text);
+  EXPECT_EQ(parsed_plan(text, "back").items.size(), 1u);
+  EXPECT_EQ(parsed_plan(text, "1").items.size(), 2u);
+  EXPECT_TRUE(parsed_plan(text, "back").notes.empty());
+  expect_error([&] { parsed_plan(text, "third"); }, ErrorCode::unknown_choice);
+  expect_code([&] { parsed_plan(text, "3"); }, ErrorCode::unknown_choice);
+  expect_code([&] { parsed_plan(text, "0"); }, ErrorCode::unknown_choice);
+}
+
+TEST(ReadFlightPlan, TakesWaylinesOfDji) {
+  const std::string turn =
+      "<wpml:waypointTurnParam><wpml:waypointTurnMode>coordinateTurn</wpml:waypointTurnMode>"
+      "<wpml:waypointTurnDampingDist>5</wpml:waypointTurnDampingDist></wpml:waypointTurnParam>";
+  const std::string actions =
+      "<wpml:waypointSpeed>6</"
+      "wpml:waypointSpeed><wpml:actionGroup><wpml:actionTrigger><wpml:actionTriggerType>reachPoint"
+      "</wpml:actionTriggerType></wpml:actionTrigger><wpml:action><wpml:actionActuatorFunc>hover</"
+      "wpml:actionActuatorFunc>"
+      "<wpml:actionActuatorFuncParam><wpml:hoverTime>3</wpml:hoverTime></wpml:actionActuatorFuncParam></wpml:action>"
+      "<wpml:action><wpml:actionActuatorFunc>gimbalRotate</wpml:actionActuatorFunc><wpml:actionActuatorFuncParam>"
+      "<wpml:gimbalPitchRotateEnable>1</wpml:gimbalPitchRotateEnable><wpml:gimbalPitchRotateAngle>-60"
+      "</wpml:gimbalPitchRotateAngle></wpml:actionActuatorFuncParam></wpml:action></wpml:actionGroup>";
+  const std::string config =
+      "<wpml:finishAction>goHome</wpml:finishAction><wpml:takeOffSecurityHeight>25</wpml:takeOffSecurityHeight>"
+      "<wpml:takeOffRefPoint>48,11,560</wpml:takeOffRefPoint><wpml:globalTransitionalSpeed>9</"
+      "wpml:globalTransitionalSpeed>";
+  const FlightPlan read =
+      parsed_plan(waylines(wayline(wayline_point(11.001, 48, 40, actions) + wayline_point(11.002, 48, 50, turn) +
+                                   wayline_point(11.003, 48, 60)),
+                           config));
+  EXPECT_EQ(read.format, PlanFormat::wpml);
+  ASSERT_EQ(read.items.size(), 5u);
+  EXPECT_EQ(read.items[0].kind, PlanItemKind::takeoff);
+  EXPECT_EQ(read.items[0].position.height_m, 25);
+  EXPECT_EQ(read.items[1].position.datum, HeightDatum::home);
+  EXPECT_EQ(read.items[1].speed_m_s, 9);
+  EXPECT_EQ(read.items[1].hold_s, 3);
+  EXPECT_EQ(read.items[1].gimbal_pitch_deg, -60);
+  EXPECT_EQ(read.items[2].speed_m_s, 6);
+  EXPECT_EQ(read.items[2].cut_m, 5);
+  EXPECT_EQ(read.items[2].gimbal_pitch_deg, -60);
+  EXPECT_EQ(read.items[3].speed_m_s, 8);
+  EXPECT_EQ(read.items[4].kind, PlanItemKind::return_home);
+  EXPECT_EQ(read.home->datum, HeightDatum::ellipsoid);
+  const auto datum = [](const std::string& mode) {
+    return parsed_plan(waylines(wayline(wayline_point(11, 48, 40), mode))).items[0].position.datum;
+  };
+  EXPECT_EQ(datum("WGS84"), HeightDatum::ellipsoid);
+  EXPECT_EQ(datum("realTimeFollowSurface"), HeightDatum::ground);
+  EXPECT_EQ(datum("another"), HeightDatum::unknown);
+  EXPECT_TRUE(has_note(
+      parsed_plan(waylines(wayline(wayline_point(11, 48, 40)) + wayline(wayline_point(11, 48, 40), "WGS84", 1))).notes,
+      WarningCode::plan_joined));
+}
+
+TEST(ReadFlightPlan, TakesTemplatesOfDji) {
+  const auto with = [](const std::string& type, const std::string& mode) {
+    return waylines(
+        "<Folder><wpml:templateType>" + type + "</wpml:templateType><wpml:waylineCoordinateSysParam><wpml:heightMode>" +
+        mode +
+        "</wpml:heightMode></wpml:waylineCoordinateSysParam><wpml:globalHeight>70</wpml:globalHeight>"
+        "<Placemark><Point><coordinates>11,48</coordinates></Point><wpml:ellipsoidHeight>590"
+        "</wpml:ellipsoidHeight><wpml:height>545</wpml:height></Placemark><Placemark><Point><coordinates>11,48.001"
+        "</coordinates></Point><wpml:useGlobalHeight>1</wpml:useGlobalHeight></Placemark></Folder>");
+  };
+  const FlightPlan read = parsed_plan(with("waypoint", "EGM96"));
+  EXPECT_EQ(read.items[0].position.height_m, 545);
+  EXPECT_EQ(read.items[0].position.datum, HeightDatum::sea_level);
+  EXPECT_EQ(read.items[1].position.height_m, 70);
+  EXPECT_EQ(parsed_plan(with("waypoint", "WGS84")).items[0].position.height_m, 590);
+  expect_error([&] { parsed_plan(with("mapping2d", "EGM96")); }, ErrorCode::value_unsupported, "line 3");
+}
+
+TEST(ReadFlightPlan, TakesTracksRoutesAndPointsOfGpx) {
+  const auto point = [](const std::string& name, const std::string& latitude, const std::string& height) {
+    return "<" + name + " lat=\"" + latitude + "\" lon=\"11\"><ele>" + height + "</ele></" + name + ">\n";
+  };
+  const std::string track = "<trk><trkseg>" + point("trkpt", "48", "500") + point("trkpt", "48.1", "501") +
+                            "</trkseg><trkseg>" + point("trkpt", "48.2", "502") + "</trkseg></trk>";
+  const std::string route = "<rte>" + point("rtept", "47", "400") + "</rte>";
+  const std::string waypoints = point("wpt", "46", "300") + point("wpt", "46.1", "300");
+  const FlightPlan all = parsed_plan(gpx(waypoints + route + track));
+  ASSERT_EQ(all.items.size(), 3u);
+  EXPECT_EQ(all.items[2].position.height_m, 502);
+  EXPECT_EQ(all.items[0].position.datum, HeightDatum::sea_level);
+  EXPECT_TRUE(has_note(all.notes, WarningCode::plan_left_out));
+  EXPECT_EQ(parsed_plan(gpx(waypoints + route)).items.size(), 1u);
+  EXPECT_EQ(parsed_plan(gpx(waypoints)).items.size(), 2u);
+  EXPECT_TRUE(std::isnan(parsed_plan(gpx("<wpt lat=\"48\" lon=\"11\"/>")).items[0].position.height_m));
+  expect_error([&] { parsed_plan(gpx("<wpt lat=\"48\"/>")); }, ErrorCode::plan_syntax, "line 3");
+  expect_error([&] { parsed_plan(gpx("<wpt lat=\"NaN\" lon=\"11\"/>")); }, ErrorCode::not_a_number, "line 3");
+}
+
+TEST(ReadFlightPlan, TakesLinesAndPointsOfGeoJson) {
+  const FlightPlan line = parsed_plan(
+      "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\", \"properties\": {\"name\": \"a\"}, "
+      "\"geometry\": {\"type\": \"LineString\", \"coordinates\": [[11, 48, 560], [11.001, 48, 570]]}}, {\"type\": "
+      "\"Feature\", \"properties\": null, \"geometry\": null}]}");
+  EXPECT_EQ(line.format, PlanFormat::geojson);
+  ASSERT_EQ(line.items.size(), 2u);
+  EXPECT_EQ(line.items[1].position.height_m, 570);
+  EXPECT_EQ(line.items[1].position.datum, HeightDatum::ellipsoid);
+  EXPECT_EQ(parsed_plan("{\"type\": \"Point\", \"coordinates\": [11, 48]}").items.size(), 1u);
+  expect_error([] { parsed_plan("{\"type\": \"LineString\", \"coordinates\": [[11]]}"); }, ErrorCode::plan_syntax,
+               "position 1");
+}
+
+TEST(ReadFlightPlan, TakesTablesWhoseColumnsSayWhatTheyAre) {
+  const auto first = [](const std::string& text) { return parsed_plan(text).items.at(0).position; };
+  EXPECT_EQ(first("lat,lon,alt_amsl\n48,11,500\n").datum, HeightDatum::sea_level);
+  EXPECT_EQ(first("Longitude;Latitude;Height AGL (m)\n11;48;30\n").datum, HeightDatum::ground);
+  EXPECT_EQ(first("lat\tlng\tHAE\n48\t11\t560\n").datum, HeightDatum::ellipsoid);
+  EXPECT_EQ(first("lat,lon,height_home_m\n48,11,560\n").datum, HeightDatum::home);
+  EXPECT_EQ(first("lat,lon,altitude\n48,11,560\n").datum, HeightDatum::unknown);
+  EXPECT_EQ(first("lat,lon,altitude,msl\n48,11,1,560\n").height_m, 560);
+  EXPECT_NEAR(first("lat,lon,msl_ft\n48,11,1000\n").height_m, 304.8, 1e-9);
+  EXPECT_EQ(first("lat,lon\n48,11\n").horizontal, Eigen::Vector2d(11, 48));
+  const FlightPlan scene =
+      parsed_plan("# a comment\n\nname,x_m,y_m,z_m,hold_s,speed_m_s,gimbal_pitch_deg\n\"a, b\",1,2,3,4,5,-90\n");
+  EXPECT_TRUE(scene.is_in_scene_frame);
+  EXPECT_EQ(scene.items[0].position.horizontal, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(scene.items[0].position.datum, HeightDatum::scene_z);
+  EXPECT_EQ(scene.items[0].hold_s, 4);
+  EXPECT_EQ(scene.items[0].speed_m_s, 5);
+  EXPECT_EQ(scene.items[0].gimbal_pitch_deg, -90);
+  const FlightPlan litchi = parsed_plan(
+      "latitude,longitude,altitude(m),heading(deg),curvesize(m),altitudemode,speed(m/"
+      "s)\n48,11,30,90,2,0,0\n48,11,40,0,0,1,3\n");
+  EXPECT_EQ(litchi.items[0].position.datum, HeightDatum::home);
+  EXPECT_EQ(litchi.items[0].cut_m, 2);
+  EXPECT_EQ(litchi.items[0].yaw_deg, 90);
+  EXPECT_TRUE(std::isnan(litchi.items[0].speed_m_s));
+  EXPECT_EQ(litchi.items[1].position.datum, HeightDatum::ground);
+  expect_error([] { parsed_plan("a,b,c\n1,2,3\n"); }, ErrorCode::plan_syntax, "line 1");
+  expect_error([] { parsed_plan("lat,lon,msl\n48,11,high\n"); }, ErrorCode::not_a_number, "line 2, column 3");
+  expect_error([] { parsed_plan("x,y,z\n1,2\n"); }, ErrorCode::plan_syntax, "line 2");
+  expect_error([] { parsed_plan("lat,lon,msl\n"); }, ErrorCode::plan_empty);
+}
+
+TEST(ReadFlightPlan, TellsWhatIsWrong) {
+  expect_error([] { parsed_plan(""); }, ErrorCode::file_empty);
+  expect_error([] { parsed_plan(std::string("\x01\x02\x03", 3)); }, ErrorCode::plan_syntax);
+  expect_error([] { parsed_plan("<svg/>"); }, ErrorCode::plan_syntax);
+  expect_error([] { parsed_plan("{\"fileType\": \"Plan\"}"); }, ErrorCode::plan_empty, "mission");
+  expect_error([] { parsed_plan("{\"mission\": {\"items\": 3}}"); }, ErrorCode::plan_syntax, "mission.items");
+  expect_error([] { parsed_plan(plan({})); }, ErrorCode::plan_empty);
+  expect_error([] { parsed_plan("{\"mission\": "); }, ErrorCode::plan_syntax, "line 1, column 13");
+  expect_error([] { parsed_plan(plan({simple(16, 3, "[0, 0, 0, 0, 48, 11]")})); }, ErrorCode::plan_syntax, "item 1");
+  expect_error([] { parsed_plan(plan({simple(16, 3, "[0, 0, 0, 0, \"48\", 11, 1]")})); }, ErrorCode::not_a_number,
+               "item 1");
+  expect_error([] { parsed_plan(plan({simple(16, 1, "[0, 0, 0, 0, 48, 11, 1]")})); }, ErrorCode::value_unsupported,
+               "item 1");
+  expect_error([] { parsed_plan(plan({waypoint(111, 48, 1)})); }, ErrorCode::not_on_earth, "item 1");
+  expect_error([] { parsed_plan(plan({waypoint(48, 11, 1e7)})); }, ErrorCode::value_out_of_range, "item 1");
+  expect_error([] { parsed_plan(plan({simple(16, 3, "[0, 0, 0, 0, 0, 0, 50]")})); }, ErrorCode::plan_empty, "item 1");
+  expect_error([] { parsed_plan(plan({simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")})); }, ErrorCode::plan_empty);
+  expect_error([] { parsed_plan(kml("<Placemark><Polygon/></Placemark>")); }, ErrorCode::plan_empty);
+  expect_error([] { parsed_plan(kml(kml_line("11,48,1 11;48"))); }, ErrorCode::plan_syntax, "line 3, position 2");
+  expect_error([] { parsed_plan(kml(kml_line("11,48,nan"))); }, ErrorCode::plan_syntax, "position 1");
+  expect_error([] { parsed_plan("<!DOCTYPE kml><kml/>"); }, ErrorCode::plan_syntax, "line 1");
+  expect_error([] { parsed_plan("<kml><Document></kml>"); }, ErrorCode::plan_syntax, "line 1");
+  expect_error([] { parsed_plan("PK\x03\x04" + std::string(100, 'x')); }, ErrorCode::plan_syntax);
+  expect_error([] { read_flight_plan("/nowhere/a.plan"); }, ErrorCode::file_not_found);
+}
+
+TEST(ReadFlightPlan, IsNotHurtByDepthAndNumber) {
+  const std::string deep(200'000, '[');
+  expect_code([&] { parsed_plan("{\"mission\": " + deep); }, ErrorCode::plan_syntax);
+  std::string elements;
+  for (int i = 0; i < 200; ++i) elements += "<a>";
+  expect_code([&] { parsed_plan("<kml>" + elements); }, ErrorCode::plan_syntax);
+  std::string rows = "x,y,z\n";
+  for (std::size_t i = 0; i <= kMostPlanItems; ++i) rows += "1,2,3\n";
+  expect_code([&] { parsed_plan(rows); }, ErrorCode::value_out_of_range);
+}
+
+// ---- in the scene ----
+
+TEST(LocateFlight, TurnsEachHeightIntoZ) {
+  const auto z = [](HeightDatum datum, const LocateOptions& options) {
+    FlightPlan one;
+    one.file = "a.plan";
+    one.home = PlanPosition{{11, 48}, 500, HeightDatum::sea_level};
+    one.items.resize(1);
+    one.items[0].position = {{11.001, 48.001}, 100, datum};
+    one.items[0].place = "a.plan: item 1";
+    return locate_flight(one, options).flight.points.at(0).position.z();
+  };
+  const Ground ground{30, nullptr};
+  LocateOptions options = in_munich();
+  EXPECT_EQ(z(HeightDatum::scene_z, options), 100);
+  EXPECT_EQ(z(HeightDatum::sea_level, options), 100);
+  EXPECT_EQ(z(HeightDatum::home, options), 600);
+  options.levels.undulation_m = 45;
+  EXPECT_EQ(z(HeightDatum::ellipsoid, options), 55);
+  options.ground = &ground;
+  EXPECT_EQ(z(HeightDatum::ground, options), 130);
+  EXPECT_EQ(z(HeightDatum::home, options), 130);  // on the ground of the scene
+  options.home_z_m = 7;
+  EXPECT_EQ(z(HeightDatum::home, options), 107);
+  options.levels.sea_level_z_m = -500;
+  EXPECT_EQ(z(HeightDatum::sea_level, options), -400);
+  EXPECT_EQ(z(HeightDatum::ellipsoid, options), -445);
+  options = in_munich();
+  options.georeference->vertical = "ellipsoidal height";
+  EXPECT_EQ(z(HeightDatum::ellipsoid, options), 100);
+  expect_error([&] { z(HeightDatum::sea_level, options); }, ErrorCode::height_unknown, "a.plan: item 1");
+  options.levels.undulation_m = 45;
+  EXPECT_EQ(z(HeightDatum::sea_level, options), 145);
+  options.unknown_heights = HeightDatum::sea_level;
+  EXPECT_EQ(z(HeightDatum::unknown, options), 145);
+}
+
+TEST(LocateFlight, SaysWhichLevelIsNotKnown) {
+  FlightPlan one;
+  one.file = "a.csv";
+  one.items.resize(1);
+  PlanItem& item = one.items[0];
+  item.place = "a.csv: line 2";
+  item.position = {{11.001, 48.001}, 100, HeightDatum::unknown};
+  LocateOptions options = in_munich();
+  const auto locate = [&] { locate_flight(one, options); };
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  item.position.datum = HeightDatum::ellipsoid;
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  item.position.datum = HeightDatum::ground;
+  expect_error(locate, ErrorCode::ground_missing, "a.csv: line 2");
+  item.position.datum = HeightDatum::home;
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  options.home = Eigen::Vector2d(11, 48);
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  options.georeference->vertical = kFlatGround;
+  item.position.datum = HeightDatum::sea_level;
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  item.position.height_m = std::nan("");
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  options.missing_height_m = 20;
+  options.levels.sea_level_z_m = 3;
+  EXPECT_EQ(locate_flight(one, options).flight.points[0].position.z(), 23);
+  options.georeference.reset();
+  expect_error(locate, ErrorCode::not_georeferenced, "a.csv");
+}
+
+TEST(LocateFlight, RefusesPlansOfAnotherPlace) {
+  LocateOptions options = in_munich();
+  const auto locate = [&](double latitude, double longitude) {
+    locate_flight(parsed_plan(plan({waypoint(48, 11, 5, 0), waypoint(latitude, longitude, 5, 0)})), options);
+  };
+  locate(48.4, 11);
+  expect_error([&] { locate(48.5, 11); }, ErrorCode::too_far_away, "item 2");
+  expect_error([&] { locate(11, 48); }, ErrorCode::too_far_away, "item 2");
+  expect_error([&] { locate(-33, 151); }, ErrorCode::too_far_away, "item 2");
+  options.farthest_m = 80e3;
+  locate(48.5, 11);
+}
+
+TEST(LocateFlight, FollowsPositionsOfTheFrame) {
+  const geo::LocalFrame frame({11, 48});
+  const FlightPlan two = parsed_plan(plan({waypoint(48.003, 11.002, 5, 0), waypoint(47.99, 11.05, 9, 0)}));
+  const LocatedPlan located = locate_flight(two, in_munich());
+  ASSERT_EQ(located.flight.points.size(), 2u);
+  EXPECT_LT((located.flight.points[1].position.head<2>() - frame.to_local({11.05, 47.99})).norm(), 1e-9);
+  EXPECT_EQ(located.flight.points[1].speed_m_s, 5);
+  EXPECT_EQ(located.flight.points[1].place, "/data/flight.plan: item 2");
+  EXPECT_EQ(located.items, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(located.flight.chord_error_m, 0.05);
+}
+
+TEST(LocateFlight, CutsGeodesicsWhereTheFrameBendsThem) {
+  Random random(5);
+  std::size_t most = 0;
+  for (int i = 0; i < 60; ++i) {
+    const geo::LocalFrame frame({11, 48});
+    const Vec3 a = random.point(-33e3, 33e3),
+               b = i % 3 == 0 ? Vec3(random.point(-33e3, 33e3)) : Vec3(a + random.point(-3e3, 3e3));
+    const geo::LonLat from = frame.to_lonlat(a.head<2>()), to = frame.to_lonlat(b.head<2>());
+    FlightPlan two;
+    two.items.resize(2);
+    two.items[0].position = {{from.longitude_deg, from.latitude_deg}, 100, HeightDatum::scene_z};
+    two.items[1].position = {{to.longitude_deg, to.latitude_deg}, 300, HeightDatum::scene_z};
+    LocateOptions options = in_munich();
+    options.chord_error_m = 0.01;
+    const Flight flight = locate_flight(two, options).flight;
+    most = std::max(most, flight.points.size());
+    const geo::LocalFrame about(from);
+    const Eigen::Vector2d way = about.to_local(to);
+    for (int k = 0; k <= 200; ++k) {
+      const Eigen::Vector2d p = frame.to_local(about.to_lonlat(way * k / 200));
+      const Vec3 at(p.x(), p.y(), 100 + k);
+      double nearest = 1e9;
+      for (std::size_t leg = 0; leg < flight.leg_count(); ++leg)
+        nearest = std::min(nearest, distance_to_leg(flight.leg(leg), at));
+      ASSERT_LE(nearest, flight.chord_error_m);
+    }
+  }
+  EXPECT_GT(most, 2u);
+}
+
+TEST(LocateFlight, CirclesWithinTheErrorOfChords) {
+  Random random(8);
+  for (const double error_m : {0.5, 0.05, 0.001}) {
+    for (const double radius_m : {2.0, -75.0, 900.0}) {
+      const FlightPlan circle = parsed_plan(
+          plan({waypoint(48.2, 11.1, 40), simple(18, 3, "[1.5, 0, " + shortest(radius_m) + ", 0, 48.21, 11.1, 50]"),
+                waypoint(48.22, 11.12, 60)}));
+      LocateOptions options = in_munich();
+      options.chord_error_m = error_m;
+      const LocatedPlan located = locate_flight(circle, options);
+      const geo::LocalFrame frame({11, 48}), about({11.1, 48.21});
+      double turned = 0, length = 0;
+      std::size_t chords = 0;
+      for (std::size_t i = 1; i < located.items.size(); ++i) {
+        if (located.items[i] != 1 || located.items[i - 1] != 1) continue;
+        const Leg leg = located.flight.leg(i - 1);
+        const auto on_circle = [&](const Vec3& p) { return about.to_local(frame.to_lonlat(p.head<2>())); };
+        for (int k = 0; k <= 8; ++k) {
+          const double off = std::abs(on_circle(leg.from + (leg.to - leg.from) * k / 8.0).norm() - std::abs(radius_m));
+          ASSERT_LE(off, error_m);
+        }
+        const Eigen::Vector2d p = on_circle(leg.from), q = on_circle(leg.to);
+        turned += std::atan2(p.y() * q.x() - p.x() * q.y(), p.dot(q));  // clockwise
+        length += (leg.to - leg.from).norm();
+        ++chords;
+      }
+      EXPECT_NEAR(turned, 3 * std::numbers::pi * (radius_m > 0 ? 1 : -1), 1e-6);
+      EXPECT_NEAR(length, 3 * std::numbers::pi * std::abs(radius_m), 3 * std::sqrt(error_m * std::abs(radius_m)) + 0.1);
+      EXPECT_GE(chords, 6u);
+    }
+  }
+}
+
+TEST(LocateFlight, CirclesForATime) {
+  const std::string loiter = simple(19, 3, "[100, 0, 40, 0, 48.002, 11, 50]");
+  const FlightPlan circles = parsed_plan(plan({waypoint(48, 11, 50), loiter}, 1));
+  const LocatedPlan located = locate_flight(circles, in_munich());
+  double length = 0;
+  for (std::size_t i = 1; i < located.items.size(); ++i) {
+    if (located.items[i - 1] == 1) length += (located.flight.leg(i - 1).to - located.flight.leg(i - 1).from).norm();
+  }
+  EXPECT_NEAR(length, 100 * 15, 3);
+  // A multirotor stays.
+  const LocatedPlan stays = locate_flight(parsed_plan(plan({waypoint(48, 11, 50), loiter})), in_munich());
+  EXPECT_EQ(stays.flight.points.size(), 2u);
+  EXPECT_EQ(stays.flight.points[1].hold_s, 100);
+  const FlightPlan open = parsed_plan(plan({waypoint(48, 11, 50), simple(18, 3, "[1, 0, 0, 0, 48.002, 11, 50]")}));
+  LocateOptions options = in_munich();
+  expect_error([&] { locate_flight(open, options); }, ErrorCode::missing_key, "item 2");
+  options.loiter_radius_m = 30;
+  EXPECT_GT(locate_flight(open, options).flight.points.size(), 10u);
+}
+
+TEST(LocateFlight, CutsCornersByArcs) {
+  FlightPlan corner;
+  corner.is_in_scene_frame = true;
+  corner.items.resize(3);
+  corner.items[0].position = {{0, 0}, 10, HeightDatum::scene_z};
+  corner.items[1].position = {{100, 0}, 10, HeightDatum::scene_z};
+  corner.items[2].position = {{100, 80}, 10, HeightDatum::scene_z};
+  LocateOptions options;
+  EXPECT_EQ(locate_flight(corner, options).flight.points.size(), 3u);
+  EXPECT_EQ(locate_flight(corner, options).flight.chord_error_m, 0);
+  corner.items[1].cut_m = 20;
+  const Flight flight = locate_flight(corner, options).flight;
+  EXPECT_GT(flight.points.size(), 5u);
+  EXPECT_LT((flight.points[1].position - Vec3(80, 0, 10)).norm(), 1e-9);
+  EXPECT_LT((flight.points[flight.points.size() - 2].position - Vec3(100, 20, 10)).norm(), 1e-9);
+  for (std::size_t i = 1; i + 1 < flight.points.size(); ++i) {
+    EXPECT_NEAR((flight.points[i].position - Vec3(80, 20, 10)).norm(), 20, 1e-9);
+    if (i + 2 < flight.points.size()) {
+      const Vec3 middle = (flight.points[i].position + flight.points[i + 1].position) / 2;
+      EXPECT_LE(20 - (middle - Vec3(80, 20, 10)).norm(), options.chord_error_m);
+    }
+  }
+  corner.items[1].hold_s = 1;  // it goes there
+  EXPECT_EQ(locate_flight(corner, options).flight.points.size(), 3u);
+}
+
+TEST(LocateFlight, FollowsTheGround) {
+  Random random(13);
+  for (int i = 0; i < 12; ++i) {
+    const auto hills = std::make_shared<const Mesh>(make_hills(random, 200, 25, 20, Vec3(0, 0, 0)));
+    const Ground ground{0, hills};
+    const GroundLevels levels(ground);
+    FlightPlan two;
+    two.is_in_scene_frame = true;
+    two.items.resize(2);
+    const Vec3 a = random.point(-190, 190);
+    const Vec3 b = i % 4 == 0 ? Vec3(a.x(), -a.y(), 0) : random.point(-190, 190);
+    two.items[0].position = {a.head<2>(), 20, HeightDatum::ground};
+    two.items[1].position = {b.head<2>(), 60, HeightDatum::ground};
+    two.items[1].follows_ground = true;
+    LocateOptions options;
+    options.ground = &ground;
+    options.ground_error_m = i % 2 == 0 ? 0.25 : 3;
+    const Flight flight = locate_flight(two, options).flight;
+    EXPECT_EQ(flight.chord_error_m, options.ground_error_m);
+    const Eigen::Vector2d way = (b - a).head<2>();
+    std::size_t checked = 0;
+    for (std::size_t leg = 0; leg < flight.leg_count(); ++leg) {
+      for (int k = 0; k <= 20; ++k) {
+        const Vec3 p = flight.leg(leg).from + (flight.leg(leg).to - flight.leg(leg).from) * k / 20.0;
+        const double share = (p - a).head<2>().dot(way) / way.squaredNorm();
+        const auto range = levels.at(p.x(), p.y());
+        ASSERT_TRUE(range);
+        ASSERT_NEAR(p.z() - range->highest_m, 20 + 40 * share, options.ground_error_m + 1e-3);
+        ++checked;
+      }
+    }
+    EXPECT_GE(checked, 42u);
+    two.items[1].follows_ground = false;
+    EXPECT_EQ(locate_flight(two, options).flight.points.size(), 2u);
+    two.items[1].follows_ground = true;
+    two.items[1].position.horizontal = {300, 0};
+    expect_code([&] { locate_flight(two, options); }, ErrorCode::ground_missing);
+  }
+}
+
+// A line along an edge that triangles share, and a step of the ground.
+TEST(LocateFlight, FollowsEdgesAndStepsOfTheGround) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0},   {50, 0, 0},   {50, 50, 0},   {0, 50, 0},
+                   {50, 0, 30}, {100, 0, 30}, {100, 50, 30}, {50, 50, 30}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const Ground ground{0, std::make_shared<const Mesh>(mesh)};
+  FlightPlan two;
+  two.is_in_scene_frame = true;
+  two.items.resize(2);
+  two.items[0].position = {{0, 0}, 10, HeightDatum::ground};
+  two.items[1].position = {{50, 50}, 10, HeightDatum::ground};
+  two.items[1].follows_ground = true;
+  LocateOptions options;
+  options.ground = &ground;
+  EXPECT_EQ(locate_flight(two, options).flight.points.size(), 2u + 1u);  // up at the step, at its end
+  two.items[1].position.horizontal = {100, 50};
+  const Flight flight = locate_flight(two, options).flight;
+  ASSERT_EQ(flight.points.size(), 4u);
+  EXPECT_LT((flight.points[1].position - Vec3(50, 25, 10)).norm(), 1e-5);
+  EXPECT_LT((flight.points[2].position - Vec3(50, 25, 40)).norm(), 1e-5);
+}
+
+TEST(LocateFlight, TakesOffAndReturns) {
+  const std::vector<std::string> items{simple(22, 3, "[0, 0, 0, null, 48.001, 11, 30]"), waypoint(48.002, 11, 50),
+                                       simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")};
+  const FlightPlan copter = parsed_plan(plan(items));
+  const auto heights = [](const LocatedPlan& located) {
+    std::vector<double> z;
+    for (const FlightPoint& point : located.flight.points) z.push_back(point.position.z());
+    return z;
+  };
+  LocateOptions options = in_munich();
+  const LocatedPlan plain = locate_flight(copter, options);
+  EXPECT_EQ(heights(plain), (std::vector<double>{530, 530, 550, 550}));
+  EXPECT_LT(plain.flight.points[0].position.head<2>().norm(), 1e-6);
+  EXPECT_LT(plain.flight.points[3].position.head<2>().norm(), 1e-6);
+  ASSERT_TRUE(plain.home);
+  EXPECT_EQ(plain.home->z(), 500);
+  EXPECT_TRUE(has_note(plain.notes, WarningCode::plan_assumed));
+  options.return_height_m = 80;
+  options.with_ground_legs = true;
+  const LocatedPlan whole = locate_flight(copter, options);
+  EXPECT_EQ(heights(whole), (std::vector<double>{500, 530, 530, 550, 580, 580, 500}));
+  EXPECT_TRUE(whole.notes.empty());
+  EXPECT_EQ(heights(locate_flight(parsed_plan(plan(items, 1)), options)),
+            (std::vector<double>{500, 530, 550, 580, 580, 500}));
+  const FlightPlan lands = parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48.003, 11, 0]")}));
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 500}));
+  options.with_ground_legs = false;
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550}));
+  const FlightPlan homeless =
+      parsed_plan(plan({waypoint(48.002, 11, 50, 0), simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")}, 2, "null"));
+  expect_error([&] { locate_flight(homeless, options); }, ErrorCode::missing_key, "item 2");
+}
+
+TEST(LocateFlight, HasBounds) {
+  FlightPlan circles = parsed_plan(plan({simple(18, 3, "[10000, 0, 90000, 0, 48, 11, 50]")}));
+  LocateOptions options = in_munich();
+  expect_error([&] { locate_flight(circles, options); }, ErrorCode::work_too_large, "item 1");
+  options.chord_error_m = 0;
+  expect_error([&] { locate_flight(circles, options); }, ErrorCode::value_out_of_range, "chord_error_m");
+}
+
+}  // namespace
+}  // namespace vantage::testing
