@@ -134,6 +134,15 @@ if(VANTAGE_WITH_SOLID)
   endif()
 endif()
 
+# HiGHS: linear programs, for one of the two bounds of tours (src/flight/tour/linear_program_highs.cpp only).
+option(VANTAGE_WITH_HIGHS "Build HiGHS, for the bound of tours by pairs" ON)
+set(VANTAGE_HAS_HIGHS OFF)
+if(VANTAGE_WITH_FLIGHT AND VANTAGE_WITH_HIGHS)
+  include(${CMAKE_CURRENT_LIST_DIR}/Highs.cmake)
+  vantage_add_highs(${VANTAGE_DEPS_DIR}/highs)
+  set(VANTAGE_HAS_HIGHS ON)
+endif()
+
 add_library(vantage_cdt INTERFACE)
 add_library(vantage::cdt ALIAS vantage_cdt)
 if(NOT EXISTS ${VANTAGE_DEPS_DIR}/cdt/include/CDT.h)
