@@ -41,7 +41,7 @@ TEST(LegDistances, AgreesWithEveryTriangle) {
     const Scene scene = world.scene(testing::random_city(random, 25, 5));
     const LegDistances all((PreparedScene(scene)));
     const LegDistances buildings((PreparedScene(scene)), {.without_objects = {0}});
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 40; ++i) {
       const auto place = [&] { return world.at(random.in_box({{-110, -110, -5}, {110, 110, 60}})); };
       const Leg leg{place(), place()};
       const double length = (leg.to - leg.from).norm();
@@ -65,7 +65,7 @@ TEST(LegDistances, AgreesWithEveryTriangle) {
       }
     }
   }
-  EXPECT_GT(met, 50u);
+  EXPECT_GT(met, 20u);
   EXPECT_GT(apart, 50u);
 }
 

@@ -342,7 +342,7 @@ TEST(LegLimits, SensorsAgreeWithPointsOfTheLeg) {
       const LegLimits limits(target, {});
       const PointNames points(target, {});
       const double step = looking.step * world.scale * 40 + 100 * world.rounding();
-      for (int i = 0; i < 12; ++i) compare_leg(limits, points, some_leg(random, world), step, counts);
+      for (int i = 0; i < 6; ++i) compare_leg(limits, points, some_leg(random, world), step, counts);
       if (HasFatalFailure()) return;
     }
   }

@@ -300,6 +300,8 @@ TEST(LegViews, JoinsListsOfTargets) {
   const std::vector<LegView> many = LegViews({{a, b}}).look(std::vector<Leg>{leg, {leg.to, leg.from}});
   EXPECT_EQ(many[0].seen, either.seen);
   EXPECT_EQ(many[1].seen.size(), either.seen.size());
+  const auto stop = [](std::string_view, double) { return false; };
+  testing::expect_code([&] { LegViews(a).look(std::vector<Leg>{leg}, 0, stop); }, ErrorCode::cancelled);
 }
 
 // The zone of a link: by points of the leg, and for the tube by points in it. What is left out is entered by a way that

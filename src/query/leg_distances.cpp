@@ -80,14 +80,17 @@ LegDistance LegDistances::nearest(const Leg& leg) const {
 
 std::vector<LegDistance> LegDistances::nearest(std::span<const Leg> legs, const Progress& progress) const {
   for (std::size_t i = 0; i < legs.size(); ++i) internal::query::check_leg(legs[i], 0, i);
-  const internal::core::ProgressReporter reporter(progress);
+  const internal::core::ProgressReporter reporter(progress, "legs");
+  reporter.begin("measuring legs");
+  internal::core::ProgressCounter done(reporter, legs.size());
   std::vector<LegDistance> distances(legs.size());
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      reporter.check();
       distances[i] = nearest(legs[i]);
+      done.add();
     }
   });
+  reporter.finish();
   return distances;
 }
 

@@ -247,14 +247,17 @@ std::vector<LegBreak> LegLimits::broken(const Leg& leg, double radius_m) const {
 std::vector<std::vector<LegBreak>> LegLimits::broken(std::span<const Leg> legs, double radius_m,
                                                      const Progress& progress) const {
   for (std::size_t i = 0; i < legs.size(); ++i) query::check_leg(legs[i], radius_m, i);
-  const internal::core::ProgressReporter reporter(progress);
+  const internal::core::ProgressReporter reporter(progress, "legs");
+  reporter.begin("legs and limits");
+  internal::core::ProgressCounter done(reporter, legs.size());
   std::vector<std::vector<LegBreak>> result(legs.size());
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      reporter.check();
       result[i] = data_->broken({legs[i], radius_m});
+      done.add();
     }
   });
+  reporter.finish();
   return result;
 }
 

@@ -24,6 +24,7 @@ namespace vantage {
 namespace {
 
 namespace query = internal::query;
+using internal::core::ProgressReporter;
 using query::LegIntervals;
 using query::Side;
 
@@ -36,9 +37,10 @@ struct FoundParts {
 /// One side of a target along one leg. Positions are in the side's frame.
 class SideLook {
  public:
-  SideLook(const Side& side, const Leg& leg, double radius)
+  SideLook(const Side& side, const Leg& leg, double radius, const ProgressReporter& progress)
       : side_(side),
         leg_(leg),
+        progress_(progress),
         radius_(radius),
         from_(side.frame.to_local(leg.from)),
         to_(side.frame.to_local(leg.to)) {
@@ -114,6 +116,7 @@ class SideLook {
     std::vector<query::HalfSpace> set;
     const auto enter = [&](const internal::core::BvhNode& node) { return hull.may_meet(node.bounds); };
     internal::core::walk_bvh(scene.bvh, enter, [&](std::uint32_t polygon) {
+      progress_.tick();
       corners.clear();
       for (const std::uint32_t vertex : scene.corners_of(polygon)) corners.push_back(scene.vertices[vertex]);
       if (!hull.may_meet(corners)) return;
@@ -134,6 +137,7 @@ class SideLook {
 
   const Side& side_;
   const Leg& leg_;
+  const ProgressReporter& progress_;
   double radius_, slack_;
   Vec3 from_, to_;
 };
@@ -153,9 +157,10 @@ std::vector<LegBlocker> by_object(std::vector<std::pair<std::uint32_t, LegInterv
 }
 
 /// The target of a link is one point: its zone does not depend on the side.
-void look_from(const query::Sides& sides, const Leg& leg, double radius, FoundParts& found) {
+void look_from(const query::Sides& sides, const Leg& leg, double radius, const ProgressReporter& progress,
+               FoundParts& found) {
   for (const auto& side : sides) {
-    const SideLook look(*side, leg, radius);
+    const SideLook look(*side, leg, radius, progress);
     const bool is_first = side == sides.front();
     if (is_first) look.add_out_of_range(found);
     if (!side->frame.all_sides) look.add_behind(found);
@@ -168,11 +173,11 @@ struct Viewed {
   PreparedTarget target;
   std::vector<query::Sides> parts;
 
-  LegView look(const Leg& leg, double radius) const {
+  LegView look(const Leg& leg, double radius, const ProgressReporter& progress) const {
     FoundParts found;
     for (const query::Sides& sides : parts) {
       FoundParts of_part;
-      look_from(sides, leg, radius, of_part);
+      look_from(sides, leg, radius, progress, of_part);
       found.hidden.insert(found.hidden.end(), of_part.hidden.begin(), of_part.hidden.end());
       found.out_of_range.insert(found.out_of_range.end(), of_part.out_of_range.begin(), of_part.out_of_range.end());
       found.behind.insert(found.behind.end(), of_part.behind.begin(), of_part.behind.end());
@@ -210,11 +215,11 @@ struct LegViews::Data {
     }
   }
 
-  LegView look(const Leg& leg, double radius) const {
+  LegView look(const Leg& leg, double radius, const ProgressReporter& progress) const {
     std::vector<LegView> of_lists;
     for (const std::vector<Viewed>& list : views) {
       std::vector<LegView> of_targets;
-      for (const Viewed& viewed : list) of_targets.push_back(viewed.look(leg, radius));
+      for (const Viewed& viewed : list) of_targets.push_back(viewed.look(leg, radius, progress));
       of_lists.push_back(of_targets.size() == 1 ? std::move(of_targets[0]) : any_of(of_targets));
     }
     return of_lists.size() == 1 ? std::move(of_lists[0]) : all_of(of_lists);
@@ -242,19 +247,22 @@ LegViews& LegViews::operator=(LegViews&&) noexcept = default;
 
 LegView LegViews::look(const Leg& leg, double radius_m) const {
   query::check_leg(leg, radius_m);
-  return data_->look(leg, radius_m);
+  return data_->look(leg, radius_m, {});
 }
 
 std::vector<LegView> LegViews::look(std::span<const Leg> legs, double radius_m, const Progress& progress) const {
   for (std::size_t i = 0; i < legs.size(); ++i) query::check_leg(legs[i], radius_m, i);
-  const internal::core::ProgressReporter reporter(progress);
+  const ProgressReporter reporter(progress, "legs");
+  reporter.begin("looking from legs");
+  internal::core::ProgressCounter done(reporter, legs.size());
   std::vector<LegView> views(legs.size());
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      reporter.check();
-      views[i] = data_->look(legs[i], radius_m);
+      views[i] = data_->look(legs[i], radius_m, reporter);
+      done.add();
     }
   });
+  reporter.finish();
   return views;
 }
 
