@@ -8,15 +8,15 @@ namespace vantage::internal::flight::plans {
 
 nlohmann::json parse_plan_json(const PlanSource& source) {
   core::ReadLimits limits;
-  limits.json_values = 10'000'000;
-  limits.json_bytes = std::uint64_t{1} << 30;
+  limits.json_values = 5'000'000;  // an item of a plan has some 20
+  limits.json_bytes = std::uint64_t{1} << 29;
   try {
     nlohmann::json root = io::parse_json(source.text, source.progress, limits);
     if (root.is_object()) return root;
   } catch (const io::JsonProblem& problem) {
     const std::string place =
         problem.line == 0 ? "" : "line " + std::to_string(problem.line) + ", column " + std::to_string(problem.column);
-    source.fail(ErrorCode::plan_syntax, place, "the JSON is broken: " + problem.text, "save the plan anew");
+    source.fail(ErrorCode::plan_syntax, place, "the JSON cannot be read: " + problem.text, "save the plan anew");
   }
   source.fail(ErrorCode::plan_syntax, "", "the JSON is not an object", "give a .plan of QGroundControl, or GeoJSON");
 }
