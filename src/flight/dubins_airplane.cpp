@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kClimbTolerance = 1e-12;  ///< radians, for climbs that rounding moved out of the limits
 constexpr double kMostRadii = 1e6;
-constexpr double kMostTurns = 1e6;
+constexpr double kMostSpirals = 1e6;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_wing(const WingLimits& limits) {
@@ -56,7 +56,7 @@ std::optional<DubinsAirplanePath> of_radius(const SpacePose& from, const SpacePo
   const double steepest = std::tan(rise > 0 ? limits.highest_climb_rad : -limits.lowest_climb_rad);
   const double needed = steepest > 0 ? std::abs(rise) / steepest : rise != 0 ? kInfinity : 0;
   const double turns = may_turn ? std::max(0.0, std::floor((needed - shortest.length_m()) / full_turn)) : 0;
-  if (turns > kMostTurns) return std::nullopt;
+  if (turns > kMostSpirals) return std::nullopt;
   constexpr int kMoreTurns = 4;  // what the arcs of the profile may need
   for (int more = 0; more <= (may_turn ? kMoreTurns : 0); ++more) {
     DubinsPath above = shortest;

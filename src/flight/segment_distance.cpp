@@ -43,11 +43,11 @@ bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 }
 
 core::Bounds rounded_out(const Box& box) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   core::Bounds bounds{};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    bounds.min[axis] = std::nextafter(static_cast<float>(box.min[axis]), -kInfinity);
-    bounds.max[axis] = std::nextafter(static_cast<float>(box.max[axis]), kInfinity);
+    bounds.min[axis] = std::nextafter(static_cast<float>(box.min[axis]), -kUnbounded);
+    bounds.max[axis] = std::nextafter(static_cast<float>(box.max[axis]), kUnbounded);
   }
   return bounds;
 }

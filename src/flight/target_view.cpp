@@ -11,7 +11,7 @@
 namespace vantage::internal::flight {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNotKnown = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -45,11 +45,11 @@ TargetView::TargetView(const Mission& mission) {
 
 template <typename Measure>
 double TargetView::worst(const Measure& of_part) const {
-  double worst_view = -kNever;
+  double worst_view = -kNotKnown;
   for (const std::vector<Parts>& view : views_) {
-    double best_target = kNever;
+    double best_target = kNotKnown;
     for (const Parts& target : view) {
-      double worst_part = -kNever;
+      double worst_part = -kNotKnown;
       for (const Part& part : target) worst_part = std::max(worst_part, of_part(part));
       best_target = std::min(best_target, worst_part);
     }
@@ -68,7 +68,7 @@ double TargetView::pixel_m(const Vec3& position, double reach_m) const {
     for (const Vec3& corner : part.corners) distance = std::max(distance, (position - corner).norm() - reach_m);
     if (kind_ == PixelLimit::Kind::perpendicular || part.all_sides) return distance / *focal_px_;
     const double height = part.normal.dot(position - part.origin) + reach_m;
-    return height > 0 ? distance * distance / (*focal_px_ * height) : kNever;
+    return height > 0 ? distance * distance / (*focal_px_ * height) : kNotKnown;
   });
 }
 
@@ -76,7 +76,7 @@ bool TargetView::has_incidence() const { return std::isfinite(incidence_deg(cent
 
 double TargetView::incidence_deg(const Vec3& position, double reach_m) const {
   return worst([&](const Part& part) {
-    if (part.all_sides) return -kNever;
+    if (part.all_sides) return -kNotKnown;
     const double height = part.normal.dot(position - part.origin);
     const Vec3 foot = position - height * part.normal;
     double aside = 0;

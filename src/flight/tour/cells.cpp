@@ -9,7 +9,7 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
+constexpr double kCellRounding = 0x1p-53;
 constexpr double kFarEnough = 0.3;    // known halves are used where both lie so far from the point, of what is usual
 constexpr double kLeastShare = 0.1;   // planes keep so far from the ends of a cell
 
@@ -83,7 +83,7 @@ Cells::Cells(std::span<const OuterRegion> regions) {
     if (shape.mesh.empty()) cell->polygons.push_back({shape.mesh.vertices.front()});
     std::vector<Vec3> points = points_of(cell->polygons);
     // Subtracting the origin rounds each of three numbers by half a unit in its last place.
-    const double moved = 2 * kUnit * largest_of(points);
+    const double moved = 2 * kCellRounding * largest_of(points);
     cell->hull = std::make_unique<Hull>(std::move(points), moved);
     reach_m_ = std::max(reach_m_, cell->hull->reach_m());
     shapes_.push_back(std::move(shape));
@@ -121,7 +121,7 @@ std::unique_ptr<Cell> Cells::cut(std::size_t number, const CellPlane& plane) con
   const Cell& cell = *cells_[number];
   const Vec3 normal = (plane.lower ? -1 : 1) * vector_of_normal(plane.normal);
   const double offset = (plane.lower ? -1 : 1) * (plane.offset - vector_of_normal(plane.normal).dot(origin_));
-  const double back = 1e-9 * reach_m_ + 64 * kUnit * (origin_.cwiseAbs().sum() + reach_m_);
+  const double back = 1e-9 * reach_m_ + 64 * kCellRounding * (origin_.cwiseAbs().sum() + reach_m_);
   auto part = std::make_unique<Cell>();
   part->region = cell.region;
   part->parent = number;
@@ -133,7 +133,7 @@ std::unique_ptr<Cell> Cells::cut(std::size_t number, const CellPlane& plane) con
   }
   std::vector<Vec3> points = points_of(part->polygons);
   if (points.empty()) return part;
-  const double moved = cell.hull->moved_m() + 8 * kUnit * cells_[cell.region]->hull->reach_m();
+  const double moved = cell.hull->moved_m() + 8 * kCellRounding * cells_[cell.region]->hull->reach_m();
   part->hull = std::make_unique<Hull>(std::move(points), moved);
   return part;
 }

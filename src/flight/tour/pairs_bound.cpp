@@ -15,19 +15,19 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnit = 0x1p-53;
+constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+constexpr double kPairRounding = 0x1p-53;
 constexpr double kDualUnit = 0x1p-30;     // metres; duals are whole multiples
 constexpr std::size_t kFirstNeighbours = 8;
 constexpr std::size_t kAllEdges = 16;     // of so many regions all edges are columns from the start
 constexpr std::size_t kMostEdgesAtOnce = 60;
 constexpr std::size_t kMostPairsAtOnce = 3;  // of a region and one of its edges
-constexpr int kMostRounds = 60;           // of columns and cuts, for one node
+constexpr int kMostPairRounds = 60;           // of columns and cuts, for one node
 constexpr double kPriced = 1e-7;          // of the size: reduced costs as low as that are 0
 constexpr double kFractional = 1e-6;
-constexpr std::size_t kMostOrders = 20;
-constexpr std::size_t kMostTurns = 2;     // of the vectors, at one node
+constexpr std::size_t kMostPairOrders = 20;
+constexpr std::size_t kMostTurnsKept = 2;     // of the vectors, at one node
 constexpr std::size_t kMostFrames = 60;
 
 double to_dual(double value) { return std::round(value / kDualUnit) * kDualUnit; }
@@ -64,7 +64,7 @@ class PairCosts {
           costs_[i][j * count_ + k] = costs_[i][k * count_ + j] = cost(hull, vector(i, j), vector(i, k), dwell);
         }
       }
-      error_ += (2 * 44 * kUnit * hull.reach_m() + 2.001 * hull.moved_m()) * 2 + 4 * kUnit * dwell;
+      error_ += (2 * 44 * kPairRounding * hull.reach_m() + 2.001 * hull.moved_m()) * 2 + 4 * kPairRounding * dwell;
     }
   }
 
@@ -123,7 +123,7 @@ double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& du
       beside.push_back(j);
       if (fixed.is_in(i, j)) must.push_back(j);
     }
-    double least = kInfinity;
+    double least = kNoBound;
     const std::vector<double>& p = duals.of_edge_at[i];
     for (std::size_t a = 0; a < beside.size(); ++a) {
       for (std::size_t b = a + 1; b < beside.size(); ++b) {
@@ -134,7 +134,7 @@ double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& du
         least = std::min(least, here);
       }
     }
-    if (least == kInfinity) return kInfinity;  // no tour has these edges
+    if (least == kNoBound) return kNoBound;  // no tour has these edges
     add(least);
     for (const std::size_t j : beside) {
       if (j > i) continue;
@@ -148,7 +148,7 @@ double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& du
   // and two of each set and region; the sum has one rounding for each term, of no more than all sizes.
   const double nn = static_cast<double>(n), sets = static_cast<double>(duals.of_set.size());
   const double terms = 2 * nn + nn * nn + sets;
-  return sum - costs.error_m() - kUnit * (terms * (8 + sets) * largest + terms * size);
+  return sum - costs.error_m() - kPairRounding * (terms * (8 + sets) * largest + terms * size);
 }
 
 /// The linear program over the columns that matter so far.
@@ -156,8 +156,8 @@ class Master {
  public:
   Master(const PairCosts& costs, double penalty) : costs_(costs), penalty_(penalty), n_(costs.count()) {
     program_ = make_linear_program();
-    column_of_edge_.assign(n_ * n_, kNone);
-    row_of_edge_at_.assign(n_ * n_, kNone);
+    column_of_edge_.assign(n_ * n_, kNobody);
+    row_of_edge_at_.assign(n_ * n_, kNobody);
     has_pair_.assign(n_ * n_ * n_, false);
     beside_.resize(n_);
     for (std::size_t i = 0; i < n_; ++i) {
@@ -166,7 +166,7 @@ class Master {
     }
   }
 
-  bool has_edge(std::size_t i, std::size_t j) const { return column_of_edge_[i * n_ + j] != kNone; }
+  bool has_edge(std::size_t i, std::size_t j) const { return column_of_edge_[i * n_ + j] != kNobody; }
   const std::vector<Edge>& edges() const { return edges_; }
   std::size_t columns() const { return columns_; }
 
@@ -209,7 +209,7 @@ class Master {
     }
     sets_.push_back(in);
     row_of_set_.push_back(rows_++);
-    program_->add_row(2, kInfinity, entries);
+    program_->add_row(2, kNoBound, entries);
     add_column(penalty_, {{row_of_set_.back(), 1.0}});
   }
 
@@ -250,7 +250,7 @@ class Master {
     ++rows_;
   }
   void add_column(double cost, const std::vector<LinearProgram::Entry>& rows) {
-    program_->add_column(cost, 0, kInfinity, rows);
+    program_->add_column(cost, 0, kNoBound, rows);
     ++columns_;
   }
 
@@ -301,7 +301,7 @@ std::vector<std::vector<bool>> short_cuts(const std::vector<std::vector<double>>
   while (active.size() > 1) {
     std::vector<double> tie(n, 0.0);
     std::vector<std::size_t> left = active;
-    std::size_t last = kNone, before = kNone;
+    std::size_t last = kNobody, before = kNobody;
     double cut = 0;
     while (!left.empty()) {
       const auto most = std::max_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return tie[a] < tie[b]; });
@@ -366,7 +366,7 @@ class Search {
  private:
   struct Node {
     Fixed fixed;
-    double bound = -kInfinity;  // what is proved, with which duals and vectors
+    double bound = -kNoBound;  // what is proved, with which duals and vectors
     PairsDuals duals;
     std::size_t frame = 0;
     std::size_t work = 0;  // the frame in which the program is solved
@@ -440,7 +440,7 @@ class Search {
       }
       for (std::size_t j = 0; j < n_; ++j) {
         if (j == i || fixed.is_out(i, j) || master.has_edge(i, j)) continue;
-        p[j] = kInfinity;
+        p[j] = kNoBound;
         for (const std::size_t k : known) p[j] = std::min(p[j], costs(i, j, k) - p[k]);
         rest.emplace_back(p[j], j);
       }
@@ -509,7 +509,7 @@ class Search {
 
   /// Solves the program of a node with columns and cuts as it needs them; keeps the best duals.
   void evaluate(std::size_t number) {
-    for (std::size_t turn = 0; turn <= kMostTurns; ++turn) {
+    for (std::size_t turn = 0; turn <= kMostTurnsKept; ++turn) {
       std::vector<std::vector<double>> w;
       if (!solve(number, w) || nodes_[number].bound >= options_.enough_m) break;
       Node& node = nodes_[number];
@@ -522,7 +522,7 @@ class Search {
       }
       const std::set<Edge>& along = frames_[node.work]->tour;
       if (!order.empty() && tour == along) return;  // the shortest one, bounded as well as can be
-      if (order.empty() || turn == kMostTurns || frames_.size() >= kMostFrames) {
+      if (order.empty() || turn == kMostTurnsKept || frames_.size() >= kMostFrames) {
         choose_split(number, w, tour);
         break;
       }
@@ -542,7 +542,7 @@ class Search {
   bool solve(std::size_t number, std::vector<std::vector<double>>& w) {
     const Fixed fixed = nodes_[number].fixed;
     Frame& frame = *frames_[nodes_[number].work];
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostPairRounds; ++round) {
       progress_.check();
       frame.master.fix(fixed);
       if (is_late() || !frame.master.solve(options_.time_limit_s - watch_.seconds())) {
@@ -609,15 +609,15 @@ class Search {
   /// Where the values are a tour: all regions but the ends, which is noted. Else nothing.
   std::vector<std::size_t> order_of(const std::vector<std::vector<double>>& w) {
     std::vector<std::size_t> order = {0};
-    std::size_t before = kNone;
+    std::size_t before = kNobody;
     while (order.size() <= n_) {
       const std::size_t at = order.back();
-      std::size_t next = kNone;
+      std::size_t next = kNobody;
       for (std::size_t j = 0; j < n_; ++j) {
         if (w[at][j] > kFractional && w[at][j] < 1 - kFractional) return {};
-        if (w[at][j] > 0.5 && j != before && next == kNone) next = j;
+        if (w[at][j] > 0.5 && j != before && next == kNobody) next = j;
       }
-      if (next == kNone) return {};
+      if (next == kNobody) return {};
       if (next == 0) break;
       before = at;
       order.push_back(next);
@@ -628,7 +628,7 @@ class Search {
       if (order[1] != *space_.first) std::reverse(order.begin() + 1, order.end());
       std::erase_if(order, [&](std::size_t r) { return r == n_ - 1 || r == space_.first || r == space_.last; });
     }
-    if (orders_.size() < kMostOrders && std::find(orders_.begin(), orders_.end(), order) == orders_.end()) {
+    if (orders_.size() < kMostPairOrders && std::find(orders_.begin(), orders_.end(), order) == orders_.end()) {
       orders_.push_back(order);
     }
     return order;
@@ -636,7 +636,7 @@ class Search {
 
   PairsBound finish() {
     PairsBound result;
-    result.bound_m = kInfinity;
+    result.bound_m = kNoBound;
     for (const Node& node : nodes_) {
       if (!node.branched) result.bound_m = std::min(result.bound_m, node.bound);
     }

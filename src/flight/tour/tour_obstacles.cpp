@@ -11,7 +11,7 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFarthest = std::numeric_limits<double>::infinity();
 
 double length_of(const std::vector<Vec3>& points) {
   double length = 0;
@@ -126,7 +126,7 @@ class LazyRoadmap {
   }
 
   std::vector<std::size_t> shortest() const {
-    std::vector<double> cost(nodes_.size(), kInfinity);
+    std::vector<double> cost(nodes_.size(), kFarthest);
     std::vector<std::size_t> from(nodes_.size(), 0);
     using Waiting = std::pair<double, std::size_t>;
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> open;
@@ -146,7 +146,7 @@ class LazyRoadmap {
         open.emplace(cost[edge.to] + (nodes_[edge.to] - nodes_[1]).norm(), edge.to);
       }
     }
-    if (cost[1] == kInfinity) return {};
+    if (cost[1] == kFarthest) return {};
     std::vector<std::size_t> path = {1};
     while (path.back() != 0) path.push_back(from[path.back()]);
     std::reverse(path.begin(), path.end());

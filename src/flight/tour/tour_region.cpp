@@ -53,11 +53,11 @@ const Mesh& checked(const Mesh& mesh, const std::string& name) {
 }
 
 core::Bounds bounds_of(const Box& box) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   core::Bounds bounds{};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    bounds.min[axis] = std::nextafter(static_cast<float>(box.min[axis]), -kInfinity);
-    bounds.max[axis] = std::nextafter(static_cast<float>(box.max[axis]), kInfinity);
+    bounds.min[axis] = std::nextafter(static_cast<float>(box.min[axis]), -kUnbounded);
+    bounds.max[axis] = std::nextafter(static_cast<float>(box.max[axis]), kUnbounded);
   }
   return bounds;
 }

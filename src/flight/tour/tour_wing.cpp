@@ -336,15 +336,15 @@ class WingPlan {
   std::optional<TourVisit> passing(int region, const Way& way, const std::vector<Stretch>& taken) const {
     const auto target = static_cast<std::size_t>(region);
     for (const Stretch& stretch : stretches_in(*regions_[target], way)) {
-      constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-      std::size_t first = kNone;  // of the points that follow each other in the stretch
+      constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+      std::size_t first = kNowhere;  // of the points that follow each other in the stretch
       for (std::size_t i = 0; i < way.points().size(); ++i) {
         const double station = way.station(i);
         if (station < stretch.begin_m || station > stretch.end_m) {
-          first = kNone;
+          first = kNowhere;
           continue;
         }
-        if (first == kNone || overlaps(way.station(first), station, taken)) first = i;
+        if (first == kNowhere || overlaps(way.station(first), station, taken)) first = i;
         // Chords are shorter than the curve: on the safe side.
         if (station - way.station(first) < space_.view_m()) continue;
         if (overlaps(way.station(first), station, taken)) continue;

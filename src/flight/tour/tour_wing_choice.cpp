@@ -9,8 +9,8 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
+constexpr double kHalfCircle = std::numbers::pi;
 
 /// Lengths from each view of a place to each of the next one, the latter's own length with them: bounds, until more is
 /// asked.
@@ -24,14 +24,14 @@ class Lengths {
   }
   double at(std::size_t i, std::size_t j) const { return values_[i * columns_ + j]; }
   bool is_blocked() const {
-    return std::all_of(values_.begin(), values_.end(), [](double v) { return v == kInfinity; });
+    return std::all_of(values_.begin(), values_.end(), [](double v) { return v == kImpossible; });
   }
   /// Finds out the length, infinite where the path is not clear. Returns whether it was known before.
   bool know(std::size_t i, std::size_t j, const View& from, const View& to, const WingSpace& space) {
     const std::size_t index = i * columns_ + j;
     if (is_known_[index]) return true;
     is_known_[index] = true;
-    values_[index] = space.is_clear(from, to) ? space.path_m(from, to) + own(to) : kInfinity;
+    values_[index] = space.is_clear(from, to) ? space.path_m(from, to) + own(to) : kImpossible;
     return false;
   }
 
@@ -44,21 +44,21 @@ class Lengths {
 };
 
 struct Picked {
-  double length = kInfinity;
+  double length = kImpossible;
   std::vector<std::size_t> views;
 };
 
 /// The shortest sequence that begins with one view of the first place; it ends in any of the last one, or closes.
 Picked pick_from(std::size_t start, const Choices& choices, const std::vector<Lengths>& lengths, bool cyclic) {
   const std::size_t places = choices.size();
-  std::vector<double> cost(choices[0].size(), kInfinity);
+  std::vector<double> cost(choices[0].size(), kImpossible);
   cost[start] = 0;
   std::vector<std::vector<std::size_t>> came(places);
   for (std::size_t p = 1; p < places; ++p) {
-    std::vector<double> next(choices[p].size(), kInfinity);
+    std::vector<double> next(choices[p].size(), kImpossible);
     came[p].assign(choices[p].size(), 0);
     for (std::size_t i = 0; i < cost.size(); ++i) {
-      if (cost[i] == kInfinity) continue;
+      if (cost[i] == kImpossible) continue;
       for (std::size_t j = 0; j < next.size(); ++j) {
         const double sum = cost[i] + lengths[p - 1].at(i, j);
         if (sum >= next[j]) continue;
@@ -76,7 +76,7 @@ Picked pick_from(std::size_t start, const Choices& choices, const std::vector<Le
     best.length = sum;
     last = j;
   }
-  if (best.length == kInfinity) return best;
+  if (best.length == kImpossible) return best;
   best.views.assign(places, last);
   for (std::size_t p = places - 1; p > 0; --p) best.views[p - 1] = came[p][best.views[p]];
   return best;
@@ -104,22 +104,22 @@ class Refinement {
       : course_(course), space_(space), draw_(draw), progress_(progress), keeps_(keeps) {}
 
   void choose_again() {
-    constexpr std::size_t kViews = 12;
+    constexpr std::size_t kViewsTried = 12;
     for (const double spread : {0.3, 0.1, 0.03}) {
       progress_.check();
       Choices choices;
       for (const View& view : course_.views) {
         std::vector<View> some = {view};
         if (view.region == Stop::kFixed) {
-          for (std::size_t i = 1; i < kViews; ++i) {
+          for (std::size_t i = 1; i < kViewsTried; ++i) {
             View turned = view;
-            turned.enter.heading_rad += spread * kPi * draw_.uniform(-1, 1);
+            turned.enter.heading_rad += spread * kHalfCircle * draw_.uniform(-1, 1);
             some.push_back(turned);
           }
         } else if (view.circles_m <= 0) {
           const Vec3 middle = (view.enter.position + leave(view).position) / 2;
           const ViewHint hint = {middle, view.enter.heading_rad, spread};
-          for (const View& other : space_.draw_views(view.region, hint, kViews, draw_)) some.push_back(other);
+          for (const View& other : space_.draw_views(view.region, hint, kViewsTried, draw_)) some.push_back(other);
         }
         choices.push_back(std::move(some));
       }

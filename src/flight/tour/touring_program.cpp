@@ -129,7 +129,7 @@ class Solver {
     std::vector<Direction> list;
     for (std::size_t leg = 0; leg < program_.leg_count(); ++leg) {
       const LegTerm term = leg_term(leg_vector(points_, leg), program_.at_least(leg), strength_);
-      list.push_back(direction_of(term.gradient + term.hessian * leg_vector(step_, leg)));
+      list.push_back(direction_of(Vec3(term.gradient + term.hessian * leg_vector(step_, leg))));
     }
     return list;
   }

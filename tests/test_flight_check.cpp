@@ -1,0 +1,343 @@
+// What is told of a flight: against what is known by hand, and against points a centimetre apart.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flight/along.h"
+#include "flight/gimbal.h"
+#include "support/flight_cases.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "vantage/error.h"
+#include "vantage/flight_check.h"
+#include "vantage/query.h"
+
+namespace vantage::testing {
+namespace {
+
+constexpr double kHalf = 2;  // of the target's sides
+
+Target checked_square(const Vec3& centre = Vec3::Zero()) {
+  return target_of({centre + Vec3(-kHalf, -kHalf, 0), centre + Vec3(kHalf, -kHalf, 0), centre + Vec3(kHalf, kHalf, 0),
+                    centre + Vec3(-kHalf, kHalf, 0)});
+}
+
+/// A square on the ground, and a wall north of it, 10 m long and 10 m high.
+Mission behind_a_wall(double range_m = 100) {
+  SceneBuilder scene;
+  scene.ground("ground", 200, -0.5).box("wall", {-5, 6, -0.5}, {5, 7, 10});
+  return mission_in(scene, checked_square(), range_m);
+}
+
+Flight flight_along(const std::vector<Vec3>& positions, double speed_m_s = std::numeric_limits<double>::quiet_NaN()) {
+  Flight flight;
+  for (const Vec3& position : positions) {
+    flight.points.push_back({position, 0, speed_m_s, ""});
+  }
+  return flight;
+}
+
+TEST(FlightCheck, TellsWhatIsSeenAndWhatHidesIt) {
+  // Along x, 20 m up, 20 m north of the wall's north side: its top edge at y = 6 to 7, z = 10 is in the way.
+  const Mission mission = behind_a_wall();
+  const FlightCheck check = check_flight(mission, flight_along({{-60, 27, 20}, {60, 27, 20}}, 5));
+  ASSERT_EQ(check.targets.size(), 1U);
+  const TargetCheck& target = check.targets[0];
+  EXPECT_EQ(check.length_m, 120);
+  EXPECT_EQ(check.duration_s, 24);
+  // Seen from (x, 27, 20), the corner (2, 2, 0) is behind the wall's top edge at y = 7 where the line to it is at z < 10
+  // there: z = 20 (7 - 2) / 25 = 4. The last line that the wall's end at x = 5 hides ends at the corner (-2, 2): at
+  // y = 6, a share 4 / 25 from the corner, x = -2 + (x + 2) 4 / 25 = 5.
+  const double last = -2 + 7 * 25 / 4.0;
+  ASSERT_EQ(target.seen.size(), 2U);
+  EXPECT_NEAR(target.seen[0].end_m, 60 - last, 1e-6);
+  EXPECT_NEAR(target.seen[1].begin_m, 60 + last, 1e-6);
+  EXPECT_NEAR(target.seen[1].begin_s, (60 + last) / 5, 1e-6);
+  EXPECT_NEAR((target.seen[1].begin - Vec3(last, 27, 20)).norm(), 0, 1e-6);
+  ASSERT_EQ(target.not_seen.size(), 1U);
+  EXPECT_EQ(target.not_seen[0].kind, NotSeen::Kind::hidden);
+  EXPECT_EQ(target.not_seen[0].name, "wall");
+  EXPECT_NEAR(target.not_seen[0].length_m(), 2 * last, 1e-6);
+  EXPECT_TRUE(check.passes());
+  EXPECT_EQ(check.nearest.object, "wall");
+  EXPECT_NEAR(check.nearest.distance_m, std::hypot(20, 10), 1e-9);
+  EXPECT_EQ(target.longest, 0U);
+  ASSERT_TRUE(target.gimbal);
+  EXPECT_NEAR(target.gimbal->begin_yaw_deg, std::atan2(60, -27) * 180 / std::numbers::pi, 1e-9);
+  EXPECT_LT(target.gimbal->max_pitch_deg, 0);
+}
+
+TEST(FlightCheck, JoinsWhatIsSeenAcrossPointsAndCountsStays) {
+  Flight flight = flight_along({{-30, -20, 20}, {0, -20, 20}, {0, -20, 20}, {30, -20, 20}}, 10);
+  flight.points[1].hold_s = 4;
+  flight.points[2].hold_s = 3;
+  flight.points[3].hold_s = 2;
+  const FlightCheck check = check_flight(behind_a_wall(), flight);
+  ASSERT_EQ(check.targets[0].seen.size(), 1U);
+  const FlightSpan& seen = check.targets[0].seen[0];
+  EXPECT_EQ(seen.begin_m, 0);
+  EXPECT_EQ(seen.end_m, 60);
+  EXPECT_EQ(seen.begin_s, 0);
+  EXPECT_DOUBLE_EQ(seen.end_s, 15);
+  EXPECT_DOUBLE_EQ(check.duration_s, 15);
+  EXPECT_EQ(check.arrival_s, (std::vector<double>{0, 3, 7, 13}));
+}
+
+TEST(FlightCheck, OfOnePointIsAStay) {
+  Flight flight = flight_along({{0, -20, 20}});
+  flight.points[0].hold_s = 7;
+  const FlightCheck check = check_flight(behind_a_wall(), flight, {.dwell_s = 7});
+  EXPECT_TRUE(check.passes()) << check.failures.front();
+  EXPECT_EQ(check.targets[0].seen.at(0).duration_s(), 7);
+  EXPECT_FALSE(check_flight(behind_a_wall(), flight, {.dwell_s = 7.5}).passes());
+}
+
+TEST(FlightCheck, SaysWhatIsAskedForAndDoesNotHold) {
+  Mission mission = behind_a_wall();
+  mission.navigation.altitude = {{.min_m = 15, .max_m = 50}};
+  const Flight flight = flight_along({{-30, -20, 20}, {0, 30, 12}, {30, -20, 20}}, 10);
+  const FlightCheck check = check_flight(mission, flight, {.dwell_s = 6, .clearance_m = 30, .gimbal_rate_deg_s = 1});
+  ASSERT_EQ(check.broken.size(), 1U);
+  EXPECT_EQ(check.broken[0].name, "altitude min");
+  EXPECT_NEAR(check.broken[0].worst, 3, 1e-9);
+  EXPECT_NEAR((check.broken[0].worst_at - Vec3(0, 30, 12)).norm(), 0, 1e-6);
+  EXPECT_EQ(check.broken[0].spans.size(), 1U);
+  ASSERT_EQ(check.failures.size(), 4U);
+  EXPECT_NE(check.failures[0].find("6 s are asked for"), std::string::npos) << check.failures[0];
+  EXPECT_NE(check.failures[1].find("turn"), std::string::npos) << check.failures[1];
+  EXPECT_NE(check.failures[2].find("altitude min is broken by 3 m"), std::string::npos) << check.failures[2];
+  EXPECT_NE(check.failures[3].find("wall is"), std::string::npos) << check.failures[3];
+  const FlightCheck nowhere = check_flight(mission, flight_along({{0, 30, -0.2}, {0, 40, -0.2}}, 1));
+  ASSERT_FALSE(nowhere.failures.empty());
+  EXPECT_EQ(nowhere.failures[0], "target is nowhere seen whole");
+}
+
+TEST(FlightCheck, TakesWhatTheTourAsks) {
+  Mission mission = behind_a_wall();
+  TourSettings tour;
+  tour.vehicle.speed_m_s = 4;
+  tour.dwell_s = 100;
+  tour.clearance_m = 3;
+  tour.gimbal_rate_deg_s = 90;
+  mission.as_written.tour = tour;
+  const Flight flight = flight_along({{-30, -20, 20}, {30, -20, 20}});
+  const FlightCheck check = check_flight(mission, flight);
+  EXPECT_EQ(check.duration_s, 15);
+  ASSERT_EQ(check.failures.size(), 1U);
+  EXPECT_TRUE(check_flight(mission, flight, {.dwell_s = 15}).passes());
+  EXPECT_FALSE(check_flight(mission, flight, {.dwell_s = 15, .clearance_m = 500}).passes());
+}
+
+TEST(FlightCheck, WithoutASpeedTellsLengthsAlone) {
+  const Flight flight = flight_along({{-30, -20, 20}, {30, -20, 20}});
+  const FlightCheck check = check_flight(behind_a_wall(), flight);
+  EXPECT_TRUE(std::isnan(check.duration_s));
+  EXPECT_TRUE(check.targets[0].longest);
+  EXPECT_TRUE(std::isnan(check.targets[0].gimbal->rate_deg_s));
+  EXPECT_THROW(check_flight(behind_a_wall(), flight, {.dwell_s = 1}), Error);
+  EXPECT_TRUE(check_flight(behind_a_wall(), flight, {.speed_m_s = 5, .dwell_s = 12}).passes());
+}
+
+TEST(FlightCheck, RefusesOptionsThatMeanNothing) {
+  const Mission mission = behind_a_wall();
+  const Flight flight = flight_along({{-30, -20, 20}, {30, -20, 20}}, 5);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (const FlightCheckOptions& options :
+       {FlightCheckOptions{.tube_radius_m = -1}, {.tube_radius_m = kNaN}, {.speed_m_s = 0.0}, {.dwell_s = -1.0},
+        {.clearance_m = kNaN}, {.gimbal_rate_deg_s = 0.0}}) {
+    EXPECT_THROW(check_flight(mission, flight, options), Error);
+  }
+  EXPECT_THROW(check_flight(mission, Flight{}), Error);
+}
+
+TEST(FlightCheck, OfSeveralTargetsTellsEachByItself) {
+  Mission mission = behind_a_wall();
+  const Target far = [] {
+    Target target = checked_square({300, 0, 0});
+    target.name = "far";
+    return target;
+  }();
+  mission.as_written.combine = Combine::each;
+  mission.views = {{mission.target}, {far}};
+  const FlightCheck check = check_flight(mission, flight_along({{-30, -20, 20}, {300, -20, 20}}, 5));
+  ASSERT_EQ(check.targets.size(), 2U);
+  EXPECT_EQ(check.targets[1].name, "far");
+  EXPECT_LT(check.targets[0].seen.at(0).end_m, check.targets[1].seen.at(0).begin_m);
+  EXPECT_TRUE(check.passes());
+}
+
+/// Whether the flight's spans hold a place along it, and how near it is to one of their ends.
+std::pair<bool, double> where_in(const std::vector<FlightSpan>& spans, double at_m) {
+  bool is_in = false;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const FlightSpan& span : spans) {
+    is_in = is_in || (span.begin_m <= at_m && at_m <= span.end_m);
+    nearest = std::min({nearest, std::abs(span.begin_m - at_m), std::abs(span.end_m - at_m)});
+  }
+  return {is_in, nearest};
+}
+
+/// Boxes round a square, with a camera's limits.
+Mission drawn_mission(Random& random) {
+  SceneBuilder scene;
+  scene.ground("ground", 300, -0.5);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi), radius = random.uniform(8, 40);
+    const Vec3 corner(radius * std::cos(angle), radius * std::sin(angle), -0.5);
+    scene.box("box " + std::to_string(i), corner,
+              corner + Vec3(random.uniform(0.5, 8), random.uniform(0.5, 8), random.uniform(2, 20)));
+  }
+  Mission mission = mission_in(scene, checked_square(), random.uniform(30, 70));
+  if (random.chance(0.5)) mission.sensor.incidence_deg = random.uniform(30, 80);
+  if (random.chance(0.5)) mission.sensor.min_range_m = random.uniform(5, 25);
+  if (random.chance(0.5)) mission.sensor.sun = SunLimit{random.direction(), random.uniform(5, 40)};
+  return mission;
+}
+
+Flight drawn_flight(Random& random) {
+  std::vector<Vec3> positions;
+  const int count = random.integer(2, 6);
+  for (int i = 0; i < count; ++i) {
+    positions.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), random.uniform(1, 50));
+  }
+  return flight_along(positions, 7);
+}
+
+TEST(FlightCheck, AgreesWithPointsACentimetreApart) {
+  Random random(20261126);
+  std::size_t samples = 0, seen = 0;
+  for (int trial = 0; trial < 25; ++trial) {
+    const Mission mission = drawn_mission(random);
+    const Flight flight = drawn_flight(random);
+    const FlightCheck check = check_flight(mission, flight);
+    constexpr double kStep = 0.01;
+    const internal::flight::Along along(flight, 7);
+    std::vector<Vec3> points;
+    std::vector<double> places;
+    for (std::size_t leg = 0; leg < flight.leg_count(); ++leg) {
+      const double length = (flight.leg(leg).to - flight.leg(leg).from).norm();
+      for (double at = random.uniform(0, kStep); at < length; at += kStep * random.uniform(5, 15)) {
+        points.push_back(along.position(leg, at / length));
+        places.push_back(along.at_m(leg, at / length));
+      }
+    }
+    const PreparedScene scene(mission.scene());
+    PointQuery query(PreparedTarget(scene, mission.target, mission.sensor));
+    const std::vector<PointAnswer> answers = query.answer(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [is_in, to_end] = where_in(check.targets[0].seen, places[i]);
+      if (to_end < kStep) continue;
+      ++samples;
+      seen += is_in ? 1 : 0;
+      ASSERT_EQ(is_in, answers[i].inside) << "trial " << trial << ", " << places[i] << " m along";
+    }
+  }
+  EXPECT_GT(samples, 20'000U);
+  EXPECT_GT(seen, 1000U);
+}
+
+TEST(FlightCheck, WithATubeHoldsForAllOfIt) {
+  Random random(4711);
+  std::size_t checked = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const Mission mission = drawn_mission(random);
+    const Flight flight = drawn_flight(random);
+    const double radius = random.uniform(0.1, 3);
+    const FlightCheck check = check_flight(mission, flight, {.tube_radius_m = radius});
+    std::vector<Vec3> points;
+    for (const FlightSpan& span : check.targets[0].seen) {
+      for (int i = 0; i < 200; ++i) {
+        const double at = random.uniform(span.begin_m, span.end_m);
+        std::size_t leg = 0;
+        while (check.point_at_m[leg + 1] < at) ++leg;
+        const double length = check.point_at_m[leg + 1] - check.point_at_m[leg];
+        const Leg on = flight.leg(leg);
+        const Vec3 place = on.from + (at - check.point_at_m[leg]) / length * (on.to - on.from);
+        points.push_back(place + 0.999 * radius * random.uniform(0, 1) * random.direction());
+      }
+    }
+    const PreparedScene scene(mission.scene());
+    PointQuery query(PreparedTarget(scene, mission.target, mission.sensor));
+    for (const PointAnswer& answer : query.answer(points)) {
+      ASSERT_TRUE(answer.inside) << "trial " << trial;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 500U);
+}
+
+TEST(FlightCheckText, IsJsonThatSaysWhatIsNotKnown) {
+  const FlightCheck check = check_flight(behind_a_wall(), flight_along({{-60, 27, 20}, {60, 27, 20}}));
+  const auto json = nlohmann::json::parse(json_text(check));
+  EXPECT_TRUE(json["duration_s"].is_null());
+  EXPECT_EQ(json["length_m"], 120);
+  EXPECT_EQ(json["targets"][0]["seen"].size(), 2U);
+  EXPECT_EQ(json["targets"][0]["not_seen"][0]["name"], "wall");
+  EXPECT_EQ(json["nearest"]["object"], "wall");
+  EXPECT_FALSE(json["nearest"]["position"].contains("lon_deg"));
+  const Georeference place{.latitude_deg = 48, .longitude_deg = 11};
+  const auto placed = nlohmann::json::parse(json_text(check, &place));
+  EXPECT_NEAR(placed["nearest"]["position"]["lat_deg"].get<double>(), 48 + 27 / 111'200.0, 1e-5);
+}
+
+TEST(FlightCheckText, IsATableWithARowForEachStretch) {
+  Mission mission = behind_a_wall();
+  mission.target.name = "a \"square\", small";
+  const std::string table = csv_text(check_flight(mission, flight_along({{-60, 27, 20}, {60, 27, 20}}, 5)));
+  std::istringstream lines(table);
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(lines, line);) rows.push_back(line);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[1].rfind("\"a \"\"square\"\", small\",seen,,0,", 0), 0U) << rows[1];
+  EXPECT_NE(rows[3].find(",hidden,wall,"), std::string::npos) << rows[3];
+}
+
+TEST(FlightGimbal, FindsTheSteepestPitchAndTheFastestTurn) {
+  Random random(9);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Leg leg{random.point(-10, 10), random.point(-10, 10)};
+    const Vec3 to = random.point(-10, 10);
+    const auto range = internal::flight::pitch_range(leg, to);
+    const double fastest = internal::flight::fastest_turn_deg_s(leg, to, 3);
+    double low = 90, high = -90, turn = 0;
+    constexpr int kSteps = 2000;
+    const double length = (leg.to - leg.from).norm();
+    for (int i = 0; i <= kSteps; ++i) {
+      const Vec3 at = leg.from + i / static_cast<double>(kSteps) * (leg.to - leg.from);
+      const double pitch = internal::flight::aim_at(at, to).pitch_deg;
+      low = std::min(low, pitch);
+      high = std::max(high, pitch);
+      const Vec3 d = (to - at).normalized(), moved = (to - at - 1e-6 * (leg.to - leg.from)).normalized();
+      turn = std::max(turn, (moved - d).norm() * 180 / std::numbers::pi / (1e-6 * length / 3));
+    }
+    EXPECT_GE(low, range.min_deg - 1e-9);
+    EXPECT_LE(high, range.max_deg + 1e-9);
+    EXPECT_NEAR(low, range.min_deg, 0.5);
+    EXPECT_NEAR(high, range.max_deg, 0.5);
+    EXPECT_NEAR(turn, fastest, 0.02 * fastest + 0.01);
+  }
+}
+
+TEST(FlightAlong, TakesIntervalsFromIntervals) {
+  using internal::flight::without;
+  using Intervals = std::vector<LegInterval>;
+  EXPECT_EQ(without(Intervals{{0, 1}}, Intervals{{0.2, 0.3}, {0.5, 0.5}}), (Intervals{{0, 0.2}, {0.3, 0.5}, {0.5, 1}}));
+  EXPECT_EQ(without(Intervals{{0, 0.4}, {0.6, 1}}, Intervals{{0.3, 0.7}}), (Intervals{{0, 0.3}, {0.7, 1}}));
+  EXPECT_EQ(without(Intervals{{0.2, 0.4}}, Intervals{{0, 1}}), Intervals{});
+  EXPECT_EQ(without(Intervals{{0.2, 0.4}}, Intervals{{0.4, 1}}), (Intervals{{0.2, 0.4}}));
+  EXPECT_EQ(internal::flight::united({{0.5, 0.7}, {0, 0.2}, {0.2, 0.5}}), (Intervals{{0, 0.7}}));
+}
+
+}  // namespace
+}  // namespace vantage::testing
