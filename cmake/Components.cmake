@@ -17,7 +17,7 @@ function(vantage_component name)
       file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${module}/*.cpp)
       list(APPEND sources ${found})
     endforeach()
-    list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/components/")
+    list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/components/|/tour/linear_program_")
     list(REMOVE_ITEM sources ${VANTAGE_HELPER_SOURCES})
     if(kind STREQUAL "MODULES")
       list(APPEND sources ${part_SOURCES})
@@ -163,8 +163,18 @@ if(VANTAGE_WITH_APP)
                     REQUIRES ${app_requires})
 endif()
 if(VANTAGE_WITH_FLIGHT)
+  set(solver none)  # of linear programs
+  set(solver_library)
+  if(VANTAGE_HAS_HIGHS)
+    set(solver highs)
+    set(solver_library highs::highs)
+  endif()
   vantage_component(flight
-    MODULES flight LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json REQUIRES core app)
+    MODULES flight SOURCES ${source}/flight/tour/linear_program_${solver}.cpp
+    LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json ${solver_library} REQUIRES core solid app)
+  if(VANTAGE_HAS_HIGHS AND NOT BUILD_SHARED_LIBS)
+    target_sources(vantage_flight PRIVATE $<TARGET_OBJECTS:vantage_highs>)  # it is not installed by itself
+  endif()
 endif()
 get_property(VANTAGE_BUILT_COMPONENTS GLOBAL PROPERTY VANTAGE_BUILT_COMPONENTS)
 

@@ -68,6 +68,9 @@ set(licences "cdt/LICENSE=CDT" "cdt/LICENSE-predicates.txt=CDT-predicates" "cdt/
 if(VANTAGE_WITH_SOLID AND NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linked from where it is installed
   list(APPEND licences "manifold/LICENSE=Manifold")
 endif()
+if(VANTAGE_HAS_HIGHS)
+  list(APPEND licences "highs/LICENSE.txt=HiGHS" "highs/extern/pdqsort/license.txt=pdqsort")
+endif()
 foreach(licence IN LISTS licences)
   string(REPLACE "=" ";" licence ${licence})
   list(GET licence 0 file)

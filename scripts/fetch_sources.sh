@@ -15,7 +15,8 @@ if ! python3 "$here/fetch_releases.py" "$here/sources.txt" "$work"; then
   exit 1
 fi
 for archive in "$work"/*.tar.gz; do tar -xzf "$archive" -C "$work"; done
-rm -rf "$deps/manifold" "$deps/cdt"
+rm -rf "$deps/manifold" "$deps/cdt" "$deps/highs"
 mv "$work"/manifold3d-*/ "$deps/manifold"
 mv "$work"/pythoncdt-*/CDT/CDT "$deps/cdt"
+mv "$work"/highspy-*/ "$deps/highs"
 touch "$stamp"

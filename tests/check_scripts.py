@@ -214,6 +214,7 @@ class Scripts(unittest.TestCase):
         archives = {
             "manifold3d-1.2.tar.gz": self.archive("manifold3d-1.2", ["CMakeLists.txt", "setup.py"]),
             "pythoncdt-3.4.tar.gz": self.archive("pythoncdt-3.4", ["CDT/CDT/include/CDT.h"]),
+            "highspy-5.6.tar.gz": self.archive("highspy-5.6", ["cmake/sources.cmake", "pyproject.toml"]),
         }
         deps = self.tree / ".deps"
         with self.index(archives):
@@ -230,6 +231,7 @@ class Scripts(unittest.TestCase):
             self.assertEqual(self.run_script("fetch_sources.sh")[0], 0)
         self.assertTrue((deps / "manifold" / "CMakeLists.txt").exists())
         self.assertTrue((deps / "cdt" / "include" / "CDT.h").exists())
+        self.assertTrue((deps / "highs" / "cmake" / "sources.cmake").exists())
         # The index is gone, and not asked again.
         self.assertEqual(self.run_script("fetch_sources.sh"), (0, ""))
 

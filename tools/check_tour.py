@@ -41,13 +41,11 @@ def demand(holds, problem):
         raise Refused(problem)
 
 def parsed(text, kind, most):
-    if len(text) > most or not math.isfinite(kind(text)):
-        raise ValueError("a number that no double holds")
+    demand(len(text) <= most and math.isfinite(kind(text)), "a number that no double holds")
     return kind(text)
 
 def each_key_once(pairs):
-    if len(dict(pairs)) != len(pairs):
-        raise ValueError("a key twice")
+    demand(len(dict(pairs)) == len(pairs), "a key twice")
     return dict(pairs)
 
 def list_of(values, kinds, count=None):
@@ -222,14 +220,17 @@ def check_insertion(tour, proof):
     demand(not waiting, "the tree ends too early")
     return least
 
-def leaf_of_pairs(tour, u, inside, outside, p, d, sets):
+def leaf_of_pairs(tour, rows, origin, inside, outside, p, d, sets):
     """`inside` and `outside`: edges that are fixed. The region behind the last one is everywhere."""
+    def u(i, j):
+        return rows[i][j] if j < i else tuple(-x for x in rows[j][i])
+
     def cost(i, j, k):
         if i == len(tour.cells):
             return 0
-        if tour.dwell[i]:
-            return tour.cells[i].least(u(i, j)) + tour.cells[i].least(u(i, k)) + tour.dwell[i] * UNIT
-        return tour.cells[i].least(tuple(a + b for a, b in zip(u(i, j), u(i, k))))
+        both, cell, stay = tuple(a + b for a, b in zip(u(i, j), u(i, k))), tour.cells[i], tour.dwell[i]
+        least = cell.least(u(i, j)) + cell.least(u(i, k)) + stay * UNIT if stay else cell.least(both)
+        return least - dot(both, origin)  # p and d are of points about it
 
     total = sum(2 * x for x in d) + sum(2 * s for s, _ in sets)
     for i in range(len(d)):
@@ -244,12 +245,12 @@ def leaf_of_pairs(tour, u, inside, outside, p, d, sets):
     return total
 
 def check_pairs(tour, proof):
-    demand(set(proof) == {"kind", "vectors", "tree"}, "keys too many or too few")
+    demand(set(proof) == {"kind", "origin", "vectors", "tree"}, "keys too many or too few")
     count, least = len(tour.cells) + (not tour.closed), math.inf
-    rows = list(map(vectors_of, list_of(proof["vectors"], [list], count)))
-    demand(count > 2 and all(len(row) == i for i, row in enumerate(rows)), "vectors for another number of pairs")
-    demand(tour.closed or not any(map(any, rows[-1])), "vectors to everywhere are not 0")
-    u = lambda i, j: rows[i][j] if j < i else tuple(-x for x in rows[j][i])  # noqa: E731
+    sets = [[vectors_of(row) for row in list_of(rows, [list], count)] for rows in list_of(proof["vectors"], [list])]
+    demand(count > 2 and all(len(row) == i for r in sets for i, row in enumerate(r)), "vectors for other pairs")
+    demand(tour.closed or not any(any(map(any, rows[-1])) for rows in sets), "vectors to everywhere are not 0")
+    origin = list(map(tour.whole, list_of(proof["origin"], [int, float], 3)))
     dual = lambda numbers, n: [tour.whole(x) * UNIT for x in list_of(numbers, [int, float], n)]  # noqa: E731
     waiting = [({(e, count - 1) for e in tour.ends}, set())]
     for kind, *of in list_of(proof["tree"], [list]):
@@ -261,19 +262,19 @@ def check_pairs(tour, proof):
             waiting += [(inside, outside | {(i, j)}), (inside | {(i, j)}, outside)]
         else:
             demand(kind == "leaf", "a node of no known kind")
-            p, d, sets = of
-            sets = [(dual([s], 1)[0], set(indices(members, count))) for s, members in list_of(sets, [list])]
-            demand(all(s >= 0 and 0 < len(members) < count for s, members in sets), "no set, or less than 0")
-            duals = [dual(row, count) for row in list_of(p, [list], count)], dual(d, count), sets
-            least = min(least, leaf_of_pairs(tour, u, inside, outside, *duals))
+            which, p, d, cuts = of
+            cuts = [(dual([s], 1)[0], set(indices(members, count))) for s, members in list_of(cuts, [list])]
+            demand(all(s >= 0 and 0 < len(members) < count for s, members in cuts), "no set, or less than 0")
+            p, rows = [dual(row, count) for row in list_of(p, [list], count)], sets[indices([which], len(sets))[0]]
+            least = min(least, leaf_of_pairs(tour, rows, origin, inside, outside, p, dual(d, count), cuts))
     demand(not waiting, "the tree ends too early")
     return least
 
 def check(path, say=print):
     try:
-        real = lambda text: parsed(text, float, 40)  # noqa: E731
-        certificate = json.loads(path.read_text(encoding="ascii"), object_pairs_hook=each_key_once, parse_float=real,
-                                 parse_constant=real, parse_int=lambda text: parsed(text, int, 16))
+        certificate = json.loads(path.read_text(encoding="ascii"), object_pairs_hook=each_key_once,
+                                 parse_float=lambda text: parsed(text, float, 40), parse_constant=float,
+                                 parse_int=lambda text: parsed(text, int, 16))
         tour, proof = Tour(certificate, path.parent), certificate["proof"]
         bound = tour.whole(certificate["bound_m"]) * UNIT
         proved = {"insertion": check_insertion, "pairs": check_pairs}[proof["kind"]](tour, proof)

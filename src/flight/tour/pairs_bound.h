@@ -11,6 +11,8 @@
 //
 // An open tour is closed by a region "anywhere", whose vectors are 0 and which must stand beside the first (and last) one.
 // Where edges are fixed, in or out, the bound is over tours with these edges; fixing an edge both ways covers all tours.
+// Vectors that point along a tour bound this one well, others less: where the program's solution is another tour, new
+// vectors are taken along that.
 #pragma once
 
 #include <array>
@@ -36,32 +38,38 @@ struct PairsDuals {
 struct PairsNode {
   /// Not a leaf: this edge is fixed below, in the tour in the first child, out of it in the second.
   std::optional<std::array<std::size_t, 2>> edge;
-  PairsDuals duals;  ///< of a leaf
+  std::size_t vectors = 0;  ///< of a leaf: which
+  PairsDuals duals;         ///< of a leaf
 };
 
 /// The proof. The regions are those of the space, and "anywhere" behind them for open tours.
 struct PairsProof {
-  std::vector<std::vector<Direction>> vectors;  ///< u_ij at [i][j], j < i; u_ji is its opposite
-  std::vector<PairsNode> nodes;                 ///< in preorder
+  Vec3 origin = Vec3::Zero();  ///< whole metres; subtracted from all points
+  std::vector<std::vector<std::vector<Direction>>> vectors;  ///< u_ij at [which][i][j], j < i; u_ji is its opposite
+  std::vector<PairsNode> nodes;                              ///< in preorder
 };
 
 struct PairsOptions {
-  double enough_m = 0;
+  double enough_m = 0;  ///< the search ends when nothing shorter is left
   double time_limit_s = 60;
-  std::size_t most_nodes = 100'000;
+  std::size_t most_nodes = 2'000;
 };
 
 struct PairsBound {
   double bound_m = 0;
   PairsProof proof;
-  std::vector<std::vector<std::size_t>> orders;  ///< of tours that the program suggests
+  std::size_t nodes = 0, columns = 0;
+  /// Of tours that the program suggests: orders to try. Without first and last.
+  std::vector<std::vector<std::size_t>> orders;
 };
 
 /// Whether this build has a solver of linear programs (VANTAGE_WITH_HIGHS).
 bool has_pairs_bound();
 
-/// `anchors`: of each region the point where the tour is expected; about the origin of the cells.
+/// For five regions or more. `anchors`: of each the point where the tour is expected, about the origin of the cells;
+/// `order`: of that tour, without first and last, or empty. Throws Error(cancelled).
 PairsBound pairs_bound(const Cells& cells, const TourSpace& space, const std::vector<Vec3>& anchors,
-                       const PairsOptions& options, const core::ProgressReporter& progress);
+                       const std::vector<std::size_t>& order, const PairsOptions& options,
+                       const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::flight::tour

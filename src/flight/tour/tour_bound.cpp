@@ -75,6 +75,13 @@ std::vector<Vec3> anchors_of(const Cells& cells, const Incumbent& incumbent) {
   return anchors;
 }
 
+/// Of all regions that are not ends: the start of a closed tour stands at its beginning.
+std::vector<std::size_t> order_of(const Incumbent& incumbent, const TourBound& result) {
+  std::vector<std::size_t> order = incumbent.order;
+  if (!order.empty() && result.space.closed && result.regions.size() > order.size()) order.push_back(order.size());
+  return order;
+}
+
 void add_orders(const std::vector<std::vector<std::size_t>>& more, std::vector<std::vector<std::size_t>>& orders) {
   for (const std::vector<std::size_t>& order : more) {
     if (std::find(orders.begin(), orders.end(), order) == orders.end()) orders.push_back(order);
@@ -130,7 +137,8 @@ TourBound bound_tour(const BoundProblem& problem, const Incumbent& incumbent, co
       PairsOptions how;
       how.enough_m = enough;
       how.time_limit_s = std::max(0.0, options.time_limit_s - watch.seconds());
-      PairsBound bound = pairs_bound(cells, result.space, anchors_of(cells, incumbent), how, reporter);
+      PairsBound bound =
+          pairs_bound(cells, result.space, anchors_of(cells, incumbent), order_of(incumbent, result), how, reporter);
       reporter.finish();
       result.pairs_m = bound.bound_m;
       add_orders(bound.orders, result.orders);

@@ -51,7 +51,7 @@ Json json_of(const PairsNode& node) {
   if (node.edge) return {"edge", (*node.edge)[0], (*node.edge)[1]};
   Json sets = Json::array();
   for (const auto& [dual, members] : node.duals.of_set) sets.push_back({dual, members});
-  return {"leaf", node.duals.of_edge_at, node.duals.of_region, std::move(sets)};
+  return {"leaf", node.vectors, node.duals.of_edge_at, node.duals.of_region, std::move(sets)};
 }
 
 void add_proof(const InsertionTree& tree, Json& proof, std::vector<Json>& lines) {
@@ -62,8 +62,13 @@ void add_proof(const InsertionTree& tree, Json& proof, std::vector<Json>& lines)
 
 void add_proof(const PairsProof& pairs, Json& proof, std::vector<Json>& lines) {
   proof["kind"] = "pairs";
+  proof["origin"] = {pairs.origin.x(), pairs.origin.y(), pairs.origin.z()};
   proof["vectors"] = Json::array();
-  for (const std::vector<Direction>& row : pairs.vectors) proof["vectors"].push_back(numbers_of(row));
+  for (const std::vector<std::vector<Direction>>& rows : pairs.vectors) {
+    Json set = Json::array();
+    for (const std::vector<Direction>& row : rows) set.push_back(numbers_of(row));
+    proof["vectors"].push_back(std::move(set));
+  }
   for (const PairsNode& node : pairs.nodes) lines.push_back(json_of(node));
 }
 

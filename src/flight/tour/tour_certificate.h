@@ -21,8 +21,9 @@ std::string region_ply(const OuterRegion& region);
 ///   regions     name, kind, dwell_m; file and hash (docs/hashes.md, of a volume) of a mesh, "at" of a point
 ///   proof       "kind": "insertion", "root": regions, "tree": in preorder
 ///                 ["insert", region] ["cut", stop, [normal], offset] ["leaf", three whole numbers of each leg] ["empty"]
-///               "kind": "pairs", "vectors": of each pair j < i three whole numbers, "tree": in preorder
-///                 ["edge", i, j] ["leaf", p by rows, d, [[s, regions of the set], ...]]
+///               "kind": "pairs", "origin": subtracted from all points, "vectors": lists by rows of each pair j < i
+///               three whole numbers, "tree": in preorder
+///                 ["edge", i, j] ["leaf", which vectors, p by rows, d, [[s, regions of the set], ...]]
 /// Whole numbers of vectors are in units of 2^-30.
 std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files);
 
