@@ -102,12 +102,12 @@ TEST(Tour, TouchesConvexVolumesWhereItIsShortest) {
 TEST(Tour, ViewsInPassingWhereTheLegIsLongEnough) {
   // 8 m/s for 2 s: 16 m. The volume between the others is 40 m long: no need to hover.
   TourRequest request;
-  request.targets = {{"left", box_about({-100, 0, 0}, 5)},
-                     {"middle", box_about({0, 0, 0}, 20)},
-                     {"right", box_about({100, 0, 0}, 5)}};
+  request.targets = {
+      {"left", box_about({-100, 0, 0}, 5)}, {"middle", box_about({0, 0, 0}, 20)}, {"right", box_about({100, 0, 0}, 5)}};
   const Tour tour = plan_tour(request);
   testing::judge(request, tour, nullptr);
-  const auto middle = std::find_if(tour.visits.begin(), tour.visits.end(), [](const TourVisit& v) { return v.target == 1; });
+  const auto middle =
+      std::find_if(tour.visits.begin(), tour.visits.end(), [](const TourVisit& v) { return v.target == 1; });
   EXPECT_LT(middle->first_point, middle->last_point);
   EXPECT_NEAR(middle->end_m - middle->begin_m, 16, 1e-6);
   EXPECT_NEAR(tour.length_m, 2 * (200 - 2 * 4), 1e-3);
@@ -149,8 +149,8 @@ TEST(Tour, FliesOverAWallOrSaysWhatStandsThere) {
   request.targets = {{"west", box_about({-60, 0, 10}, 5)}, {"east", box_about({60, 0, 10}, 5)}};
   const Box inside = {Vec3(-100, -50, 2), Vec3(100, 50, 60)};
   const auto wall = [&](double top) {
-    return std::make_shared<BoxAirspace>(
-        std::vector<NamedBox>{{"long wall", {Vec3(-1, -60, 0), Vec3(1, 60, top)}}}, 3, inside);
+    return std::make_shared<BoxAirspace>(std::vector<NamedBox>{{"long wall", {Vec3(-1, -60, 0), Vec3(1, 60, top)}}}, 3,
+                                         inside);
   };
   const auto low = wall(40);
   request.airspace = low;
@@ -184,8 +184,9 @@ TEST(Tour, IsTheSameAgain) {
   testing::Random random(25);
   TourRequest request;
   for (int i = 0; i < 7; ++i) request.targets.push_back({"T", box_about(random.point(-100, 100), 10)});
-  request.airspace = std::make_shared<BoxAirspace>(
-      std::vector<NamedBox>{{"block", {Vec3(-20, -20, -150), Vec3(20, 20, 150)}}}, 3, bounding_box(box_about({0, 0, 0}, 200)));
+  request.airspace =
+      std::make_shared<BoxAirspace>(std::vector<NamedBox>{{"block", {Vec3(-20, -20, -150), Vec3(20, 20, 150)}}}, 3,
+                                    bounding_box(box_about({0, 0, 0}, 200)));
   const Tour a = plan_tour(request), b = plan_tour(request);
   ASSERT_EQ(a.flight.points.size(), b.flight.points.size());
   for (std::size_t i = 0; i < a.flight.points.size(); ++i) {

@@ -28,13 +28,18 @@ Mesh cube_about(const Vec3& centre, double half) {
 /// A box, a dome, a dome with lobes, or two boxes apart.
 Mesh random_volume(testing::Random& random, const Vec3& centre, double size) {
   switch (random.integer(0, 3)) {
-    case 0: return testing::make_box_mesh(centre - Vec3(size, size / 2, size / 3), centre + Vec3(size / 2, size, size));
-    case 1: return testing::make_hemisphere(centre, size, 12, 5).mesh;
+    case 0:
+      return testing::make_box_mesh(centre - Vec3(size, size / 2, size / 3), centre + Vec3(size / 2, size, size));
+    case 1:
+      return testing::make_hemisphere(centre, size, 12, 5).mesh;
     case 2: {
       const double phase = random.uniform(0, 6), lobes = random.integer(2, 4);
-      return testing::make_dome(centre, 20, 6, [=](double azimuth, double elevation) {
-               return size * (1 - 0.6 * std::cos(elevation) * std::pow(std::sin(lobes * (azimuth + phase) / 2), 2));
-             }).mesh;
+      return testing::make_dome(
+                 centre, 20, 6,
+                 [=](double azimuth, double elevation) {
+                   return size * (1 - 0.6 * std::cos(elevation) * std::pow(std::sin(lobes * (azimuth + phase) / 2), 2));
+                 })
+          .mesh;
     }
     default: {
       Mesh mesh = cube_about(centre, size / 2);
@@ -66,8 +71,9 @@ std::shared_ptr<const BoxAirspace> random_airspace(testing::Random& random, cons
   const int count = random.integer(0, 8);
   for (int i = 0; i < count; ++i) {
     const Vec3 corner = offset + Vec3(random.uniform(-150, 130), random.uniform(-150, 130), 0);
-    obstacles.push_back({"block " + std::to_string(i),
-                         {corner, corner + Vec3(random.uniform(3, 30), random.uniform(3, 30), random.uniform(20, 90))}});
+    obstacles.push_back(
+        {"block " + std::to_string(i),
+         {corner, corner + Vec3(random.uniform(3, 30), random.uniform(3, 30), random.uniform(20, 90))}});
   }
   return std::make_shared<BoxAirspace>(obstacles, random.uniform(0.5, 5),
                                        Box{offset + Vec3(-400, -400, 5), offset + Vec3(400, 400, 130)});
@@ -132,8 +138,8 @@ TEST(RandomTours, OfAFixedWingKeepAllLimits) {
       const Vec3 centre = offset + Vec3(random.uniform(-300, 300), random.uniform(-300, 300), random.uniform(30, 60));
       request.targets.push_back({"T" + std::to_string(t), random_volume(random, centre, random.uniform(50, 90))});
     }
-    request.settings.vehicle = {TourVehicle::Kind::fixed_wing, random.uniform(8, 20), 2, random.uniform(15, 40),
-                                -random.uniform(5, 20), random.uniform(5, 20)};
+    request.settings.vehicle = {TourVehicle::Kind::fixed_wing, random.uniform(8, 20),  2,
+                                random.uniform(15, 40),        -random.uniform(5, 20), random.uniform(5, 20)};
     request.settings.closed = random.chance(0.7);
     request.settings.dwell_s = random.chance(0.3) ? 0 : random.uniform(0.3, 1.5);
     request.settings.margin_m = random.uniform(0, 1);
@@ -163,4 +169,3 @@ TEST(RandomTours, OfAFixedWingKeepAllLimits) {
 
 }  // namespace
 }  // namespace vantage
-

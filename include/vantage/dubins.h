@@ -59,7 +59,7 @@ struct SpacePose {
 
 /// What a fixed-wing vehicle can do.
 struct WingLimits {
-  double turn_radius_m = 40;                        ///< smallest radius of curvature, in space; > 0
+  double turn_radius_m = 40;                           ///< smallest radius of curvature, in space; > 0
   double lowest_climb_rad = 0, highest_climb_rad = 0;  ///< of the path, -pi/2 < lowest <= 0 <= highest < pi/2
 };
 
@@ -79,9 +79,9 @@ struct VANTAGE_API DubinsAirplanePath {
 /// A short path whose curvature in space is at most 1 / turn_radius_m and whose climb stays within the limits: the
 /// decoupled construction of P. Vana, A. Alves Neto, J. Faigl and D. G. Macharet, "Minimal 3D Dubins path with bounded
 /// curvature and pitch angle", ICRA 2020. A path of radius r_h seen from above and a profile of radius r_v, with
-/// 1/r_h^2 + 1/r_v^2 = 1/r^2; r_h is found by a local search. Where wider arcs do not give the length that a climb needs,
-/// or full turns at the start do so sooner, there are full turns: the paper has none. Not the shortest one for sure.
-/// Between poses of one height and no climb it is the plane's shortest path.
+/// 1/r_h^2 + 1/r_v^2 = 1/r^2; r_h is found by a local search. Where wider arcs do not give the length that a climb
+/// needs, or full turns at the start do so sooner, there are full turns: the paper has none. Not the shortest one for
+/// sure. Between poses of one height and no climb it is the plane's shortest path.
 ///
 /// Nothing where nothing fits, as for a climb at an end that is outside the limits. Throws as shortest_dubins, and
 /// Error(input) for limits of the climb that are none. Deterministic. Cost: some 50 paths in the plane, or 100.

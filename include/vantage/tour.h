@@ -37,7 +37,7 @@ struct TourTarget {
 };
 
 struct TourRequest {
-  TourSettings settings;  ///< its home and clearance are not looked at: see below
+  TourSettings settings;                    ///< its home and clearance are not looked at: see below
   std::optional<Vec3> home = std::nullopt;  ///< in the air, where the tour begins; scene frame
   std::vector<TourTarget> targets;
   std::shared_ptr<const Airspace> airspace = {};  ///< nothing: everywhere
@@ -49,7 +49,7 @@ struct TourRequest {
 
 /// When a target is in view: in its volume, by the margin at least.
 struct TourVisit {
-  std::size_t target = 0;  ///< of the request
+  std::size_t target = 0;                       ///< of the request
   std::size_t first_point = 0, last_point = 0;  ///< of the flight, from one to the other; the same one: hovering there
   double begin_m = 0, end_m = 0;                ///< along the flight
   double dwell_s = 0;                           ///< so long at least
@@ -62,9 +62,9 @@ struct TourProblem {
     no_way,    ///< no way to it was found
   };
   Kind kind = Kind::no_place;
-  std::size_t target = 0;                            ///< that is left out
+  std::size_t target = 0;                               ///< that is left out
   std::optional<std::size_t> neighbour = std::nullopt;  ///< the way from or to this target; nothing: home
-  std::string obstacle;                              ///< what stands there
+  std::string obstacle;                                 ///< what stands there
 };
 
 struct Tour {
@@ -78,8 +78,8 @@ struct Tour {
   std::vector<std::size_t> order;  ///< targets, as they are visited; without those of `problems`
   std::vector<TourVisit> visits;   ///< in the order of their beginning
   double length_m = 0;             ///< of the curve itself
-  double time_s = 0;  ///< a multirotor rests at each point where it turns or hovers, and speeds up and slows down between
-                      ///< at its acceleration; a fixed wing keeps its speed
+  double time_s = 0;  ///< a multirotor rests at each point where it turns or hovers, and speeds up and slows down
+                      ///< between at its acceleration; a fixed wing keeps its speed
   std::vector<TourProblem> problems;
   End end = End::done;
 };
@@ -87,9 +87,9 @@ struct Tour {
 /// The shortest tour that the search finds; every leg of it is allowed by the airspace, every visit is checked against
 /// the volume itself. No bound: how much shorter one could be is another question.
 ///
-/// Multirotor: straight legs. A target is viewed in passing where the leg in its volume takes long enough at full speed,
-/// else from a point where the vehicle hovers. Targets are viewed one after the other, unless `simultaneous`. The same
-/// point may serve several.
+/// Multirotor: straight legs. A target is viewed in passing where the leg in its volume takes long enough at full
+/// speed, else from a point where the vehicle hovers. Targets are viewed one after the other, unless `simultaneous`.
+/// The same point may serve several.
 ///
 /// Fixed wing: legs that stand for Dubins paths in space (vantage/dubins.h); a target is viewed along a straight level
 /// stretch, or on full circles where none is long enough.

@@ -87,12 +87,18 @@ std::optional<Pieces> three_arcs(const Ends& ends, int turn) {
 
 std::optional<Pieces> pieces_of(DubinsWord word, const Ends& ends) {
   switch (word) {
-    case DubinsWord::lsl: return same_sides(ends, 1);
-    case DubinsWord::rsr: return same_sides(ends, -1);
-    case DubinsWord::lsr: return crossed_sides(ends, 1);
-    case DubinsWord::rsl: return crossed_sides(ends, -1);
-    case DubinsWord::rlr: return three_arcs(ends, -1);
-    case DubinsWord::lrl: return three_arcs(ends, 1);
+    case DubinsWord::lsl:
+      return same_sides(ends, 1);
+    case DubinsWord::rsr:
+      return same_sides(ends, -1);
+    case DubinsWord::lsr:
+      return crossed_sides(ends, 1);
+    case DubinsWord::rsl:
+      return crossed_sides(ends, -1);
+    case DubinsWord::rlr:
+      return three_arcs(ends, -1);
+    case DubinsWord::lrl:
+      return three_arcs(ends, 1);
   }
   return std::nullopt;
 }

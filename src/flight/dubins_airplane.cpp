@@ -126,7 +126,8 @@ std::optional<DubinsAirplanePath> dubins_airplane(const SpacePose& from, const S
   const double steepest = std::sin(rise > 0 ? limits.highest_climb_rad : -limits.lowest_climb_rad);
   const double distance = (to.position - from.position).norm();
   constexpr double kClose = 1.05;
-  if (best && best->length_m() <= kClose * std::max(distance, steepest > 0 ? std::abs(rise) / steepest : 0)) return best;
+  if (best && best->length_m() <= kClose * std::max(distance, steepest > 0 ? std::abs(rise) / steepest : 0))
+    return best;
   const std::optional<DubinsAirplanePath> turning = search(from, to, limits, true);
   return turning && (!best || turning->length_m() < best->length_m()) ? turning : best;
 }

@@ -20,8 +20,8 @@ inline double distance_to(const Box& box, const Vec3& point) {
   return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
 }
 
-/// Of a segment: convex along it, so thirds close in on the least one. Not below the true one by construction, and above
-/// it by 1e-9 of the length at most.
+/// Of a segment: convex along it, so thirds close in on the least one. Not below the true one by construction, and
+/// above it by 1e-9 of the length at most.
 inline double distance_to(const Box& box, const Leg& leg) {
   double low = 0, high = 1;
   const auto at = [&](double t) { return distance_to(box, Vec3(leg.from + t * (leg.to - leg.from))); };

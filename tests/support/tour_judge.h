@@ -50,8 +50,8 @@ inline double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, 
     return (p - u - t * along).norm();
   };
   const Vec3 n = (b - a).cross(c - a).normalized(), foot = p - n.dot(p - a) * n;
-  const bool is_over = n.dot((b - a).cross(foot - a)) >= 0 && n.dot((c - b).cross(foot - b)) >= 0 &&
-                       n.dot((a - c).cross(foot - c)) >= 0;
+  const bool is_over =
+      n.dot((b - a).cross(foot - a)) >= 0 && n.dot((c - b).cross(foot - b)) >= 0 && n.dot((a - c).cross(foot - c)) >= 0;
   return is_over ? std::abs(n.dot(p - a)) : std::min({to_side(a, b), to_side(b, c), to_side(c, a)});
 }
 
@@ -118,7 +118,8 @@ inline void judge(const TourRequest& request, const Tour& tour, const BoxAirspac
         const double common = std::min(a.end_m, b.end_m) - std::max(a.begin_m, b.begin_m);
         EXPECT_LE(common, 1e-6);
         if (a.first_point < a.last_point && b.first_point == b.last_point && settings.dwell_s > 0) {
-          EXPECT_FALSE(b.first_point > a.first_point && b.first_point < a.last_point) << "hovers while another is viewed";
+          EXPECT_FALSE(b.first_point > a.first_point && b.first_point < a.last_point)
+              << "hovers while another is viewed";
         }
       }
     }

@@ -151,8 +151,8 @@ Place best_place(const Course& course, const TourRegion& region, std::size_t ski
   for (std::size_t at = course.first_free(); at <= count; ++at) {
     if (course.closed && at == 0) continue;  // the same as at the end
     const auto [a, b] = ends(at);
-    const double bound = a && b ? region.touch_bound_m(*a, *b) - (*a - *b).norm()
-                                : region.touch_bound_m(a ? *a : *b, a ? *a : *b) / 2;
+    const double bound =
+        a && b ? region.touch_bound_m(*a, *b) - (*a - *b).norm() : region.touch_bound_m(a ? *a : *b, a ? *a : *b) / 2;
     candidates.push_back({bound, at});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -164,8 +164,8 @@ Place best_place(const Course& course, const TourRegion& region, std::size_t ski
     const auto [a, b] = ends(candidates[i].before);
     const Vec3 &from = a ? *a : *b, &to = b ? *b : *a;
     const Vec3 point = region.touch(from, to);
-    const double detour = a && b ? std::max(0.0, way_length(from, point, to, 0) - (from - to).norm())
-                                 : (from - point).norm();
+    const double detour =
+        a && b ? std::max(0.0, way_length(from, point, to, 0) - (from - to).norm()) : (from - point).norm();
     if (detour < best.detour_m) best = {candidates[i].before, point, detour};
   }
   return best;

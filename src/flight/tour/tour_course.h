@@ -19,7 +19,7 @@ struct Stop {
 
 /// What a tour looks like as a whole.
 struct CourseKind {
-  bool closed = true;                           ///< it ends where it begins
+  bool closed = true;                       ///< it ends where it begins
   std::optional<Vec3> home = std::nullopt;  ///< it begins there
 };
 

@@ -10,7 +10,7 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-constexpr double kSlack = 1e-12;     ///< of the sizes: what rounding may break a half-space by
+constexpr double kSlack = 1e-12;    ///< of the sizes: what rounding may break a half-space by
 constexpr double kParallel = 1e-9;  ///< sine of the angle between planes that have no line in common
 
 }  // namespace

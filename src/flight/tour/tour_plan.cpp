@@ -1,4 +1,5 @@
-// From a request to a tour: regions, the order, ways clear of obstacles, when what is viewed; then all is checked again.
+// From a request to a tour: regions, the order, ways clear of obstacles, when what is viewed; then all is checked
+// again.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -38,16 +39,16 @@ void check_request(const TourRequest& request) {
     throw Error(ErrorCode::coordinate_not_finite, "the home of the tour is not finite", "tour.home",
                 "give three finite numbers");
   }
-  const double deviation =
-      request.settings.vehicle.kind == TourVehicle::Kind::fixed_wing ? request.chord_error_m : 0;
+  const double deviation = request.settings.vehicle.kind == TourVehicle::Kind::fixed_wing ? request.chord_error_m : 0;
   if (!request.airspace || request.airspace->allows({home, home}, deviation)) return;
-  throw Error(ErrorCode::value_out_of_range,
-              core::format("the tour may not begin at its home: {}", request.airspace->obstacle({home, home}, deviation)),
-              "tour.home", "move it to where the vehicle may fly, or change the limits");
+  throw Error(
+      ErrorCode::value_out_of_range,
+      core::format("the tour may not begin at its home: {}", request.airspace->obstacle({home, home}, deviation)),
+      "tour.home", "move it to where the vehicle may fly, or change the limits");
 }
 
 Tour::End end_of(SearchEnd end) {
-  return end == SearchEnd::done ? Tour::End::done
+  return end == SearchEnd::done        ? Tour::End::done
          : end == SearchEnd::cancelled ? Tour::End::cancelled
                                        : Tour::End::time_limit;
 }
@@ -115,8 +116,7 @@ class MultirotorPlan {
       if (best && is_over) break;
       Draw draw(request_.seed);
       try {
-        const FlownCourse flown =
-            fly_clear(course, limits, draw, is_over ? core::ProgressReporter() : progress_);
+        const FlownCourse flown = fly_clear(course, limits, draw, is_over ? core::ProgressReporter() : progress_);
         if (!best || is_better(flown, *best)) best = flown;
       } catch (const Error& error) {
         if (error.code() != ErrorCode::cancelled) throw;

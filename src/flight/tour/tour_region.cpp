@@ -123,9 +123,7 @@ TourRegion::Surface TourRegion::surface_at(const Vec3& point) const {
   return {nearest, area > 0 ? Vec3(-outward / area) : Vec3(Vec3::UnitZ()), depth};
 }
 
-double TourRegion::depth(const Vec3& point) const {
-  return signed_depth(tree_.distance(point), point);
-}
+double TourRegion::depth(const Vec3& point) const { return signed_depth(tree_.distance(point), point); }
 
 /// What is so near to the surface that rounding decides counts as outside. Rays could not tell either.
 double TourRegion::signed_depth(double distance, const Vec3& point) const {
@@ -211,6 +209,39 @@ Vec3 TourRegion::from_anchors(const Vec3& towards, const Vec3& a, const Vec3& b)
   return depth(moved_on) >= least_depth_ ? moved_on : best;
 }
 
+/// From a point of the region to better ones: the cuts next to it and next to where they lead, then as far that way as
+/// the region goes. For regions that are not convex, where cuts from outside contradict each other.
+Vec3 TourRegion::descend(const Vec3& start, const Vec3& a, const Vec3& b, double smoothing) const {
+  Vec3 point = start;
+  constexpr int kMostMoves = 10, kCuts = 4, kHalvings = 7;
+  for (int move = 0; move < kMostMoves; ++move) {
+    HalfSpaces cuts;
+    const auto add = [&](const Surface& surface) {
+      cuts.add(surface.inward, surface.inward.dot(surface.nearest) + least_depth_ + rounding_);
+    };
+    add(surface_at(point));
+    Vec3 wanted = point;
+    for (int i = 0; i < kCuts; ++i) {
+      const std::optional<Vec3> next = cuts.shortest_way(a, b, smoothing);
+      if (!next) break;
+      wanted = *next;
+      const Surface surface = surface_at(wanted);
+      if (surface.depth >= least_depth_) break;
+      add(surface);
+    }
+    const double before = way_length(a, point, b, smoothing);
+    Vec3 best = point;
+    double share = 1;
+    for (int h = 0; h < kHalvings && best == point; ++h, share /= 2) {
+      const Vec3 moved = point + share * (wanted - point);
+      if (way_length(a, moved, b, smoothing) < before && depth(moved) >= least_depth_) best = moved;
+    }
+    point = best;
+    if (before - way_length(a, point, b, smoothing) <= 1e-5 * before) break;
+  }
+  return point;
+}
+
 Vec3 TourRegion::touch(const Vec3& a, const Vec3& b, double smoothing_m, const Vec3* known) const {
   const Vec3 from = a - origin_, to = b - origin_;
   const auto length = [&](const Vec3& x) { return way_length(from, x, to, smoothing_m); };
@@ -219,11 +250,12 @@ Vec3 TourRegion::touch(const Vec3& a, const Vec3& b, double smoothing_m, const V
   }
   const Vec3 of_mesh = touch_of_mesh(from, to, smoothing_m);
   std::optional<Vec3> found = by_cuts(of_mesh, from, to, smoothing_m);
-  if (known) {
-    const Vec3 before = *known - origin_;
-    if (!found || length(before) <= length(*found)) return *known;
+  // Much longer than past the mesh itself: the margin took away what was there, and another part may do better.
+  if (!found || length(*found) - length(of_mesh) > 4 * least_depth_) {
+    const Vec3 other = descend(from_anchors(of_mesh, from, to), from, to, smoothing_m);
+    if (!found || length(other) < length(*found)) found = other;
   }
-  if (!found) found = from_anchors(of_mesh, from, to);
+  if (known && length(*known - origin_) <= length(*found)) return *known;
   return *found + origin_;
 }
 
@@ -298,10 +330,11 @@ void TourRegion::find_anchors() {
     add_anchor((t[0] + t[1] + t[2]) / 3 - (least_depth_ + rounding_) / area * outward);
   }
   if (!anchors_.empty()) return;
-  throw Error(ErrorCode::limits_empty,
-              core::format("no point of the volume of a target is {:g} m from its border; the deepest found is {:.3g} m",
-                           margin_, deepest),
-              name_, "ask for a smaller margin, or for a larger volume");
+  throw Error(
+      ErrorCode::limits_empty,
+      core::format("no point of the volume of a target is {:g} m from its border; the deepest found is {:.3g} m",
+                   margin_, deepest),
+      name_, "ask for a smaller margin, or for a larger volume");
 }
 
 Regions make_regions(const std::vector<TourTarget>& targets, double margin_m, const core::ProgressReporter& progress) {

@@ -76,6 +76,7 @@ class TourRegion {
   std::optional<Vec3> on_segment(const Vec3& a, const Vec3& b) const;
   std::optional<Vec3> first_inside(const Vec3& from, const Vec3& to) const;
   std::optional<Vec3> by_cuts(const Vec3& start, const Vec3& a, const Vec3& b, double smoothing) const;
+  Vec3 descend(const Vec3& start, const Vec3& a, const Vec3& b, double smoothing) const;
   Vec3 from_anchors(const Vec3& towards, const Vec3& a, const Vec3& b) const;
   void find_anchors();
   void add_anchor(const Vec3& point);

@@ -133,7 +133,8 @@ std::vector<Stretch> stretches_in(const TourRegion& region, const Way& way) {
     const bool is_far = region.touch_bound_m(leg.from, leg.to) > length * (1 + 1e-9);
     bool ends_inside = false;
     for (const LegInterval& part : is_far ? std::vector<LegInterval>() : region.stretches(leg)) {
-      const Stretch stretch = {begin + part.begin * length, part.end == 1 ? way.station(i + 1) : begin + part.end * length};
+      const Stretch stretch = {begin + part.begin * length,
+                               part.end == 1 ? way.station(i + 1) : begin + part.end * length};
       if (goes_on && part.begin == 0) {
         found.back().end_m = stretch.end_m;
       } else {

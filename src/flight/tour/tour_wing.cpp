@@ -174,7 +174,10 @@ class WingPlan {
       const auto place = [&](std::optional<std::size_t> region) {
         return region ? choices_[*region].front().enter.position : *request_.home;
       };
-      obstacle = request_.airspace->obstacle({place(neighbour ? neighbour : request_.home ? neighbour : gone), place(gone)},
+      obstacle = request_.airspace->obstacle({place(neighbour       ? neighbour
+                                                    : request_.home ? neighbour
+                                                                    : gone),
+                                              place(gone)},
                                              request_.chord_error_m);
     }
     candidate.problems.push_back({TourProblem::Kind::no_way, gone, neighbour, obstacle});

@@ -19,7 +19,8 @@ class Lengths {
   Lengths(const std::vector<View>& from, const std::vector<View>& to, const WingSpace& space)
       : columns_(to.size()), values_(from.size() * to.size()), is_known_(values_.size(), false) {
     for (std::size_t i = 0; i < from.size(); ++i) {
-      for (std::size_t j = 0; j < columns_; ++j) values_[i * columns_ + j] = space.path_bound_m(from[i], to[j]) + own(to[j]);
+      for (std::size_t j = 0; j < columns_; ++j)
+        values_[i * columns_ + j] = space.path_bound_m(from[i], to[j]) + own(to[j]);
     }
   }
   double at(std::size_t i, std::size_t j) const { return values_[i * columns_ + j]; }

@@ -159,7 +159,7 @@ bool WingSpace::is_clear(const View& from, const View& to) const {
   if (!found) return false;
   if (is_looking) {
     const std::optional<Vec3>&one = request_.targets[static_cast<std::size_t>(from.region)].look_at,
-             &other = request_.targets[static_cast<std::size_t>(to.region)].look_at;
+          &other = request_.targets[static_cast<std::size_t>(to.region)].look_at;
     if (one && other) {
       const Vec3 a = *one - leave(from).position, b = *other - to.enter.position;
       const double degrees = portable::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kPi;
