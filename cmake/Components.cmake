@@ -171,7 +171,7 @@ if(VANTAGE_WITH_FLIGHT)
   endif()
   vantage_component(flight
     MODULES flight SOURCES ${source}/flight/tour/linear_program_${solver}.cpp
-    LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json ${solver_library} REQUIRES core app)
+    LINK EXPAT::EXPAT ZLIB::ZLIB BUILD nlohmann_json::nlohmann_json ${solver_library} REQUIRES core solid app)
   if(VANTAGE_HAS_HIGHS AND NOT BUILD_SHARED_LIBS)
     target_sources(vantage_flight PRIVATE $<TARGET_OBJECTS:vantage_highs>)  # it is not installed by itself
   endif()

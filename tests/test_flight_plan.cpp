@@ -447,6 +447,11 @@ TEST(ReadFlightPlan, IsNotHurtByDepthAndNumber) {
   std::string rows = "x,y,z\n";
   for (std::size_t i = 0; i <= kMostPlanItems; ++i) rows += "1,2,3\n";
   expect_code([&] { parsed_plan(rows); }, ErrorCode::value_out_of_range);
+  // Of many tracks the sum counts, and the memory is that of the first too many.
+  std::string lines, positions;
+  for (std::size_t i = 0; i < kMostPlanItems / 10; ++i) positions += "1,2 ";
+  for (int i = 0; i < 11; ++i) lines += kml_line(positions);
+  expect_code([&] { parsed_plan(kml(lines)); }, ErrorCode::value_out_of_range);
 }
 
 // ---- in the scene ----

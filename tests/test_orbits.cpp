@@ -103,6 +103,8 @@ TEST(Orbits, OverAnOpenSquareAreThoseOfTheClosedForms) {
       EXPECT_GE(deepest.margin_m, height - 0.8);
       EXPECT_LE(deepest.margin_m, height + 0.01);
       EXPECT_EQ(deepest.value, deepest.margin_m);
+      EXPECT_GE(deepest.bound, deepest.margin_m);
+      EXPECT_LE(deepest.bound, deepest.margin_m + 0.5);
       // d * d / (f h) is the least where h is the distance in plan.
       const double far = 40 + std::sqrt(8);
       const Orbit& finest = circles[OrbitKind::finest_pixel];

@@ -125,7 +125,7 @@ struct ReadPlanOptions {
 ///
 /// Heights: QGroundControl and waypoints as the frame of each item says; KML as altitudeMode says, and unknown where it
 /// says that they do not count; WPML as executeHeightMode or heightMode says; GPX above mean sea level, GeoJSON above
-/// the ellipsoid (RFC 7946); tables as the names of columns say (docs/flight.md), else unknown.
+/// the ellipsoid (RFC 7946); tables as the names of columns say (docs/flight-plans.md), else unknown.
 ///
 /// Throws Error(input) with the line, the item or the place in the file: plan_syntax for what is none of the formats or
 /// breaks its rules, plan_empty for a plan without positions, value_unsupported for what cannot be followed,

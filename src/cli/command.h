@@ -37,12 +37,15 @@ void add_verify(CLI::App& app, Command& chosen);
 void add_prove(CLI::App& app, Command& chosen);
 void add_compare(CLI::App& app, Command& chosen);
 void add_simplify(CLI::App& app, Command& chosen);
+void add_check(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);
 void add_cameras(CLI::App& app, Command& chosen);
 void add_spheres(CLI::App& app, Command& chosen);
 void add_render(CLI::App& app, Command& chosen);
 void add_report(CLI::App& app, Command& chosen);
 void add_view(CLI::App& app, Command& chosen);
+void add_stand(CLI::App& app, Command& chosen);
+void add_orbit(CLI::App& app, Command& chosen);
 void add_scene(CLI::App& app, Command& chosen);
 void add_docs(CLI::App& app, Command& chosen);  ///< hidden: describes the commands of `app`, which must outlive it
 

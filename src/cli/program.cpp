@@ -33,6 +33,8 @@ constexpr const char* kExamples =
     "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
     "  vantage report mission.yaml -o report.html\n"
     "  vantage view mission.yaml\n"
+    "  vantage stand mission.yaml\n"
+    "  vantage orbit mission.yaml --radius 60\n"
     "\n"
     "MISSION and POINTS may be -, standard input. docs/mission-file.md describes the mission file,\n"
     "docs/command-line.md the commands.\n";
@@ -107,6 +109,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_verify(app, chosen);
   add_prove(app, chosen);
   add_compare(app, chosen);
+  add_check(app, chosen);
   add_simplify(app, chosen);
   add_devices(app, chosen);
   add_cameras(app, chosen);
@@ -114,6 +117,8 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_render(app, chosen);
   add_report(app, chosen);
   add_view(app, chosen);
+  add_stand(app, chosen);
+  add_orbit(app, chosen);
   add_help(app, chosen);
   add_docs(app, chosen);
 }

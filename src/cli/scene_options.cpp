@@ -154,4 +154,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--scale", options.scale, "Metres in one unit of a mesh file (default 1)")->option_text("S");
 }
 
+std::array<double, 2> place_option(const std::string& name, const std::string& text) {
+  return numbers<2>(text, name, "latitude,longitude");
+}
+
 }  // namespace vantage::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Throws Error(input) for a file that cannot be read (`what` begins the message: "the file"), for what cannot be
 /// parsed, and for options that mean nothing for this kind of file.
 SceneSource scene_source(const SceneOptions& options, const std::string& what);
+
+/// The latitude and longitude of option `name`; throws Error(input) for what is no pair of numbers.
+std::array<double, 2> place_option(const std::string& name, const std::string& text);
 
 }  // namespace vantage::cli

@@ -41,7 +41,7 @@ OrbitSearch::OrbitSearch(const CurveDepth& depth, CurveRequest request) : depth_
   if (request_.most_half_straight_m > 0) angle_scale_ = request_.most_half_straight_m;
 }
 
-SearchEnd OrbitSearch::run(const std::optional<ClosedCurve>& known, const core::ProgressReporter& progress) {
+void OrbitSearch::run(const std::optional<ClosedCurve>& known, const core::ProgressReporter& progress) {
   const Box& bounds = depth_.solid().bounds();
   SearchBox<6> root;
   const auto set = [&](std::size_t number, double low, double high) {
@@ -67,7 +67,7 @@ SearchEnd OrbitSearch::run(const std::optional<ClosedCurve>& known, const core::
            known->angle * angle_scale_},
           depth_.solid().size_m() / 20);
   }
-  return search_box(*this, root, request_.limits, progress);
+  end_ = search_box(*this, root, request_.limits, progress);
 }
 
 ClosedCurve OrbitSearch::curve_at(const Numbers& numbers) const {

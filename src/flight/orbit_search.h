@@ -56,11 +56,12 @@ class OrbitSearch {
   OrbitSearch(const CurveDepth& depth, CurveRequest request);
 
   /// `known`: a curve to begin with, where there is one; it counts if it keeps the margin.
-  SearchEnd run(const std::optional<ClosedCurve>& known, const core::ProgressReporter& progress);
+  void run(const std::optional<ClosedCurve>& known, const core::ProgressReporter& progress);
 
   const std::optional<ClosedCurve>& curve() const { return curve_; }
   /// What is made as large as possible: the radius, the depth, or minus the logarithm of the pixel.
   double best() const { return best_; }
+  const SearchEnd& end() const { return end_; }
   double bound_of(const SearchBox<6>& box);
 
  private:
@@ -85,6 +86,7 @@ class OrbitSearch {
   const CurveDepth& depth_;
   CurveRequest request_;
   double angle_scale_ = 1;  ///< metres for a radian: angles are halved as lengths are
+  SearchEnd end_;
   std::optional<ClosedCurve> curve_;
   double best_ = -std::numeric_limits<double>::infinity();
 };

@@ -30,7 +30,6 @@ using internal::flight::CurveDepth;
 using internal::flight::CurveRequest;
 using internal::flight::Obstacles;
 using internal::flight::OrbitSearch;
-using internal::flight::SearchEnd;
 using internal::flight::SolidDepth;
 using internal::flight::TargetView;
 
@@ -67,15 +66,16 @@ class OrbitFinder {
     most_radius_m_ = std::min(options_.most_radius_m, size.head<2>().minCoeff() / 2);
     tolerance_m_ = std::isnan(options_.tolerance_m) ? std::min(0.5, solid_.size_m() / 200) : options_.tolerance_m;
     if (most_radius_m_ < options_.least_radius_m) {
-      result_.reason = fmt::format("a circle of radius {:.6g} m is wider than the volume, which is {:.1f} m by {:.1f} m",
-                                   options_.least_radius_m, size.x(), size.y());
+      result_.reason =
+          fmt::format("a circle of radius {:.6g} m is wider than the volume, which is {:.1f} m by {:.1f} m",
+                      options_.least_radius_m, size.x(), size.y());
       return std::move(result_);
     }
     result_.margin_m = std::isnan(options_.margin_m) ? tolerance_m_ / 2 : options_.margin_m;
     const OrbitSearch deepest = search(OrbitKind::deepest, result_.margin_m, std::nullopt, progress.part(0, 1.0 / 3));
     set_margin(deepest);
     if (!deepest.curve()) {
-      result_.reason = why_none("circle");
+      result_.reason = why_none("circle", deepest);
       if (options_.racetracks) add_racetrack(progress.part(1.0 / 3, 1));
       return std::move(result_);
     }
@@ -126,17 +126,17 @@ class OrbitFinder {
       return sees_all(curve, kPlaces);
     };
     OrbitSearch found(depth_, std::move(request));
-    const SearchEnd end = found.run(known, progress);
-    bound_ = told(kind, end.bound);
-    is_cut_ = end.is_cut;
-    if (end.is_cut) {
+    found.run(known, progress);
+    if (found.end().is_cut) {
       result_.notes.push_back(fmt::format("{}: the search was cut short after {} boxes; its bound is loose",
-                                          most_half_straight_m > 0 ? "racetrack" : name_of(kind), end.boxes));
+                                          most_half_straight_m > 0 ? "racetrack" : name_of(kind), found.end().boxes));
     }
     return found;
   }
 
-  static double told(OrbitKind kind, double value) { return kind == OrbitKind::finest_pixel ? std::exp(-value) : value; }
+  static double told(OrbitKind kind, double value) {
+    return kind == OrbitKind::finest_pixel ? std::exp(-value) : value;
+  }
 
   std::vector<Vec3> scene_points(const ClosedCurve& curve, std::size_t count) const {
     std::vector<Vec3> points = curve.points(count);
@@ -149,15 +149,16 @@ class OrbitFinder {
     return std::all_of(answers.begin(), answers.end(), [](const PointAnswer& answer) { return answer.inside; });
   }
 
-  std::string why_none(const char* what) const {
+  std::string why_none(const char* what, const OrbitSearch& search) const {
     const char* const where = options_.centre == OrbitCentre::around_target ? " around the target"
                               : options_.centre == OrbitCentre::over_target ? " over the target's centre"
                                                                             : "";
     const std::string asked = fmt::format("{} of radius {:.6g} m or more{}", what, options_.least_radius_m, where);
     const std::string inside = fmt::format("lies {:.3g} m inside the volume", result_.margin_m);
-    if (!is_cut_) return "no " + asked + " " + inside;
-    return fmt::format("no {} was found that {}; it is not proved that there is none, but none lies more than {:.3g} m inside",
-                       asked, inside, bound_);
+    if (!search.end().is_cut) return "no " + asked + " " + inside;
+    return fmt::format("no {} was found that {}; it is not proved that there is none, but none lies more than {:.3g} m "
+                       "inside",
+                       asked, inside, search.end().bound);
   }
 
   void add_racetrack(const ProgressReporter& progress) {
@@ -167,17 +168,18 @@ class OrbitFinder {
       set_margin(found);
       add(OrbitKind::deepest, found);
     } else {
-      result_.reason += "; " + why_none("racetrack");
+      result_.reason += "; " + why_none("racetrack", found);
     }
   }
 
   void add(OrbitKind kind, const OrbitSearch& found) {
     if (!found.curve()) return;
     constexpr std::size_t kPlaces = 360;
-    const ClosedCurve& curve = *found.curve();
+    const ClosedCurve curve = kind == OrbitKind::widest ? widened(*found.curve()) : *found.curve();
     const std::vector<Vec3> points = scene_points(curve, kPlaces);
     const std::vector<std::uint8_t> held = exact_.contains(points);
-    if (!std::all_of(held.begin(), held.end(), [](std::uint8_t one) { return one != 0; }) || !sees_all(curve, kPlaces)) {
+    const bool is_held = std::all_of(held.begin(), held.end(), [](std::uint8_t one) { return one != 0; });
+    if (!is_held || !sees_all(curve, kPlaces)) {
       result_.notes.push_back(std::string(name_of(kind)) + ": the exact query refused the orbit that was found");
       return;
     }
@@ -193,9 +195,20 @@ class OrbitFinder {
     }
     orbit.length_m = curve.length_m();
     orbit.margin_m = std::max(0.0, depth_.depth_m(curve, last_error_m(), solid_.rounding_m()));
-    orbit.value = kind == OrbitKind::deepest ? orbit.margin_m : told(kind, found.best());
-    orbit.bound = kind == OrbitKind::deepest ? std::max(bound_, orbit.margin_m) : bound_;
+    orbit.value = told(kind, found.best());
+    orbit.bound = told(kind, found.end().bound);
+    if (kind == OrbitKind::deepest) orbit.value = orbit.margin_m;
+    if (kind == OrbitKind::widest) orbit.value = orbit.radius_m;
+    if (kind != OrbitKind::finest_pixel) orbit.bound = std::max(orbit.bound, orbit.value);
     measure(orbit, curve);
+  }
+
+  /// The search looks less closely: as much wider as there is room.
+  ClosedCurve widened(ClosedCurve curve) const {
+    const double needed = result_.margin_m + last_error_m();
+    const double room = depth_.depth_m(curve, last_error_m(), needed) - needed;
+    if (room > 0) curve.radius_m = std::min(most_radius_m_, curve.radius_m + room);
+    return curve;
   }
 
   /// How much too small the margin may be that is told. A smaller one takes more chords.
@@ -246,8 +259,6 @@ class OrbitFinder {
   const ViewDescriber& describer_;
   const OrbitOptions& options_;
   double most_radius_m_ = 0, tolerance_m_ = 0;
-  double bound_ = 0;  ///< of the last search
-  bool is_cut_ = false;
   Orbits result_;
 };
 

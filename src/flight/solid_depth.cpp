@@ -109,8 +109,9 @@ SolidDepth::Bounded SolidDepth::bounded_m(const Vec3& middle, const Vec3& half) 
   double squared = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 sides(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    squared = std::max(squared, core::squared_distance_to_triangle(middle + sides.cwiseProduct(half), mesh_.vertices[t[0]],
-                                                                   mesh_.vertices[t[1]], mesh_.vertices[t[2]]));
+    const Vec3 point = middle + sides.cwiseProduct(half);
+    squared = std::max(squared, core::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+                                                                   mesh_.vertices[t[2]]));
   }
   return {depth, std::min(bound, std::sqrt(squared))};
 }

@@ -29,8 +29,8 @@ class SolidDepth {
   /// No less than the depth, from a grid of depths: some nanoseconds.
   double at_most_m(const Vec3& point) const;
   double at_least_m(const Vec3& point) const;  ///< no more than the depth, likewise
-  /// No less than the depth of any point of a box, given by its middle and half widths. The depth is that of the middle.
-  /// Where the solid is thin, far less than the depth and half of the diagonal. Cost: as depth_m.
+  /// No less than the depth of any point of a box, given by its middle and half widths. The depth is that of the
+  /// middle. Where the solid is thin, far less than the depth and half of the diagonal. Cost: as depth_m.
   struct Bounded {
     double depth_m = 0, bound_m = 0;
   };

@@ -13,11 +13,12 @@ Vec3 point_at(const std::array<double, 3>& numbers) { return {numbers[0], number
 
 SearchEnd PointSearch::run(const core::ProgressReporter& progress) {
   SearchBox<3> root;
+  const double longest = (solid_.bounds().max - solid_.bounds().min).maxCoeff() / 2;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
     root.middle[a] = (solid_.bounds().min[axis] + solid_.bounds().max[axis]) / 2;
     root.half[a] = (solid_.bounds().max[axis] - solid_.bounds().min[axis]) / 2;
-    if (!request_.value) root.weight[a] = flatness(root.half[a], (solid_.bounds().max - solid_.bounds().min).maxCoeff() / 2);
+    if (!request_.value) root.weight[a] = flatness(root.half[a], longest);
   }
   return search_box(*this, root, request_.limits, progress);
 }

@@ -61,11 +61,12 @@ class StandpointFinder {
       result_.reason = "no position of the volume is deeper inside than rounding";
       return std::move(result_);
     }
-    constexpr double kShare = 4;
-    result_.margin_m = std::isnan(options_.margin_m) ? std::min(1.0, deepest.best() / kShare) : options_.margin_m;
+    constexpr double kQuarter = 0.25;
+    result_.margin_m = std::isnan(options_.margin_m) ? std::min(1.0, kQuarter * deepest.best()) : options_.margin_m;
     if (deepest.best() < result_.margin_m + solid_.rounding_m()) {
-      result_.reason = fmt::format("no position lies {:.3g} m inside the volume: the deepest that was found lies {:.3g} m"
-                                   " inside, and none more than {:.3g} m", result_.margin_m, deepest.best(), bound_);
+      result_.reason = fmt::format("no position lies {:.3g} m inside the volume: the deepest that was found lies {:.3g} m "
+                                   "inside, and none more than {:.3g} m",
+                                   result_.margin_m, deepest.best(), bound_);
       return std::move(result_);
     }
     add(StandpointKind::deepest, deepest);
@@ -74,9 +75,10 @@ class StandpointFinder {
     }
     for (std::size_t i = 1; i < kKinds.size(); ++i) {
       if (!is_measured(kKinds[i])) continue;
-      const double count = kKinds.size();
-      const PointSearch found = search(kKinds[i], result_.margin_m,
-                                       progress.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+      constexpr double kShare = 1.0 / kKinds.size();
+      const auto place = static_cast<double>(i);
+      const PointSearch found =
+          search(kKinds[i], result_.margin_m, progress.part(place * kShare, (place + 1) * kShare));
       if (found.point()) add(kKinds[i], found);
     }
     return std::move(result_);

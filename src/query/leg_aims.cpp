@@ -36,19 +36,27 @@ class AimLook {
   /// The angle by which a corner is out of the picture at least, degrees.
   double out_of_picture(double share) {
     double low = 0, high = 1;
-    if (has_aim(local_.at(share), {})) return 0;
-    for (int i = 0; i < 30; ++i) {
+    constexpr double kFine = 1e-4;  // radians
+    if (has_aim(local_.at(share), {}, kFine)) return 0;
+    for (int i = 0; i < 16; ++i) {
       const double middle = 0.5 * (low + high);
-      (has_aim(local_.at(share), {.outside = middle}) ? high : low) = middle;
+      (has_aim(local_.at(share), {.outside = middle}, kFine) ? high : low) = middle;
     }
     return std::asin(high) / kRadian;
   }
 
  private:
-  bool has_aim(const Vec3& place, const sensor::AimRoom& room) {
+  bool has_aim(const Vec3& place, const sensor::AimRoom& room, double slack) {
     seen_.clear();
     for (const Vec3& corner : corners_) seen_.push_back(corner - place);
-    return sensor::find_aim(camera_, mount_, seen_, 1e-6, room).has_value();
+    return sensor::find_aim(camera_, mount_, seen_, slack, room).has_value();
+  }
+
+  /// The angle that so many metres subtend at the farthest corner, at most.
+  double angle_of(const Vec3& place, double metres) const {
+    double farthest = 0;
+    for (const Vec3& corner : corners_) farthest = std::max(farthest, (corner - place).norm());
+    return std::clamp(metres / std::max(farthest, metres), 1e-9, 0.05);
   }
 
   /// All corners inside of four planes: linear.
@@ -75,9 +83,12 @@ class AimLook {
     const double shortest = std::min(1e-3, 1e-5 * local_.length());  // metres
     const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin) * local_.length(), radius = local_.radius;
     const Vec3 place = local_.at(middle);
-    if (has_aim(place, {.inside_m = half + radius})) return;
+    // The search for an orientation ends where it is close by a fiftieth of r. An answer that comes too early is on the
+    // safe side, or is made up for by looking r / 20 farther.
+    const double slack = angle_of(place, 0.02 * half);
+    if (has_aim(place, {.inside_m = half + radius}, slack)) return;
     const bool is_short = 2 * half <= std::max(shortest, radius / 8);
-    if (!has_aim(place, {.inside_m = -half}) || (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
+    if (!has_aim(place, {.inside_m = -1.05 * half}, slack) || (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
       parts_.push_back({begin, end});
       return;
     }
@@ -91,7 +102,8 @@ class AimLook {
   bool all_near(const Vec3& place, const Vec3& aside, double side, double half) {
     const double corner = std::sqrt(3.0) * side;
     if (aside.norm() - corner > local_.radius) return true;  // beside the ball
-    if (has_aim(place + aside, {.inside_m = corner + half})) return true;
+    const double inside = corner + half;
+    if (has_aim(place + aside, {.inside_m = inside}, angle_of(place + aside, 0.02 * inside))) return true;
     if (!(side > local_.radius / 8)) return false;
     for (int child = 0; child < 8; ++child) {
       const Vec3 to(child & 1 ? 1 : -1, child & 2 ? 1 : -1, child & 4 ? 1 : -1);

@@ -36,13 +36,16 @@ inline Mission open_square(const Vec3& centre, double range_m) {
   SceneBuilder builder;
   builder.box("far block", centre + Vec3(3 * range_m, -5, 0), centre + Vec3(3 * range_m + 10, 5, 10));
   Target target;
-  target.parts[0] = {centre + Vec3(-2, -2, 0), centre + Vec3(2, -2, 0), centre + Vec3(2, 2, 0), centre + Vec3(-2, 2, 0)};
+  for (const auto& [x, y] : {std::pair(-2, -2), {2, -2}, {2, 2}, {-2, 2}}) {
+    target.parts[0].push_back(centre + Vec3(x, y, 0));
+  }
   return mission_in(builder, target, range_m);
 }
 
 /// A mission with its volume, ready to be asked.
 struct FlightCase {
-  explicit FlightCase(Mission of) : mission(std::move(of)), scene(mission.scene()), volume(run_mission(mission).volume) {}
+  explicit FlightCase(Mission of)
+      : mission(std::move(of)), scene(mission.scene()), volume(run_mission(mission).volume) {}
 
   Mission mission;
   PreparedScene scene;
@@ -57,8 +60,8 @@ struct FlightCase {
 inline double plain_distance(const Mesh& mesh, const Vec3& p) {
   double squared = std::numeric_limits<double>::infinity();
   for (const Triangle& t : mesh.triangles) {
-    squared = std::min(squared, internal::core::squared_distance_to_triangle(p, mesh.vertices[t[0]], mesh.vertices[t[1]],
-                                                                             mesh.vertices[t[2]]));
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    squared = std::min(squared, internal::core::squared_distance_to_triangle(p, a, b, c));
   }
   return std::sqrt(squared);
 }

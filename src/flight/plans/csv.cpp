@@ -165,7 +165,7 @@ class PlanTable {
       source_.progress.tick();
       if (without_blanks(line).empty() || line.front() == '#') continue;
       add(fields_of(line, separator_), source_.place(lines.place()), plan);
-      if (plan.items.size() > kMostPlanItems) break;  // refused below
+      check_count(plan.items.size(), source_);
     }
     check_plan(plan, source_);
     return plan;

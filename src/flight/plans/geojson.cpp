@@ -69,7 +69,7 @@ class GeojsonTracks {
     if (!track.items.empty()) lines_.push_back(std::move(track));
   }
 
-  void add_position(const json& numbers, const std::string& place, PlanTrack& track) const {
+  void add_position(const json& numbers, const std::string& place, PlanTrack& track) {
     source_.progress.tick();
     const std::string where = source_.place(place);
     const auto is_number = [&](std::size_t i) { return numbers[i].is_number(); };
@@ -79,8 +79,7 @@ class GeojsonTracks {
       PlanSource::fail_at(ErrorCode::plan_syntax, where, "a position is not [longitude, latitude, height]",
                           "give two or three numbers");
     }
-    PlanItem& item = track.items.emplace_back();
-    item.place = where;
+    PlanItem& item = new_item(track, total_, place, source_);
     item.position.horizontal = checked_lonlat(numbers[0].get<double>(), numbers[1].get<double>(), where);
     item.position.datum = HeightDatum::ellipsoid;
     if (numbers.size() > 2) item.position.height_m = numbers[2].get<double>();
@@ -89,6 +88,7 @@ class GeojsonTracks {
   const PlanSource& source_;
   std::vector<PlanTrack> lines_;
   PlanTrack points_;
+  std::size_t total_ = 0;
 };
 
 }  // namespace

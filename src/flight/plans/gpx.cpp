@@ -47,7 +47,7 @@ class GpxTracks {
   }
 
  private:
-  void add_line(XmlTree::Node line, std::string_view point, std::vector<PlanTrack>& lines) const {
+  void add_line(XmlTree::Node line, std::string_view point, std::vector<PlanTrack>& lines) {
     PlanTrack track;
     track.name = printable(xml_.child_text(line, "name"));
     track.place = line_of(xml_, line);
@@ -58,10 +58,9 @@ class GpxTracks {
     if (!track.items.empty()) lines.push_back(std::move(track));
   }
 
-  void add_point(XmlTree::Node point, PlanTrack& track) const {
+  void add_point(XmlTree::Node point, PlanTrack& track) {
     source_.progress.tick();
-    PlanItem& item = track.items.emplace_back();
-    item.place = source_.place(line_of(xml_, point));
+    PlanItem& item = new_item(track, total_, line_of(xml_, point), source_);
     const XmlTree::Node latitude = xml_.child(point, "@lat"), longitude = xml_.child(point, "@lon");
     if (latitude == XmlTree::kNone || longitude == XmlTree::kNone) {
       PlanSource::fail_at(ErrorCode::plan_syntax, item.place, "the point has no \"lat\" and \"lon\"", "give both");
@@ -76,6 +75,7 @@ class GpxTracks {
 
   const XmlTree& xml_;
   const PlanSource& source_;
+  std::size_t total_ = 0;
 };
 
 }  // namespace

@@ -67,7 +67,7 @@ class KmlTracks {
   }
 
   /// "longitude,latitude[,altitude]" with blanks between, and none within.
-  void add_list(std::string_view text, HeightDatum datum, PlanTrack& track) const {
+  void add_list(std::string_view text, HeightDatum datum, PlanTrack& track) {
     constexpr std::string_view kBlanks = " \t\r\n";
     for (;;) {
       const std::size_t begin = text.find_first_not_of(kBlanks);
@@ -81,11 +81,10 @@ class KmlTracks {
   }
 
   void add_position(std::string_view text, char separator, HeightDatum datum, const std::string& within,
-                    PlanTrack& track) const {
+                    PlanTrack& track) {
     const std::string where = source_.place(within);
     const std::vector<double> numbers = numbers_of(text, separator, 2, 3, where);
-    PlanItem& item = track.items.emplace_back();
-    item.place = where;
+    PlanItem& item = new_item(track, total_, within, source_);
     item.position.horizontal = checked_lonlat(numbers[0], numbers[1], where);
     // A height of 0 that is not to be used is what writers put in for none.
     const bool is_given = numbers.size() > 2 && (datum != HeightDatum::unknown || numbers[2] != 0);
@@ -97,6 +96,7 @@ class KmlTracks {
   const PlanSource& source_;
   std::vector<PlanTrack> tracks_;
   PlanTrack points_;
+  std::size_t total_ = 0;
 };
 
 }  // namespace

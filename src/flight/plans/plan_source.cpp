@@ -101,13 +101,21 @@ void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* man
   }
 }
 
+PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& place, const PlanSource& source) {
+  check_count(++total, source);
+  PlanItem& item = track.items.emplace_back();
+  item.place = source.place(place);
+  return item;
+}
+
+void check_count(std::size_t items, const PlanSource& source) {
+  if (items <= kMostPlanItems) return;
+  source.fail(ErrorCode::value_out_of_range, "", "the plan has more than " + std::to_string(kMostPlanItems) + " items",
+              "take a part of it");
+}
+
 void check_plan(const FlightPlan& plan, const PlanSource& source) {
-  if (plan.items.size() > kMostPlanItems) {
-    source.fail(ErrorCode::value_out_of_range, "",
-                "the plan has " + std::to_string(plan.items.size()) + " items, at most " +
-                    std::to_string(kMostPlanItems) + " are followed",
-                "take a part of it");
-  }
+  check_count(plan.items.size(), source);
   bool has_position = false;
   for (const PlanItem& item : plan.items) {
     check_item(item);

@@ -43,6 +43,10 @@ struct PlanTrack {
   std::vector<PlanItem> items;
 };
 
+/// A new item of a track, in `place` of the file. `total` counts those of all tracks. Throws Error(value_out_of_range)
+/// where there are too many: before they take more memory than the file would let one expect.
+PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& place, const PlanSource& source);
+
 /// The track that was asked for, or all of them, one after the other, with a note. Throws Error(input) where there is
 /// none of that name, or none with items.
 void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* many, const PlanSource& source,
@@ -50,6 +54,9 @@ void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* man
 
 /// "2 surveys, 1 point" of what was counted, the names as they are.
 std::string counted(const std::map<std::string, std::size_t>& counts);
+
+/// Throws Error(value_out_of_range) for more items than are followed.
+void check_count(std::size_t items, const PlanSource& source);
 
 /// Throws Error(input) for a plan without positions or with too many items, and with an item's place for numbers that
 /// are not finite or cannot be.

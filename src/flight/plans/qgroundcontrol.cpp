@@ -115,8 +115,13 @@ class GroundStationPlan {
                         "save the plan anew with the ground station");
   }
 
+  MissionItem& new_mission_item() {
+    check_count(items_.size() + 1, source_);
+    return items_.emplace_back();
+  }
+
   void add_simple(const json& item, const std::string& where) {
-    MissionItem& added = items_.emplace_back();
+    MissionItem& added = new_mission_item();
     added.place = where;
     added.command = integer_member(item, "command", where);
     added.frame = integer_member(item, "frame", where);
@@ -174,7 +179,7 @@ class GroundStationPlan {
     const bool is_known = is_relative || mode == 2 || camera->contains("DistanceToSurfaceRelative");
     if (is_true(style, "FollowTerrain") || std::isnan(height) || !is_known || mode > 2) return false;
     for (std::size_t i = 0; i < points->size(); ++i) {
-      MissionItem& added = items_.emplace_back();
+      MissionItem& added = new_mission_item();
       added.place = where + ", point " + std::to_string(i + 1);
       added.command = kNavWaypoint;
       added.frame = is_relative ? kGlobalRelative : kGlobal;
@@ -193,7 +198,7 @@ class GroundStationPlan {
         const auto found = item.find(key);
         if (found == item.end()) continue;
         const PlanPosition position = coordinate(*found, where + ", " + key);
-        MissionItem& added = items_.emplace_back();
+        MissionItem& added = new_mission_item();
         added.place = where;
         added.command = command;
         added.frame = is_relative ? kGlobalRelative : kGlobal;

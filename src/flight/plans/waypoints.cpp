@@ -64,6 +64,7 @@ class WaypointTable {
                           "the row has " + std::to_string(words.size()) + " columns instead of 12",
                           "save the plan anew with the ground station");
     }
+    check_count(items_.size() + 1, source_);
     MissionItem& item = items_.emplace_back();
     item.id = integer(words[0], where);
     item.place = source_.place("line " + std::to_string(number) + ", item " + std::to_string(item.id));

@@ -108,8 +108,8 @@ class Waylines {
     for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
       source_.progress.tick();
       if (xml_.name(node) != "Placemark" || xml_.child(node, "Point") == XmlTree::kNone) continue;
-      PlanItem& item = track.items.emplace_back();
-      item.place = source_.place(line_of(xml_, node) + ", waypoint " + std::to_string(track.items.size()));
+      PlanItem& item = new_item(track, total_,
+                                line_of(xml_, node) + ", waypoint " + std::to_string(track.items.size() + 1), source_);
       read_position(node, heights, item);
       item.follows_ground = heights.follows_ground && track.items.size() > 1;
       item.speed_m_s = speed;
@@ -160,9 +160,6 @@ class Waylines {
     const XmlTree::Node heading = xml_.child(placemark, "waypointHeadingParam");
     const std::string_view mode = word(heading, "waypointHeadingMode");
     if (mode == "smoothTransition" || mode == "fixed") camera_.yaw_deg = given(number(heading, "waypointHeadingAngle"));
-    const XmlTree::Node gimbal = xml_.child(placemark, "waypointGimbalHeadingParam");
-    if (const auto pitch = given(number(gimbal, "waypointGimbalPitchAngle"))) camera_.gimbal_pitch_deg = pitch;
-    if (const auto pitch = given(number(placemark, "gimbalPitchAngle"))) camera_.gimbal_pitch_deg = pitch;
     for (XmlTree::Node group = xml_.first_child(placemark); group != XmlTree::kNone; group = xml_.next(group)) {
       if (xml_.name(group) != "actionGroup") continue;
       const XmlTree::Node trigger = xml_.child(group, "actionTrigger");
@@ -174,7 +171,10 @@ class Waylines {
     item.yaw_deg = camera_.yaw_deg;
     item.gimbal_yaw_deg = camera_.gimbal_yaw_deg;
     item.gimbal_yaw_from_north = camera_.from_north;
-    item.gimbal_pitch_deg = camera_.gimbal_pitch_deg;
+    // What an action says counts: writers put a 0 into the parameter where they mean nothing.
+    const XmlTree::Node gimbal = xml_.child(placemark, "waypointGimbalHeadingParam");
+    item.gimbal_pitch_deg =
+        camera_.gimbal_pitch_deg ? camera_.gimbal_pitch_deg : given(number(gimbal, "waypointGimbalPitchAngle"));
   }
 
   void act(XmlTree::Node action, PlanItem& item) {
@@ -225,7 +225,11 @@ class Waylines {
     PlanItem takeoff;
     takeoff.kind = PlanItemKind::takeoff;
     takeoff.place = source_.place("takeOffRefPoint");
-    takeoff.position = {plan_.home->horizontal, security, HeightDatum::home};
+    const PlanPosition& first = plan_.items.front().position;
+    // "Safely": it climbs to the height of the first waypoint before it goes there, if that is higher.
+    const bool climbs = xml_.child_text(config, "flyToWaylineMode") == "safely" && first.datum == HeightDatum::home;
+    takeoff.position = {plan_.home->horizontal, climbs ? std::fmax(security, first.height_m) : security,
+                        HeightDatum::home};
     plan_.items.insert(plan_.items.begin(), takeoff);
   }
 
@@ -234,7 +238,7 @@ class Waylines {
   FlightPlan plan_;
   std::vector<PlanTrack> tracks_;
   Camera camera_;
-  std::size_t curves_ = 0;
+  std::size_t curves_ = 0, total_ = 0;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -10,8 +9,6 @@
 #include "vantage/geometry.h"
 
 namespace vantage::internal::flight::tour {
-
-using Regions = std::vector<std::unique_ptr<const TourRegion>>;
 
 struct Stop {
   static constexpr int kFixed = -1;  ///< home

@@ -46,17 +46,6 @@ void check_request(const TourRequest& request) {
               "tour.home", "move it to where the vehicle may fly, or change the limits");
 }
 
-Regions regions_of(const TourRequest& request, double margin, const core::ProgressReporter& progress) {
-  progress.begin("volumes of the tour");
-  Regions regions;
-  for (const TourTarget& target : request.targets) {
-    regions.push_back(std::make_unique<const TourRegion>(target.name, target.volume, margin));
-    progress.report(regions.size(), request.targets.size());
-  }
-  progress.finish();
-  return regions;
-}
-
 Tour::End end_of(SearchEnd end) {
   return end == SearchEnd::done ? Tour::End::done
          : end == SearchEnd::cancelled ? Tour::End::cancelled
@@ -98,7 +87,7 @@ class MultirotorPlan {
   MultirotorPlan(const TourRequest& request, const core::ProgressReporter& progress)
       : request_(request),
         progress_(progress),
-        regions_(regions_of(request, request.settings.margin_m, progress)) {}
+        regions_(make_regions(request.targets, request.settings.margin_m, progress)) {}
 
   Tour run() {
     progress_.begin("order of the tour");

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/bounds_distance.h"
 #include "core/closed_mesh_check.h"
 #include "core/format.h"
+#include "core/parallel.h"
 #include "core/walk_bvh.h"
 #include "flight/tour/tour_detour.h"
 #include "flight/tour/tour_half_spaces.h"
@@ -300,6 +302,28 @@ void TourRegion::find_anchors() {
               core::format("no point of the volume of a target is {:g} m from its border; the deepest found is {:.3g} m",
                            margin_, deepest),
               name_, "ask for a smaller margin, or for a larger volume");
+}
+
+Regions make_regions(const std::vector<TourTarget>& targets, double margin_m, const core::ProgressReporter& progress) {
+  progress.begin("volumes of the tour");
+  Regions regions(targets.size());
+  std::vector<std::exception_ptr> wrong(targets.size());
+  core::ProgressCounter counter(progress, targets.size());
+  parallel::for_ranges(targets.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      try {
+        regions[i] = std::make_unique<const TourRegion>(targets[i].name, targets[i].volume, margin_m);
+      } catch (const Error&) {
+        wrong[i] = std::current_exception();
+      }
+      counter.add();
+    }
+  });
+  for (const std::exception_ptr& error : wrong) {
+    if (error) std::rethrow_exception(error);
+  }
+  progress.finish();
+  return regions;
 }
 
 }  // namespace vantage::internal::flight::tour

@@ -4,14 +4,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/bvh.h"
+#include "core/progress_reporter.h"
 #include "core/triangle_tree.h"
 #include "vantage/flight.h"
 #include "vantage/geometry.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::flight::tour {
 
@@ -87,5 +90,10 @@ class TourRegion {
   Box box_;
   std::vector<Vec3> anchors_;  ///< scene frame
 };
+
+using Regions = std::vector<std::unique_ptr<const TourRegion>>;
+
+/// Of all targets of a tour, `margin_m` deep. Throws as TourRegion does, for the first target that is wrong.
+Regions make_regions(const std::vector<TourTarget>& targets, double margin_m, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::flight::tour

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "flight/tour/tour_random.h"
 #include "vantage/error.h"
@@ -42,7 +43,7 @@ class OrderSearch {
 
  private:
   static int rounds_for(std::size_t regions) {
-    constexpr int kLeast = 200, kForEach = 60, kMost = 20'000;
+    constexpr int kLeast = 500, kForEach = 60, kMost = 20'000;
     return std::min(kMost, kLeast + kForEach * static_cast<int>(regions));
   }
 
@@ -103,8 +104,29 @@ class OrderSearch {
     for (int i = 0; i < sweeps; ++i) settle_once(course, regions_, i + 1 < sweeps ? smooth : 0);
   }
 
+  /// Another part of one region, and what follows from it for its neighbours: a region of several pieces may have to
+  /// change together with them.
+  Course moved_elsewhere(const Course& course) {
+    Course next = course;
+    const std::size_t count = next.stops.size(), free = count - next.first_free();
+    const std::size_t i = next.first_free() + draw_.below(free);
+    const std::vector<Vec3>& anchors = regions_[static_cast<std::size_t>(next.stops[i].region)]->anchors();
+    next.stops[i].point = anchors[draw_.below(anchors.size())];
+    const double smooth = smoothing(course);
+    const std::size_t reach = std::min<std::size_t>(4, (count - 1) / 2);
+    for (std::size_t k = 1; k <= reach; ++k) {
+      settle_stop(next, regions_, (i + k) % count, smooth);
+      settle_stop(next, regions_, (i + count - k) % count, smooth);
+    }
+    for (const double s : {smooth, 0.0}) {
+      for (std::size_t k = 0; k <= 2 * reach; ++k) settle_stop(next, regions_, (i + count + k - reach) % count, s);
+    }
+    return next;
+  }
+
   /// Takes out some regions and puts them back.
   Course varied(const Course& course) {
+    if (draw_.unit() < 0.4) return moved_elsewhere(course);
     Course next = course;
     std::vector<int> out = take_out(next);
     draw_.shuffle(out);
@@ -199,8 +221,14 @@ class OrderSearch {
                      [](const Course& a, const Course& b) { return a.length_m() < b.length_m(); });
   }
 
+  /// Whoever asked to stop does not wait; when time is up, the best one is settled.
   void finish() {
-    for (Course& course : result_.courses) course = settled(course, regions_);
+    std::vector<Course>& kept = result_.courses;
+    if (result_.end == SearchEnd::cancelled) return;
+    if (result_.end == SearchEnd::time_limit) kept.resize(1);
+    parallel::for_ranges(kept.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) kept[i] = settled(kept[i], regions_);
+    });
     sort_kept();
   }
 

@@ -26,19 +26,6 @@ namespace {
 constexpr std::size_t kViews = 20;  ///< drawn of each target
 constexpr std::size_t kMostCourses = 3, kMostRefined = 2;
 
-Regions wing_regions(const TourRequest& request, const core::ProgressReporter& progress) {
-  progress.begin("volumes of the tour");
-  Regions regions;
-  for (const TourTarget& target : request.targets) {
-    // A curve lies within the chord error of chords that are so much deeper.
-    const double depth = request.settings.margin_m + request.chord_error_m;
-    regions.push_back(std::make_unique<const TourRegion>(target.name, target.volume, depth));
-    progress.report(regions.size(), request.targets.size());
-  }
-  progress.finish();
-  return regions;
-}
-
 /// A course as chords, and where in them each view lies.
 struct Layout {
   std::vector<Vec3> points;
@@ -73,7 +60,8 @@ class WingPlan {
   WingPlan(const TourRequest& request, const core::ProgressReporter& progress)
       : request_(request),
         progress_(progress),
-        regions_(wing_regions(request, progress)),
+        // A curve lies within the chord error of chords that are so much deeper.
+        regions_(make_regions(request.targets, request.settings.margin_m + request.chord_error_m, progress)),
         space_(request, regions_),
         draw_(request.seed) {}
 

@@ -1,0 +1,134 @@
+// What a flight sees, how near to what it comes, and which limits it breaks: exactly, for any flight.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/export.h"
+#include "vantage/flight.h"
+#include "vantage/geometry.h"
+#include "vantage/mission.h"
+#include "vantage/progress.h"
+
+namespace vantage {
+
+/// What a flight must keep besides the limits of the mission, and how it is flown.
+struct FlightCheckOptions {
+  /// All is said for every position within this distance of the flight: acceptance radius, wind, position error; >= 0.
+  /// Flight::chord_error_m is added to it.
+  double tube_radius_m = 0;
+  /// Of legs whose points state none, metres per second. Without it that of the mission's tour, if it has one.
+  std::optional<double> speed_m_s = std::nullopt;
+  /// Each target must be seen for so long without a break. Without it the dwell of the mission's tour; 0: at all.
+  std::optional<double> dwell_s = std::nullopt;
+  /// The smallest distance from the scene, but for its ground. Without it that of the mission's tour; 0: none.
+  std::optional<double> clearance_m = std::nullopt;
+  /// How fast the camera may have to turn to keep a target's centre while it is seen for the longest time. Without it
+  /// that of the mission's tour; nothing: as fast as it takes.
+  std::optional<double> gimbal_rate_deg_s = std::nullopt;
+};
+
+/// A stretch of a flight.
+struct FlightSpan {
+  double begin_m = 0, end_m = 0;  ///< along the flight, from its first point
+  double begin_s = 0,
+         end_s = 0;  ///< since its beginning, with what it stays at the points; NaN where a speed is missing
+  Vec3 begin = Vec3::Zero(), end = Vec3::Zero();  ///< scene frame
+
+  double length_m() const { return end_m - begin_m; }
+  double duration_s() const { return end_s - begin_s; }
+};
+
+/// Why all of a target is not seen, and where.
+struct NotSeen {
+  enum class Kind {
+    hidden,        ///< by an object of the scene, or it enters the zone of a link
+    out_of_range,  ///< farther than the range
+    behind,        ///< not in front of the target
+    limit,         ///< a limit of the sensor
+  };
+  Kind kind = Kind::hidden;
+  std::string name;               ///< of the object, or of the limit as PointAnswer::outside_of has it; else empty
+  std::vector<FlightSpan> spans;  ///< sorted; apart
+
+  double length_m() const;
+};
+
+/// "hidden", "out_of_range", "behind", "limit".
+VANTAGE_API const char* name_of(NotSeen::Kind kind);
+
+/// How the camera must look to keep a target's centre, along one stretch.
+struct GimbalUse {
+  double min_pitch_deg = 0, max_pitch_deg = 0;  ///< 0 level, -90 straight down
+  double begin_yaw_deg = 0, end_yaw_deg = 0;    ///< clockwise from north
+  double rate_deg_s = 0;                        ///< the fastest turn of the line of sight; NaN where a speed is missing
+};
+
+/// One target along the flight.
+struct TargetCheck {
+  std::string name;
+  Vec3 centre = Vec3::Zero();          ///< scene frame
+  std::vector<FlightSpan> seen;        ///< all of it is seen, within all limits of the sensor; sorted, apart
+  std::optional<std::size_t> longest;  ///< of `seen`: the longest in time, or in length where times are not known
+  std::vector<NotSeen> not_seen;       ///< the longest first
+  std::optional<GimbalUse> gimbal;     ///< along the longest stretch
+};
+
+/// A limit of navigation that the flight breaks.
+struct BrokenLimit {
+  std::string name;               ///< as PointAnswer::outside_of has it
+  std::vector<FlightSpan> spans;  ///< sorted; apart
+  double worst = 0;               ///< by how much, at worst; infinite where no number tells it
+  std::string unit = "m";         ///< of `worst`: "m" or "degrees"
+  double worst_at_m = 0;          ///< along the flight
+  Vec3 worst_at = Vec3::Zero();   ///< scene frame
+};
+
+/// Where the flight is nearest to the scene, but for its ground.
+struct NearestPass {
+  double distance_m = std::numeric_limits<double>::infinity();  ///< less the tube's radius; not below 0
+  double at_m = 0;                                              ///< along the flight
+  Vec3 position = Vec3::Zero();                                 ///< of the flight, scene frame
+  Vec3 point = Vec3::Zero();                                    ///< of the scene
+  std::string object = {};                                      ///< empty: there is nothing to come near to
+};
+
+struct FlightCheck {
+  double length_m = 0;
+  double duration_s = 0;             ///< NaN where a speed is missing
+  double tube_radius_m = 0;          ///< with the flight's chord error
+  std::vector<double> point_at_m;    ///< of each point of the flight: how far along it
+  std::vector<double> arrival_s;     ///< likewise; NaN where a speed is missing
+  std::vector<TargetCheck> targets;  ///< of the mission, in its order
+  std::vector<BrokenLimit> broken;   ///< of navigation
+  NearestPass nearest;
+  std::vector<std::string> failures;  ///< what is required and does not hold, a sentence each
+
+  bool passes() const { return failures.empty(); }
+};
+
+/// Judges a flight by what a mission asks: each of its targets (one for each volume, volume_count) must be seen whole
+/// within the limits of the sensor, for the dwell without a break; and the flight must keep navigation's limits and the
+/// clearance everywhere.
+///
+/// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/leg_query.h), which err on the safe side.
+/// With a tube of radius R, what is said holds for every position within R of the flight.
+///
+/// Threads: those of the caller's arena. Throws Error(input) as check_flight_points, prepare_views and LegViews do, for
+/// an option that is negative or not finite, and where a dwell in seconds is asked of a flight without speeds;
+/// Error(cancelled). Cost: for each leg and target what of the scene lies between them.
+VANTAGE_API FlightCheck check_flight(const Mission& mission, const Flight& flight,
+                                     const FlightCheckOptions& options = {}, const Progress& progress = {});
+
+/// JSON (UTF-8, indented, a newline at the end) of all of it; lengths in metres, what is not known or infinite is null.
+/// With longitudes and latitudes where `georeference` is given.
+VANTAGE_API std::string json_text(const FlightCheck& check, const Georeference* georeference = nullptr);
+
+/// A table, a row for each stretch: target, state ("seen", "hidden", "out_of_range", "behind", "limit", "broken"), what
+/// (object or limit), begin_m, end_m, begin_s, end_s, and the coordinates of both ends.
+VANTAGE_API std::string csv_text(const FlightCheck& check);
+
+}  // namespace vantage

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/located_plan.h"
+#include "cli/progress_line.h"
+#include "cli/standard_streams.h"
+#include "cli/text_table.h"
+#include "vantage/atomic_file.h"
+#include "vantage/error.h"
+#include "vantage/flight_check.h"
+#include "vantage/input.h"
+#include "vantage/mission.h"
+#include "vantage/output.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kCheckExamples =
+    "PLAN\n"
+    "  A plan of QGroundControl (.plan), .waypoints, KML or KMZ (of DJI, too), GPX, GeoJSON, or a table (CSV) with\n"
+    "  lon, lat and a height, or x, y, z. Heights are told apart: above sea level (alt), above ground (agl), above "
+    "the\n"
+    "  home, above the ellipsoid. What a plan does not say has to be given.\n"
+    "\n"
+    "FOUND\n"
+    "  For each target from where on the flight all of it is seen, within the limits of the sensor, exactly; what "
+    "hides\n"
+    "  it elsewhere; which limits of navigation are broken, where and by how much; how near the flight comes to the\n"
+    "  scene, but for its ground. The exit code is 1 where a target is not seen, or not for the dwell, a limit is\n"
+    "  broken, the clearance is not kept, or the camera would have to turn too fast. Dwell, clearance, speed and "
+    "gimbal\n"
+    "  are those of the mission's 'tour', unless they are given here.\n"
+    "\n"
+    "EXAMPLES\n"
+    "  vantage check mission.yaml flight.plan\n"
+    "  vantage check mission.yaml flight.plan --tube 3 --clearance 8\n"
+    "  vantage check mission.yaml track.gpx --undulation 46.5 --json | jq '.targets[].longest'\n"
+    "  vantage check mission.yaml flight.kml --speed 8 --dwell 5 -o check.csv\n";
+
+struct CheckArguments : PlanArguments {
+  CommonOptions common;
+  std::string mission_file, output_file;
+  std::string tube = "0";
+  std::optional<double> speed, dwell, gimbal;
+  std::string clearance;  // as typed
+  bool json = false;
+};
+
+std::string seconds_text(double seconds) { return std::isnan(seconds) ? "?" : fixed(seconds, 1); }
+
+std::string span_text(const FlightSpan& span) {
+  std::string text = fixed(span.begin_m, 2) + " to " + fixed(span.end_m, 2) + " m";
+  if (!std::isnan(span.end_s)) text += ", " + seconds_text(span.begin_s) + " to " + seconds_text(span.end_s) + " s";
+  return text;
+}
+
+/// "12 to 20 m, 30 to 34 m and 3 others".
+std::string spans_text(const std::vector<FlightSpan>& spans) {
+  constexpr std::size_t kMost = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, spans.size()); ++i) {
+    text += (text.empty() ? "" : "; ") + fixed(spans[i].begin_m, 2) + " to " + fixed(spans[i].end_m, 2) + " m";
+  }
+  if (spans.size() > kMost) text += "; and " + count(spans.size() - kMost) + " more";
+  return text;
+}
+
+void add_target(TextTable& table, const TargetCheck& target) {
+  table.heading(target.name);
+  if (target.seen.empty()) table.row("seen whole", "nowhere", "");
+  for (std::size_t i = 0; i < target.seen.size(); ++i) {
+    const FlightSpan& span = target.seen[i];
+    const bool is_longest = target.longest == i && target.seen.size() > 1;
+    table.row("seen whole",
+              std::isnan(span.end_s) ? fixed(span.length_m(), 2) + " m" : fixed(span.duration_s(), 1) + " s",
+              span_text(span) + (is_longest ? ", the longest" : ""));
+  }
+  if (target.gimbal) {
+    table.row("gimbal", fixed(target.gimbal->min_pitch_deg, 1) + " to " + fixed(target.gimbal->max_pitch_deg, 1),
+              "degrees of pitch; yaw " + fixed(target.gimbal->begin_yaw_deg, 1) + " to " +
+                  fixed(target.gimbal->end_yaw_deg, 1) +
+                  (std::isfinite(target.gimbal->rate_deg_s)
+                       ? "; turns by up to " + fixed(target.gimbal->rate_deg_s, 1) + " degrees per second"
+                       : ""));
+  }
+  for (const NotSeen& reason : target.not_seen) {
+    std::string name = name_of(reason.kind);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.row(name, fixed(reason.length_m(), 2) + " m",
+              (reason.name.empty() ? "" : reason.name + ": ") + spans_text(reason.spans));
+  }
+}
+
+std::string table_text(const FlightCheck& check, const std::string& plan) {
+  TextTable table;
+  table.heading(plan);
+  table.row("length", fixed(check.length_m, 1), "m");
+  table.row("duration", seconds_text(check.duration_s),
+            std::isnan(check.duration_s) ? "the plan does not say how fast it is flown: give --speed" : "s");
+  if (check.tube_radius_m > 0) {
+    table.row("tube", fixed(check.tube_radius_m, 2), "m: all holds for every position so near to the flight");
+  }
+  for (const TargetCheck& target : check.targets) add_target(table, target);
+  table.heading("limits");
+  if (check.broken.empty()) table.row("broken", "none", "");
+  for (const BrokenLimit& limit : check.broken) {
+    table.row(limit.name, std::isfinite(limit.worst) ? fixed(limit.worst, 2) + " " + limit.unit : "broken",
+              "at " + fixed(limit.worst_at_m, 2) + " m; " + spans_text(limit.spans));
+  }
+  if (std::isfinite(check.nearest.distance_m)) {
+    table.row("nearest", fixed(check.nearest.distance_m, 2) + " m",
+              (check.nearest.object.empty() ? "the scene" : check.nearest.object) + ", at " +
+                  fixed(check.nearest.at_m, 2) + " m along the flight, " + vector(check.nearest.position));
+  }
+  table.heading(check.passes() ? "the flight keeps what is asked" : "the flight does NOT keep what is asked");
+  for (const std::string& failure : check.failures) table.row("fails", "", failure);
+  return table.text();
+}
+
+FlightCheckOptions check_options(const CheckArguments& options) {
+  FlightCheckOptions result;
+  result.tube_radius_m = length_option("--tube", options.tube);
+  result.speed_m_s = options.speed;
+  result.dwell_s = options.dwell;
+  result.gimbal_rate_deg_s = options.gimbal;
+  if (!options.clearance.empty()) result.clearance_m = length_option("--clearance", options.clearance);
+  return result;
+}
+
+bool is_json_file(const std::string& file) { return file.ends_with(".json"); }
+
+void check_output(const CheckArguments& options, const MissionFile& mission) {
+  if (options.output_file.empty()) return;
+  if (!is_json_file(options.output_file) && !options.output_file.ends_with(".csv")) {
+    throw Error(ErrorCode::output_format_unknown, "a check is written as .json or .csv", options.output_file,
+                "give a name that ends so");
+  }
+  check_can_write(options.output_file);
+  check_not_an_input(options.output_file, input_files(mission));
+  check_not_an_input(options.output_file, {options.plan_file});
+}
+
+int run_check(const CheckArguments& options) {
+  const FlightCheckOptions asked = check_options(options);
+  MissionFile file = read_mission_argument(options.mission_file);
+  check_output(options, file);
+  if (!file.targets.empty()) file.combine = Combine::each;
+  ProgressLine progress(options.common);
+  const FlightPlan plan = read_plan_argument(options, progress.callback());
+  const Mission mission = resolve_mission(file, progress.callback());
+  const LocatedPlan located = locate_plan_argument(options, plan, mission);
+  const FlightCheck check = check_flight(mission, located.flight, asked, progress.callback());
+  if (!options.common.quiet) {
+    notes(mission.notes);
+    notes(plan.notes);
+    notes(located.notes);
+  }
+  const Georeference* georeference = mission.scene().georeference ? &*mission.scene().georeference : nullptr;
+  if (!options.output_file.empty()) {
+    AtomicFile written(options.output_file);
+    written.write(is_json_file(options.output_file) ? json_text(check, georeference) : csv_text(check));
+    written.commit();
+  }
+  if (options.json) {
+    print(json_text(check, georeference));
+  } else if (!options.common.quiet) {
+    print(table_text(check, options.plan_file));
+  }
+  return check.passes() ? kSuccess : kCheckFailed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "check", "Judge any plan of a flight: when is what seen, which limits are broken, how near is what");
+  auto options = std::make_shared<CheckArguments>();
+  command->add_option("mission", options->mission_file, "The mission; - for standard input")
+      ->required()
+      ->option_text("MISSION");
+  add_plan_options(*command, *options);
+  command->add_option("--tube", options->tube, "All must hold for every position within this distance of the flight")
+      ->option_text("METRES");
+  command->add_option("--speed", options->speed, "Of legs for which the plan states none, metres per second")
+      ->option_text("M/S");
+  command->add_option("--dwell", options->dwell, "Each target must be seen for so long without a break")
+      ->option_text("SECONDS");
+  command->add_option("--clearance", options->clearance, "Smallest distance from the scene, but for its ground")
+      ->option_text("METRES");
+  command->add_option("--gimbal-rate", options->gimbal, "The camera turns at most so fast, degrees per second")
+      ->option_text("DEG/S");
+  command->add_option("-o,--output", options->output_file, "Write what was found as .json or .csv")
+      ->option_text("FILE");
+  command->add_flag("--json", options->json, "Print what was found as JSON");
+  finish<CheckArguments>(*command, options, kCheckExamples, chosen, run_check);
+}
+
+}  // namespace vantage::cli

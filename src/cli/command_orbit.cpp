@@ -1,0 +1,184 @@
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/chosen_target.h"
+#include "cli/command.h"
+#include "cli/progress_line.h"
+#include "cli/standard_streams.h"
+#include "cli/target_volumes.h"
+#include "cli/text_table.h"
+#include "cli/view_rows.h"
+#include "vantage/error.h"
+#include "vantage/orbits.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kOrbitExamples =
+    "ORBITS\n"
+    "  Circles at one height, wholly inside the volume, with the target within:\n"
+    "    widest        the largest radius\n"
+    "    deepest       farthest from the volume's boundary all round\n"
+    "    finest_pixel  the largest pixel on the target, all round, is the smallest; for a mission with a camera\n"
+    "  Each is the best of all heights, centres and radii that keep the margin, to 0.5 m or 2 % of a pixel; with --json\n"
+    "  'bound' says how good any other one can be at most. Where no circle fits, a racetrack is looked for: two half\n"
+    "  circles and two straights.\n"
+    "\n"
+    "EXAMPLES\n"
+    "  vantage orbit mission.yaml --radius 60\n"
+    "  vantage orbit mission.yaml --centre over --margin 5\n"
+    "  vantage orbit mission.yaml --centre anywhere --json | jq '.targets[].orbits[0]'\n"
+    "\n"
+    "The exit code is 1 if a target has no orbit.\n";
+
+struct OrbitArguments {
+  CommonOptions common;
+  std::string mission_file, target;
+  std::string radius, most_radius, margin;  // as typed; empty: not given
+  std::string centre = "around";
+  bool counterclockwise = false, circles = false, json = false;
+};
+
+OrbitOptions orbit_options(const OrbitArguments& arguments) {
+  OrbitOptions options;
+  if (!arguments.radius.empty()) options.least_radius_m = positive_length_option("--radius", arguments.radius);
+  if (!arguments.most_radius.empty()) {
+    options.most_radius_m = positive_length_option("--max-radius", arguments.most_radius);
+  }
+  if (!arguments.margin.empty()) options.margin_m = length_option("--margin", arguments.margin);
+  options.centre = arguments.centre == "over"       ? OrbitCentre::over_target
+                   : arguments.centre == "anywhere" ? OrbitCentre::anywhere
+                                                    : OrbitCentre::around_target;
+  options.clockwise = !arguments.counterclockwise;
+  options.racetracks = !arguments.circles;
+  options.threads = arguments.common.threads;
+  return options;
+}
+
+void add_aim(TextTable& table, const Orbit& orbit) {
+  table.row("  pitch", fixed(orbit.min_pitch_deg, 1) + " to " + fixed(orbit.max_pitch_deg, 1),
+            "degrees; -90 is straight down");
+  table.row("  distance", fixed(orbit.min_distance_m, 2) + " to " + fixed(orbit.max_distance_m, 2),
+            "metres to the target's centre");
+  if (orbit.pixel_m) table.row("  pixel", pixel_text(*orbit.pixel_m), "on the target, at most");
+  if (orbit.incidence_deg) table.row("  incidence", fixed(*orbit.incidence_deg, 1), "degrees, at most");
+  if (orbit.obstacle_distance_m) {
+    table.row("  clear by", fixed(*orbit.obstacle_distance_m, 2),
+              "metres" + (orbit.obstacle.empty() ? "" : ": " + orbit.obstacle + " is nearest"));
+  }
+}
+
+std::string bound_text(const Orbit& orbit) {
+  if (orbit.straight_m > 0) return "none that was looked for is deeper than " + fixed(orbit.bound, 2);
+  switch (orbit.kind) {
+    case OrbitKind::widest:
+      return "none is wider than " + fixed(orbit.bound, 2);
+    case OrbitKind::deepest:
+      return "none is deeper than " + fixed(orbit.bound, 2);
+    case OrbitKind::finest_pixel:
+      return "no pixel is finer than " + pixel_text(orbit.bound);
+  }
+  return "";
+}
+
+void add_orbit_rows(TextTable& table, const Orbit& orbit) {
+  table.row(name_of(orbit.kind), fixed(orbit.radius_m, 2),
+            std::string("metres radius, ") + (orbit.clockwise ? "clockwise" : "counter-clockwise"));
+  if (orbit.straight_m > 0) {
+    table.row("  straights", fixed(orbit.straight_m, 2),
+              "metres each, heading " + fixed(orbit.heading_deg, 1) + " degrees and back: a racetrack");
+  }
+  table.row("  margin", fixed(orbit.margin_m, 2), "metres inside the volume; " + bound_text(orbit));
+  table.row("  length", fixed(orbit.length_m, 1), "metres once round");
+  add_place(table, orbit.place);
+  add_aim(table, orbit);
+}
+
+std::string text_of_orbits(const std::vector<NamedOrbits>& targets) {
+  TextTable table;
+  for (const NamedOrbits& target : targets) {
+    const Orbits& orbits = target.orbits;
+    if (orbits.found.empty()) {
+      table.heading("target '" + target.target + "': no orbit: " + orbits.reason);
+      continue;
+    }
+    table.heading("target '" + target.target + "': " + count(orbits.found.size()) +
+                  (orbits.found.size() == 1 ? " orbit" : " orbits") + ", at least " + fixed(orbits.margin_m, 2) +
+                  " m inside the volume");
+    if (!orbits.reason.empty()) table.heading("  " + orbits.reason);
+    for (const Orbit& orbit : orbits.found) add_orbit_rows(table, orbit);
+  }
+  return table.text();
+}
+
+std::vector<NamedOrbits> orbits_of(const TargetVolumes& volumes, const OrbitOptions& options,
+                                   const Progress& progress) {
+  std::vector<NamedOrbits> result;
+  std::optional<ViewDescriber> describer;  // what it made of the scene serves all targets
+  for (const TargetVolume& target : volumes.targets) {
+    NamedOrbits& one = result.emplace_back();
+    one.target = target.name;
+    if (target.error) {
+      one.orbits.reason = target.error->problem();
+      continue;
+    }
+    describer = describer ? ViewDescriber(target.mission, *describer) : ViewDescriber(target.mission);
+    one.orbits = find_orbits(target.mission, target.volume, volumes.scene, *describer, options, progress);
+  }
+  return result;
+}
+
+int run_orbit(const OrbitArguments& arguments) {
+  const MissionFile file = read_mission_argument(arguments.mission_file);
+  const OrbitOptions options = orbit_options(arguments);
+  std::vector<NamedOrbits> found;
+  {
+    ProgressLine progress(arguments.common);
+    const TargetVolumes volumes =
+        compute_targets(file, arguments.target, arguments.common.threads, progress.callback());
+    found = orbits_of(volumes, options, progress.callback());
+    if (!arguments.common.quiet) tell_of_targets(volumes);
+  }
+  print(arguments.json ? json_text(found) : text_of_orbits(found));
+  bool has_all = true;
+  for (const NamedOrbits& one : found) {
+    has_all = has_all && !one.orbits.found.empty();
+    if (arguments.common.quiet) continue;
+    for (const std::string& text : one.orbits.notes) note((found.size() > 1 ? one.target + ": " : "") + text);
+  }
+  return has_all ? kSuccess : kCheckFailed;
+}
+
+}  // namespace
+
+void add_orbit(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("orbit", "Find where to circle while the target stays in view");
+  auto options = std::make_shared<OrbitArguments>();
+  command->add_option("mission", options->mission_file, "The mission file; - for standard input")
+      ->required()
+      ->option_text("MISSION");
+  command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
+  command->add_option("--radius", options->radius, "The smallest radius that the vehicle can turn with; default: 40")
+      ->option_text("METRES");
+  command->add_option("--max-radius", options->most_radius, "The largest radius to look for; default: any")
+      ->option_text("METRES");
+  command
+      ->add_option("--margin", options->margin,
+                   "How far from the volume's boundary at least; default: 1 m, less in small volumes")
+      ->option_text("METRES");
+  command
+      ->add_option("--centre", options->centre,
+                   "around: the target is within the orbit; over: the centre is over the target; anywhere")
+      ->check(CLI::IsMember({"around", "over", "anywhere"}))
+      ->option_text("WHERE");
+  command->add_flag("--counterclockwise", options->counterclockwise, "Circle the other way round, seen from above");
+  command->add_flag("--circles", options->circles, "Look for no racetrack where no circle fits");
+  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  finish<OrbitArguments>(*command, options, kOrbitExamples, chosen, run_orbit);
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,110 @@
+#include "cli/located_plan.h"
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "cli/command.h"
+#include "cli/scene_options.h"
+#include "vantage/error.h"
+#include "vantage/georeference.h"
+#include "vantage/ground.h"
+#include "vantage/input.h"
+
+namespace vantage::cli {
+namespace {
+
+std::optional<double> length_if_given(const char* name, const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(length_option(name, text));
+}
+
+std::optional<HeightDatum> datum_of(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  if (word == "sea") return HeightDatum::sea_level;
+  if (word == "ellipsoid") return HeightDatum::ellipsoid;
+  if (word == "ground") return HeightDatum::ground;
+  if (word == "home") return HeightDatum::home;
+  return HeightDatum::scene_z;
+}
+
+/// Longitude and latitude, or x and y for a plan in the scene frame.
+std::optional<Eigen::Vector2d> home_of(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
+  if (!arguments.home.empty()) {
+    const std::array<double, 2> at = place_option("--home", arguments.home);
+    return plan.is_in_scene_frame ? Eigen::Vector2d(at[0], at[1]) : Eigen::Vector2d(at[1], at[0]);
+  }
+  if (plan.home || !mission.home) return std::nullopt;
+  const Eigen::Vector2d at = mission.home->head<2>();
+  if (plan.is_in_scene_frame || !mission.scene().georeference) return at;
+  return positions_in_crs(*mission.scene().georeference, "EPSG:4326", std::array{at}).front();
+}
+
+/// Nothing where the scene does not say what of it is ground: locating says when it is needed.
+std::optional<Ground> ground_if_known(const Mission& mission) {
+  try {
+    return ground_of(mission);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::ground_missing) throw;
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+void add_plan_options(CLI::App& command, PlanArguments& arguments) {
+  command.add_option("plan", arguments.plan_file, "The plan: .plan, .waypoints, .kml, .kmz, .gpx, .geojson, .csv")
+      ->required()
+      ->option_text("PLAN");
+  command
+      .add_option("--track", arguments.track, "Of several tracks, lines or routes: the name or number of the one meant")
+      ->option_text("NAME");
+  command.add_option("--home", arguments.home, "Where it takes off, if the plan does not say: latitude and longitude")
+      ->option_text("LAT,LON");
+  command.add_option("--home-z", arguments.home_z, "z of the home in the scene; without it that of the ground there")
+      ->option_text("METRES");
+  command
+      .add_option("--undulation", arguments.undulation,
+                  "How high the mean sea level lies above the ellipsoid there, for heights above the ellipsoid")
+      ->option_text("METRES");
+  command
+      .add_option("--heights", arguments.heights,
+                  "What heights are measured from where the plan does not say: sea, ellipsoid, ground, home or scene")
+      ->option_text("LEVEL")
+      ->check(CLI::IsMember({"sea", "ellipsoid", "ground", "home", "scene"}));
+  command.add_option("--height", arguments.height, "The height of all positions that have none, above --heights")
+      ->option_text("METRES");
+  command.add_option("--return-height", arguments.return_height, "Of the way back to the home, above it")
+      ->option_text("METRES");
+  command
+      .add_option("--loiter-radius", arguments.loiter_radius, "Of circles for which the plan leaves it to the vehicle")
+      ->option_text("METRES");
+  command.add_flag("--ground-legs", arguments.with_ground_legs,
+                   "Judge the climb from the home and the descent to it, too");
+}
+
+FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& progress) {
+  ReadPlanOptions options;
+  options.track = arguments.track;
+  options.progress = progress;
+  return read_flight_plan(arguments.plan_file, options);
+}
+
+LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
+  const std::optional<Ground> ground = ground_if_known(mission);
+  LocateOptions options;
+  options.georeference = mission.scene().georeference;
+  options.levels.sea_level_z_m = sea_level_m(mission);
+  options.levels.undulation_m = arguments.undulation;
+  options.ground = ground ? &*ground : nullptr;
+  options.home = home_of(arguments, plan, mission);
+  options.home_z_m = length_if_given("--home-z", arguments.home_z);
+  options.unknown_heights = datum_of(arguments.heights);
+  options.missing_height_m = length_if_given("--height", arguments.height);
+  options.return_height_m = length_if_given("--return-height", arguments.return_height);
+  options.loiter_radius_m = length_if_given("--loiter-radius", arguments.loiter_radius);
+  options.with_ground_legs = arguments.with_ground_legs;
+  return locate_flight(plan, options);
+}
+
+}  // namespace vantage::cli

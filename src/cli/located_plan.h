@@ -1,0 +1,31 @@
+// Plans of flights as arguments: which file, and what it leaves open.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "vantage/flight_plan.h"
+#include "vantage/mission.h"
+#include "vantage/progress.h"
+
+namespace vantage::cli {
+
+struct PlanArguments {
+  std::string plan_file, track, heights;
+  std::string home;                                          // "LAT,LON"
+  std::string home_z, height, return_height, loiter_radius;  // lengths as typed; empty: not given
+  std::optional<double> undulation;
+  bool with_ground_legs = false;
+};
+
+/// The argument PLAN and its options; `arguments` must outlive the parsing.
+void add_plan_options(CLI::App& command, PlanArguments& arguments);
+
+FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& progress);
+
+/// The plan in the frame of the mission's scene, with the mission's ground and sea level, and its home where neither
+/// the plan nor the arguments have one.
+LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission);
+
+}  // namespace vantage::cli

@@ -1,0 +1,41 @@
+#include "cli/target_volumes.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "cli/chosen_target.h"
+#include "cli/command.h"
+#include "vantage/warning.h"
+
+namespace vantage::cli {
+
+TargetVolumes compute_targets(const MissionFile& file, const std::string& name, int threads, const Progress& progress) {
+  Mission mission = resolve_mission(file, progress);
+  if (!name.empty()) mission = of_target(mission, name);
+  TargetVolumes result{PreparedScene(mission.scene(), progress), {}};
+  RunOptions options;
+  options.threads = threads;
+  options.prepared = result.scene;
+  if (volume_count(mission) == 1) {
+    Volume volume = run_mission(mission, options, progress).volume;
+    result.targets.push_back({mission.target.name, std::move(mission), std::move(volume)});
+    return result;
+  }
+  const std::vector<std::string> names = target_names(mission);
+  std::vector<Attempt> attempts = try_missions(mission, options, progress);
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    Volume volume = attempts[i].result ? std::move(attempts[i].result->volume) : Volume();
+    result.targets.push_back({names[i], one_volume(mission, i), std::move(volume), std::move(attempts[i].error)});
+  }
+  return result;
+}
+
+void tell_of_targets(const TargetVolumes& volumes) {
+  for (const TargetVolume& target : volumes.targets) {
+    for (const Warning& warning : target.volume.notes) {
+      note((volumes.targets.size() > 1 ? target.name + ": " : "") + warning.text);
+    }
+  }
+}
+
+}  // namespace vantage::cli

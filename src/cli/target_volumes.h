@@ -1,0 +1,35 @@
+// The volumes of a mission's targets, computed for commands that look for something in them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
+
+namespace vantage::cli {
+
+struct TargetVolume {
+  std::string name;
+  Mission mission;  ///< of this volume alone
+  Volume volume;    ///< empty where there is an error
+  std::optional<Error> error = {};  ///< why there is no volume: the target cannot be seen as it lies
+};
+
+struct TargetVolumes {
+  PreparedScene scene;
+  std::vector<TargetVolume> targets;  ///< one or more
+};
+
+/// Resolves the mission, prepares its scene and computes each of its volumes, or that of the target `name` alone. An
+/// error of one of several targets is kept, that of a single one thrown. `threads` as in RunOptions.
+TargetVolumes compute_targets(const MissionFile& file, const std::string& name, int threads, const Progress& progress);
+
+/// What is to be known of them, a line each on standard error.
+void tell_of_targets(const TargetVolumes& volumes);
+
+}  // namespace vantage::cli

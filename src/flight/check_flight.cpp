@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/format.h"
+#include "core/parallel.h"
+#include "core/progress_reporter.h"
+#include "core/text.h"
+#include "flight/along.h"
+#include "flight/gimbal.h"
+#include "vantage/error.h"
+#include "vantage/flight_check.h"
+#include "vantage/leg_query.h"
+
+namespace vantage {
+namespace {
+
+using internal::flight::Along;
+using internal::flight::Stretch;
+namespace flight = internal::flight;
+
+using Intervals = std::vector<LegInterval>;
+
+/// Of one leg, why the target is not seen: by kind and name.
+using Reasons = std::map<std::pair<NotSeen::Kind, std::string>, Intervals>;
+
+/// One target on one leg.
+struct TargetOnLeg {
+  Intervals seen;
+  Reasons reasons;
+};
+
+/// All that is found on one leg.
+struct OnLeg {
+  std::vector<TargetOnLeg> targets;
+  std::vector<LegBreak> broken;
+};
+
+Intervals joined(Intervals a, const Intervals& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return flight::united(std::move(a));
+}
+
+const Intervals& whole() {
+  static const Intervals kWhole = {{0, 1}};
+  return kWhole;
+}
+
+Intervals common(const Intervals& a, const Intervals& b) { return flight::without(a, flight::without(whole(), b)); }
+
+/// A position sees it that sees, of each list, one target or more, each within its limits.
+class JudgedTarget {
+ public:
+  JudgedTarget(const Mission& mission, const PreparedScene& scene) : name_(mission.target.name) {
+    for (const std::vector<PreparedTarget>& list : prepare_views(mission, scene)) {
+      std::vector<One>& judged = lists_.emplace_back();
+      for (const PreparedTarget& target : list) judged.push_back({LegViews(target), LegLimits(target, {})});
+    }
+    std::size_t corners = 0;
+    for (const std::vector<Vec3>& part : mission.target.parts) {
+      for (const Vec3& corner : part) centre_ += corner;
+      corners += part.size();
+    }
+    if (corners > 0) centre_ /= static_cast<double>(corners);
+  }
+
+  const std::string& name() const { return name_; }
+  const Vec3& centre() const { return centre_; }
+
+  TargetOnLeg look(const Leg& leg, double radius_m) const {
+    TargetOnLeg result{whole(), {}};
+    for (const std::vector<One>& list : lists_) {
+      const TargetOnLeg any = look_at_any(list, leg, radius_m);
+      result.seen = common(result.seen, any.seen);
+      for (const auto& [reason, intervals] : any.reasons) {
+        result.reasons[reason] = joined(std::move(result.reasons[reason]), intervals);
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct One {
+    LegViews views;
+    LegLimits limits;
+  };
+
+  /// What hides any of them is told; out of range, behind and limits only where that holds for all.
+  static TargetOnLeg look_at_any(const std::vector<One>& list, const Leg& leg, double radius_m) {
+    TargetOnLeg result;
+    bool is_first = true;
+    for (const One& one : list) {
+      TargetOnLeg seen = look_at(one, leg, radius_m);
+      result.seen = joined(std::move(result.seen), seen.seen);
+      for (auto& [reason, intervals] : result.reasons) {
+        if (reason.first == NotSeen::Kind::hidden) continue;
+        const auto same = seen.reasons.find(reason);
+        intervals = same == seen.reasons.end() ? Intervals() : common(intervals, same->second);
+      }
+      for (auto& [reason, intervals] : seen.reasons) {
+        if (reason.first != NotSeen::Kind::hidden && !is_first) continue;
+        result.reasons[reason] = joined(std::move(result.reasons[reason]), intervals);
+      }
+      is_first = false;
+    }
+    std::erase_if(result.reasons, [](const auto& entry) { return entry.second.empty(); });
+    return result;
+  }
+
+  static TargetOnLeg look_at(const One& one, const Leg& leg, double radius_m) {
+    LegView view = one.views.look(leg, radius_m);
+    TargetOnLeg result{std::move(view.seen), {}};
+    for (LegBlocker& blocker : view.hidden_by) {
+      result.reasons[{NotSeen::Kind::hidden, std::move(blocker.name)}] = std::move(blocker.intervals);
+    }
+    if (!view.out_of_range.empty()) result.reasons[{NotSeen::Kind::out_of_range, ""}] = std::move(view.out_of_range);
+    if (!view.behind_target.empty()) result.reasons[{NotSeen::Kind::behind, ""}] = std::move(view.behind_target);
+    for (LegBreak& limit : one.limits.broken(leg, radius_m)) {
+      result.seen = flight::without(result.seen, limit.intervals);
+      result.reasons[{NotSeen::Kind::limit, std::move(limit.limit)}] = std::move(limit.intervals);
+    }
+    return result;
+  }
+
+  std::string name_;
+  Vec3 centre_ = Vec3::Zero();
+  std::vector<std::vector<One>> lists_;
+};
+
+void require_number(const std::optional<double>& value, bool may_be_zero, const char* what, const char* fix) {
+  if (!value || (std::isfinite(*value) && (*value > 0 || (may_be_zero && *value == 0)))) return;
+  throw Error(
+      ErrorCode::value_out_of_range,
+      std::string(what) + (may_be_zero ? " must be 0 or more and finite" : " must be greater than 0 and finite"), what,
+      fix);
+}
+
+/// The options with what the mission's tour says where they say nothing.
+FlightCheckOptions filled(const Mission& mission, FlightCheckOptions options) {
+  require_number(options.tube_radius_m, true, "the radius of the tube", "give metres");
+  require_number(options.speed_m_s, false, "the speed", "give metres per second");
+  require_number(options.dwell_s, true, "the dwell", "give seconds");
+  require_number(options.clearance_m, true, "the clearance", "give metres");
+  require_number(options.gimbal_rate_deg_s, false, "the rate of the gimbal", "give degrees per second");
+  if (!mission.as_written.tour) return options;
+  const TourSettings& tour = *mission.as_written.tour;
+  if (!options.speed_m_s) options.speed_m_s = tour.vehicle.speed_m_s;
+  if (!options.dwell_s) options.dwell_s = tour.dwell_s;
+  if (!options.clearance_m) options.clearance_m = tour.clearance_m;
+  if (!options.gimbal_rate_deg_s) options.gimbal_rate_deg_s = tour.gimbal_rate_deg_s;
+  return options;
+}
+
+/// What was found on the legs, leg after leg.
+std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const std::vector<JudgedTarget>& targets,
+                              const LegLimits& limits, double radius_m,
+                              const internal::core::ProgressReporter& reporter) {
+  std::vector<OnLeg> found(legs.size());
+  std::atomic<std::size_t> done = 0;
+  internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      reporter.report(done.load(), legs.size());
+      for (const JudgedTarget& target : targets) found[i].targets.push_back(target.look(legs[i], radius_m));
+      found[i].broken = limits.broken(legs[i], radius_m);
+      ++done;
+    }
+  });
+  return found;
+}
+
+GimbalUse gimbal_along(const Along& along, const Stretch& stretch, const Vec3& centre) {
+  GimbalUse use;
+  const FlightSpan span = along.span(stretch);
+  use.begin_yaw_deg = flight::aim_at(span.begin, centre).yaw_deg;
+  use.end_yaw_deg = flight::aim_at(span.end, centre).yaw_deg;
+  use.min_pitch_deg = std::numeric_limits<double>::infinity();
+  use.max_pitch_deg = -use.min_pitch_deg;
+  for (std::size_t leg = stretch.begin_leg; leg <= stretch.end_leg; ++leg) {
+    const Leg piece = {along.position(leg, leg == stretch.begin_leg ? stretch.begin_share : 0),
+                       along.position(leg, leg == stretch.end_leg ? stretch.end_share : 1)};
+    const flight::PitchRange pitch = flight::pitch_range(piece, centre);
+    use.min_pitch_deg = std::min(use.min_pitch_deg, pitch.min_deg);
+    use.max_pitch_deg = std::max(use.max_pitch_deg, pitch.max_deg);
+    if (!along.has_legs()) continue;
+    const double rate = flight::fastest_turn_deg_s(piece, centre, along.speed_m_s(leg));
+    if (!(rate <= use.rate_deg_s)) use.rate_deg_s = rate;  // NaN stays
+    if (std::isnan(use.rate_deg_s)) break;
+  }
+  return use;
+}
+
+/// One target, all legs.
+TargetCheck check_target(const JudgedTarget& target, std::size_t index, const std::vector<OnLeg>& legs,
+                         const Along& along) {
+  TargetCheck check;
+  check.name = target.name();
+  check.centre = target.centre();
+  std::vector<Stretch> seen;
+  std::map<std::pair<NotSeen::Kind, std::string>, std::vector<Stretch>> reasons;
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    const TargetOnLeg& on = legs[leg].targets[index];
+    flight::append(seen, leg, on.seen);
+    for (const auto& [reason, intervals] : on.reasons) flight::append(reasons[reason], leg, intervals);
+  }
+  check.seen = flight::spans_of(along, seen);
+  for (std::size_t i = 0; i < check.seen.size(); ++i) {
+    const bool by_time = !std::isnan(along.duration_s());
+    const auto measure = [&](const FlightSpan& span) { return by_time ? span.duration_s() : span.length_m(); };
+    if (!check.longest || measure(check.seen[i]) > measure(check.seen[*check.longest])) check.longest = i;
+  }
+  if (check.longest) check.gimbal = gimbal_along(along, seen[*check.longest], check.centre);
+  for (const auto& [reason, stretches] : reasons) {
+    check.not_seen.push_back({reason.first, reason.second, flight::spans_of(along, stretches)});
+  }
+  std::stable_sort(check.not_seen.begin(), check.not_seen.end(),
+                   [](const NotSeen& a, const NotSeen& b) { return a.length_m() > b.length_m(); });
+  return check;
+}
+
+std::vector<BrokenLimit> broken_limits(const std::vector<OnLeg>& legs, const Along& along) {
+  std::vector<BrokenLimit> result;
+  std::map<std::string, std::pair<std::size_t, std::vector<Stretch>>> by_name;
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    for (const LegBreak& limit : legs[leg].broken) {
+      const auto [entry, is_new] = by_name.try_emplace(limit.limit, result.size(), std::vector<Stretch>());
+      if (is_new) {
+        result.push_back({limit.limit,
+                          {},
+                          limit.worst,
+                          limit.unit == LegBreak::Unit::metres ? "m" : "degrees",
+                          along.at_m(leg, limit.worst_share),
+                          along.position(leg, limit.worst_share)});
+      }
+      BrokenLimit& broken = result[entry->second.first];
+      if (limit.worst > broken.worst) {
+        broken.worst = limit.worst;
+        broken.worst_at_m = along.at_m(leg, limit.worst_share);
+        broken.worst_at = along.position(leg, limit.worst_share);
+      }
+      flight::append(entry->second.second, leg, limit.intervals);
+    }
+  }
+  for (const auto& [name, entry] : by_name) result[entry.first].spans = flight::spans_of(along, entry.second);
+  return result;
+}
+
+NearestPass nearest_pass(const std::vector<Leg>& legs, const PreparedScene& scene, const Along& along, double radius_m,
+                         const Progress& progress) {
+  LegDistanceOptions options;
+  options.without_ground = true;
+  const std::vector<LegDistance> distances = LegDistances(scene, options).nearest(legs, progress);
+  NearestPass nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const LegDistance& at = distances[i];
+    if (!(at.distance_m < least)) continue;
+    least = at.distance_m;
+    nearest = {std::max(0.0, at.distance_m - radius_m), along.at_m(i, at.share), along.position(i, at.share), at.point,
+               at.name};
+  }
+  return nearest;
+}
+
+/// What is required and does not hold.
+std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheckOptions& options) {
+  using internal::core::format;
+  using internal::core::number_text;
+  std::vector<std::string> failures;
+  const double dwell = options.dwell_s.value_or(0);
+  for (const TargetCheck& target : check.targets) {
+    if (!target.longest) {
+      failures.push_back(target.name + " is nowhere seen whole");
+      continue;
+    }
+    const FlightSpan& longest = target.seen[*target.longest];
+    if (dwell > 0 && !(longest.duration_s() >= dwell)) {
+      failures.push_back(format("{} is seen whole for {} s without a break, and {} s are asked for", target.name,
+                                number_text(longest.duration_s()), number_text(dwell)));
+    }
+    if (options.gimbal_rate_deg_s && target.gimbal->rate_deg_s > *options.gimbal_rate_deg_s) {
+      failures.push_back(format("the camera would have to turn by {} degrees per second to keep {}, and can by {}",
+                                number_text(target.gimbal->rate_deg_s), target.name,
+                                number_text(*options.gimbal_rate_deg_s)));
+    }
+  }
+  for (const BrokenLimit& limit : check.broken) {
+    failures.push_back(std::isfinite(limit.worst)
+                           ? format("{} is broken by {} {}, {} m along the flight", limit.name,
+                                    number_text(limit.worst), limit.unit, number_text(limit.worst_at_m))
+                           : format("{} is broken, {} m along the flight", limit.name, number_text(limit.worst_at_m)));
+  }
+  if (options.clearance_m && check.nearest.distance_m < *options.clearance_m) {
+    failures.push_back(format("{} is {} m away, {} m along the flight, and {} m are asked for",
+                              check.nearest.object.empty() ? "the scene" : check.nearest.object,
+                              number_text(check.nearest.distance_m), number_text(check.nearest.at_m),
+                              number_text(*options.clearance_m)));
+  }
+  return failures;
+}
+
+/// Of a flight that is one point, a leg without length.
+std::vector<Leg> legs_of(const Flight& flight) {
+  std::vector<Leg> legs;
+  for (std::size_t i = 0; i < flight.leg_count(); ++i) legs.push_back(flight.leg(i));
+  if (legs.empty()) legs.push_back({flight.points.front().position, flight.points.front().position});
+  return legs;
+}
+
+}  // namespace
+
+double NotSeen::length_m() const {
+  double length = 0;
+  for (const FlightSpan& span : spans) length += span.length_m();
+  return length;
+}
+
+const char* name_of(NotSeen::Kind kind) {
+  switch (kind) {
+    case NotSeen::Kind::hidden:
+      return "hidden";
+    case NotSeen::Kind::out_of_range:
+      return "out_of_range";
+    case NotSeen::Kind::behind:
+      return "behind";
+    case NotSeen::Kind::limit:
+      return "limit";
+  }
+  return "";
+}
+
+FlightCheck check_flight(const Mission& mission, const Flight& flight, const FlightCheckOptions& given,
+                         const Progress& progress) {
+  check_flight_points(flight);
+  const FlightCheckOptions options = filled(mission, given);
+  const Along along(flight, options.speed_m_s.value_or(std::numeric_limits<double>::quiet_NaN()));
+  if (options.dwell_s.value_or(0) > 0 && std::isnan(along.duration_s())) {
+    throw Error(ErrorCode::missing_key, "a dwell is asked for, and the plan does not say how fast it is flown",
+                "flight", "give the speed, or ask for no dwell");
+  }
+  FlightCheck check;
+  check.length_m = along.length_m();
+  check.duration_s = along.duration_s();
+  check.tube_radius_m = options.tube_radius_m + flight.chord_error_m;
+  check.point_at_m = along.point_at_m();
+  check.arrival_s = along.arrival_s();
+
+  const PreparedScene scene(mission.scene(), progress);
+  std::vector<JudgedTarget> targets;
+  for (std::size_t i = 0; i < volume_count(mission); ++i) targets.emplace_back(one_volume(mission, i), scene);
+  const std::vector<Leg> legs = legs_of(flight);
+  const internal::core::ProgressReporter reporter(progress);
+  reporter.begin("checking the flight");
+  const std::vector<OnLeg> found =
+      judge_legs(legs, targets, LegLimits(mission.navigation), check.tube_radius_m, reporter);
+  reporter.finish();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    check.targets.push_back(check_target(targets[i], i, found, along));
+  }
+  check.broken = broken_limits(found, along);
+  check.nearest = nearest_pass(legs, scene, along, check.tube_radius_m, progress);
+  check.failures = failures_of(check, options);
+  return check;
+}
+
+}  // namespace vantage

@@ -1,0 +1,146 @@
+// What a check found, as JSON and as a table.
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/format.h"
+#include "core/text.h"
+#include "vantage/flight_check.h"
+#include "vantage/georeference.h"
+#include "vantage/input.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no number for what is not known or infinite.
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Positions as they are told: with longitude and latitude where these are known.
+class PositionJson {
+ public:
+  explicit PositionJson(const Georeference* georeference) : georeference_(georeference) {}
+
+  Json operator()(const Vec3& position) const {
+    Json json = {{"x_m", position.x()}, {"y_m", position.y()}, {"z_m", position.z()}};
+    if (georeference_ == nullptr) return json;
+    const std::array<Eigen::Vector2d, 1> at = {Eigen::Vector2d(position.head<2>())};
+    const Eigen::Vector2d lonlat = positions_in_crs(*georeference_, "EPSG:4326", at).front();
+    json["lon_deg"] = lonlat.x();
+    json["lat_deg"] = lonlat.y();
+    return json;
+  }
+
+ private:
+  const Georeference* georeference_;
+};
+
+Json span_json(const FlightSpan& span, const PositionJson& position) {
+  return {{"begin_m", span.begin_m},          {"end_m", span.end_m},           {"begin_s", number_json(span.begin_s)},
+          {"end_s", number_json(span.end_s)}, {"begin", position(span.begin)}, {"end", position(span.end)}};
+}
+
+Json spans_json(const std::vector<FlightSpan>& spans, const PositionJson& position) {
+  Json json = Json::array();
+  for (const FlightSpan& span : spans) json.push_back(span_json(span, position));
+  return json;
+}
+
+Json target_json(const TargetCheck& target, const PositionJson& position) {
+  Json json;
+  json["name"] = target.name;
+  json["seen"] = spans_json(target.seen, position);
+  json["longest"] = target.longest ? span_json(target.seen[*target.longest], position) : Json(nullptr);
+  json["gimbal"] = nullptr;
+  if (target.gimbal) {
+    json["gimbal"] = {{"min_pitch_deg", target.gimbal->min_pitch_deg},
+                      {"max_pitch_deg", target.gimbal->max_pitch_deg},
+                      {"begin_yaw_deg", target.gimbal->begin_yaw_deg},
+                      {"end_yaw_deg", target.gimbal->end_yaw_deg},
+                      {"rate_deg_s", number_json(target.gimbal->rate_deg_s)}};
+  }
+  json["not_seen"] = Json::array();
+  for (const NotSeen& reason : target.not_seen) {
+    json["not_seen"].push_back({{"kind", name_of(reason.kind)},
+                                {"name", reason.name},
+                                {"length_m", reason.length_m()},
+                                {"spans", spans_json(reason.spans, position)}});
+  }
+  return json;
+}
+
+/// A field of a table: quoted where it must be (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+void append_rows(std::string& table, const std::string& target, std::string_view state, const std::string& what,
+                 const std::vector<FlightSpan>& spans) {
+  const auto seconds = [](double value) { return std::isnan(value) ? std::string() : shortest(value); };
+  for (const FlightSpan& span : spans) {
+    table +=
+        internal::core::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(target), state, field(what),
+                               shortest(span.begin_m), shortest(span.end_m), seconds(span.begin_s), seconds(span.end_s),
+                               shortest(span.begin.x()), shortest(span.begin.y()), shortest(span.begin.z()),
+                               shortest(span.end.x()), shortest(span.end.y()), shortest(span.end.z()));
+  }
+}
+
+}  // namespace
+
+std::string json_text(const FlightCheck& check, const Georeference* georeference) {
+  const PositionJson position(georeference);
+  Json json;
+  json["passes"] = check.passes();
+  json["failures"] = check.failures;
+  json["length_m"] = check.length_m;
+  json["duration_s"] = number_json(check.duration_s);
+  json["tube_radius_m"] = check.tube_radius_m;
+  json["targets"] = Json::array();
+  for (const TargetCheck& target : check.targets) json["targets"].push_back(target_json(target, position));
+  json["broken"] = Json::array();
+  for (const BrokenLimit& limit : check.broken) {
+    json["broken"].push_back({{"limit", limit.name},
+                              {"worst", number_json(limit.worst)},
+                              {"unit", limit.unit},
+                              {"worst_at_m", limit.worst_at_m},
+                              {"worst_at", position(limit.worst_at)},
+                              {"spans", spans_json(limit.spans, position)}});
+  }
+  json["nearest"] = nullptr;
+  if (std::isfinite(check.nearest.distance_m)) {
+    json["nearest"] = {{"distance_m", check.nearest.distance_m},
+                       {"at_m", check.nearest.at_m},
+                       {"object", check.nearest.object},
+                       {"position", position(check.nearest.position)},
+                       {"point", position(check.nearest.point)}};
+  }
+  json["points"] = Json::array();
+  for (std::size_t i = 0; i < check.point_at_m.size(); ++i) {
+    json["points"].push_back({{"at_m", check.point_at_m[i]}, {"arrival_s", number_json(check.arrival_s[i])}});
+  }
+  constexpr int kIndentation = 2;
+  return internal::core::escaped_json(json.dump(kIndentation, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+std::string csv_text(const FlightCheck& check) {
+  std::string table =
+      "target,state,what,begin_m,end_m,begin_s,end_s,begin_x_m,begin_y_m,begin_z_m,end_x_m,end_y_m,end_z_m\n";
+  for (const TargetCheck& target : check.targets) {
+    append_rows(table, target.name, "seen", "", target.seen);
+    for (const NotSeen& reason : target.not_seen) {
+      append_rows(table, target.name, name_of(reason.kind), reason.name, reason.spans);
+    }
+  }
+  for (const BrokenLimit& limit : check.broken) append_rows(table, "", "broken", limit.name, limit.spans);
+  return table;
+}
+
+}  // namespace vantage

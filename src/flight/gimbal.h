@@ -1,0 +1,28 @@
+// How a camera must look from a flight to keep a point in its centre.
+#pragma once
+
+#include <limits>
+
+#include "vantage/flight.h"
+#include "vantage/geometry.h"
+
+namespace vantage::internal::flight {
+
+/// Clockwise from north (+y), and up from the horizon, degrees. Straight up or down the yaw is 0.
+struct Aim {
+  double yaw_deg = 0, pitch_deg = 0;
+};
+Aim aim_at(const Vec3& from, const Vec3& to);
+
+/// Of the pitch along a straight piece of a flight.
+struct PitchRange {
+  double min_deg = 0, max_deg = 0;
+};
+/// Exact: the ends, and the one place where the pitch may turn.
+PitchRange pitch_range(const Leg& piece, const Vec3& to);
+
+/// The fastest turn of the line of sight along a straight piece that is flown at this speed; infinite where it passes
+/// through the point.
+double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s);
+
+}  // namespace vantage::internal::flight
