@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "flight/tour/cells.h"
+#include "flight/tour/pairs_bound.h"
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/touring_program.h"
 #include "support/random.h"
@@ -83,9 +84,9 @@ TEST(TourBound, OfRegionsThatAreKnown) {
 
 TEST(TourBound, IsTightForRandomConvexRegions) {
   Random random(21);
-  for (int round = 0; round < 25; ++round) {
+  for (int round = 0; round < 16; ++round) {
     SCOPED_TRACE(round);
-    const int count = random.integer(2, 6);
+    const int count = random.integer(2, 5);
     const Vec3 origin = random.chance(0.5) ? Vec3(5e5, 4.8e6, 300) : Vec3(0, 0, 0);
     const double size = random.chance(0.3) ? 0.01 : 100;
     std::vector<OuterRegion> regions;
@@ -113,6 +114,42 @@ TEST(TourBound, IsTightForRandomConvexRegions) {
     EXPECT_LE(bound.length_m, incumbent.length_m + 1e-6 * size);
     EXPECT_GE(bound.length_m, incumbent.length_m * (1 - 2e-4) - 1e-5 * size);
     EXPECT_TRUE(bound.gap_reached || incumbent.length_m < 1e-3 * size);
+  }
+}
+
+/// The bound by pairs, which takes new vectors along other tours: as tight as the hulls allow.
+TEST(TourBound, ByPairsIsTightForRandomConvexRegions) {
+  if (!has_pairs_bound()) GTEST_SKIP() << "built without a solver of linear programs";
+  Random random(24);
+  for (int round = 0; round < 12; ++round) {
+    SCOPED_TRACE(round);
+    const Vec3 origin = random.chance(0.5) ? Vec3(5e5, 4.8e6, 300) : Vec3(0, 0, 0);
+    const double size = random.chance(0.3) ? 0.01 : 100;
+    const bool closed = random.chance(0.5), dwell = random.chance(0.3);
+    std::vector<OuterRegion> regions;
+    BoundProblem problem;
+    for (int i = 0; i < 5; ++i) {
+      const Vec3 min = origin + size * random.point(-1, 1);
+      regions.push_back(box_region(min, min + size * random.point(0.01, 0.4)));
+      if (dwell) problem.dwell_m.push_back(size * random.uniform(0, 0.2));
+    }
+    problem.regions = regions;
+    problem.closed = closed;
+    problem.start = origin + size * random.point(-1, 1);
+    regions.push_back(OuterRegion::point(*problem.start, "home"));
+    std::vector<double> dwells = problem.dwell_m;
+    if (dwell) dwells.push_back(0);
+    std::vector<std::size_t> order;
+    std::vector<Vec3> points;
+    Incumbent incumbent;
+    incumbent.length_m = shortest(regions, closed, order, points, dwells);
+    BoundOptions options;
+    options.gap = 1e-4;
+    options.by_insertion = false;
+    const TourBound bound = bound_tour(problem, incumbent, options);
+    EXPECT_EQ(bound.kind, BoundKind::pairs);
+    EXPECT_LE(bound.length_m, incumbent.length_m + 1e-6 * size);
+    EXPECT_GE(bound.length_m, dwell ? 0 : incumbent.length_m * (1 - 1e-3) - 1e-4 * size);
   }
 }
 

@@ -1,10 +1,10 @@
-"""Reads instances of the generalised travelling salesman problem with neighbourhoods in 3D (GTSPN; Gentilini, Margot and
-Shimada 2013), and makes closed meshes of them: each set is a union of convex bodies (polyhedra, ellipsoids, and
+"""Reads instances of the generalised travelling salesman problem with neighbourhoods in 3D (GTSPN; Gentilini, Margot
+and Shimada 2013), and makes closed meshes of them: each set is a union of convex bodies (polyhedra, ellipsoids, and
 intersections of the two).
 
-A body is stood for by a polyhedron that holds it ("outer", for bounds) or lies in it ("inner", for tours). Polyhedra are
-the same in both. An ellipsoid is the image of a ball; round the ball lies a polyhedron with facets that touch it from
-outside, in the ball one with corners on it. Nothing but the standard library is needed.
+A body is stood for by a polyhedron that holds it ("outer", for bounds) or lies in it ("inner", for tours). Polyhedra
+are the same in both. An ellipsoid is the image of a ball; round the ball lies a polyhedron with facets that touch it
+from outside, in the ball one with corners on it. Nothing but the standard library is needed.
 """
 
 import math

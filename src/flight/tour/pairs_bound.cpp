@@ -8,6 +8,7 @@
 #include <queue>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/stopwatch.h"
 #include "flight/tour/linear_program.h"
@@ -42,16 +43,32 @@ struct Fixed {
   bool is_in(std::size_t i, std::size_t j) const { return inside.contains(edge_of(i, j)); }
 };
 
+/// The shortest polyline in an order, and the vectors of its legs, which prove its length; without one points to begin with.
+struct Along {
+  std::vector<Vec3> points;        // of each region
+  std::vector<std::size_t> stops;  // in order, ends included
+  std::vector<Direction> legs;     // from each stop to the next one
+};
+
 /// The vectors of all pairs and the costs that follow.
 class PairCosts {
  public:
-  PairCosts(const Cells& cells, const TourSpace& space, const std::vector<Vec3>& anchors)
+  PairCosts(const Cells& cells, const TourSpace& space, const Along& along)
       : regions_(cells.region_count()), count_(regions_ + (space.closed ? 0 : 1)) {
     vectors_.resize(count_);
     for (std::size_t i = 0; i < count_; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const bool anywhere = i >= regions_;
-        vectors_[i].push_back(anywhere ? Direction{} : direction_of(unit_of(anchors[i] - anchors[j])));
+        vectors_[i].push_back(anywhere ? Direction{} : direction_of(unit_of(along.points[i] - along.points[j])));
+      }
+    }
+    // Where legs of the tour have no length, or nearly so, only these vectors prove that they need none.
+    for (std::size_t k = 0; k < along.legs.size(); ++k) {
+      const std::size_t from = along.stops[k], to = along.stops[(k + 1) % along.stops.size()];
+      Direction& vector = vectors_[std::max(from, to)][std::min(from, to)];
+      vector = along.legs[k];
+      if (to < from) {
+        for (std::int32_t& x : vector) x = -x;
       }
     }
     costs_.assign(count_, std::vector<double>(count_ * count_, 0.0));
@@ -326,8 +343,8 @@ std::vector<std::vector<bool>> short_cuts(const std::vector<std::vector<double>>
 
 /// Vectors along a tour, and the program of their costs.
 struct Frame {
-  Frame(const Cells& cells, const TourSpace& space, const std::vector<Vec3>& anchors, double penalty)
-      : costs(cells, space, anchors), master(costs, penalty) {}
+  Frame(const Cells& cells, const TourSpace& space, const Along& along, double penalty)
+      : costs(cells, space, along), master(costs, penalty) {}
   PairCosts costs;
   Master master;
   std::set<Edge> tour;  // the edges of the one along which they are
@@ -339,7 +356,7 @@ class Search {
          const std::vector<std::size_t>& order, const PairsOptions& options, const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     n_ = cells.region_count() + (space.closed ? 0 : 1);
-    add_frame(anchors, order);
+    add_frame(order.empty() ? Along{anchors, {}, {}} : along(order), order);
     nodes_.emplace_back();
     if (!space.closed) {
       const std::size_t anywhere = n_ - 1;
@@ -377,13 +394,14 @@ class Search {
 
   bool is_late() const { return watch_.seconds() >= options_.time_limit_s; }
 
-  void add_frame(const std::vector<Vec3>& anchors, const std::vector<std::size_t>& order) {
+  void add_frame(const Along& along, const std::vector<std::size_t>& order) {
+    const std::vector<Vec3>& anchors = along.points;
     Box box;
     for (const Vec3& a : anchors) box.extend(a);
     size_ = std::max((box.max - box.min).norm(), 1e-9);
     double around = 0;
     for (std::size_t i = 0; i + 1 < anchors.size(); ++i) around += (anchors[i + 1] - anchors[i]).norm();
-    frames_.push_back(std::make_unique<Frame>(cells_, space_, anchors, around + 4 * size_));
+    frames_.push_back(std::make_unique<Frame>(cells_, space_, along, around + 4 * size_));
     Frame& frame = *frames_.back();
     const std::size_t regions = cells_.region_count();
     for (std::size_t i = 0; i < regions; ++i) {
@@ -410,9 +428,10 @@ class Search {
     }
   }
 
-  /// The shortest polyline in this order.
-  std::vector<Vec3> anchors_along(const std::vector<std::size_t>& order) const {
-    std::vector<std::size_t> stops = order;
+  Along along(const std::vector<std::size_t>& order) const {
+    Along result;
+    std::vector<std::size_t>& stops = result.stops;
+    stops = order;
     if (!space_.closed) {
       stops.insert(stops.begin(), *space_.first);
       if (space_.last) stops.push_back(*space_.last);
@@ -420,10 +439,11 @@ class Search {
     TouringProgram program;
     program.closed = space_.closed;
     for (const std::size_t r : stops) program.hulls.push_back(cells_[r].hull.get());
-    const TouringSolution solution = solve_touring(program);
-    std::vector<Vec3> anchors(cells_.region_count());
-    for (std::size_t k = 0; k < stops.size(); ++k) anchors[stops[k]] = solution.points[k];
-    return anchors;
+    TouringSolution solution = solve_touring(program);
+    result.points.resize(cells_.region_count());
+    for (std::size_t k = 0; k < stops.size(); ++k) result.points[stops[k]] = solution.points[k];
+    result.legs = std::move(solution.directions);
+    return result;
   }
 
   /// For edges that are no columns: the largest p_ij that keep the pairs at i from costing less than 0, the nearest first.
@@ -520,15 +540,20 @@ class Search {
           if (w[i][j] > 0.5) tour.insert({j, i});
         }
       }
+<<<<<<< HEAD
       const std::set<Edge>& along = frames_[node.work]->tour;
       if (!order.empty() && tour == along) return;  // the shortest one, bounded as well as can be
       if (order.empty() || turn == kMostTurnsKept || frames_.size() >= kMostFrames) {
+=======
+      if (!order.empty() && tour == frames_[node.work]->tour) return;  // the shortest one, bounded as well as can be
+      if (order.empty() || turn == kMostTurns || frames_.size() >= kMostFrames) {
+>>>>>>> bounds
         choose_split(number, w, tour);
         break;
       }
       const auto known = std::find_if(frames_.begin(), frames_.end(), [&](const auto& f) { return f->tour == tour; });
       node.work = static_cast<std::size_t>(known - frames_.begin());
-      if (known == frames_.end()) add_frame(anchors_along(order), order);
+      if (known == frames_.end()) add_frame(along(order), order);
     }
     Node& node = nodes_[number];
     if (!node.duals.of_region.empty()) return;

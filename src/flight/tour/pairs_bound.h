@@ -66,8 +66,8 @@ struct PairsBound {
 /// Whether this build has a solver of linear programs (VANTAGE_WITH_HIGHS).
 bool has_pairs_bound();
 
-/// For five regions or more. `anchors`: of each the point where the tour is expected, about the origin of the cells;
-/// `order`: of that tour, without first and last, or empty. Throws Error(cancelled).
+/// For five regions or more. `order`: of a tour that is known, without first and last, or empty. `anchors`: without
+/// one, of each region the point where a tour is expected, about the origin of the cells. Throws Error(cancelled).
 PairsBound pairs_bound(const Cells& cells, const TourSpace& space, const std::vector<Vec3>& anchors,
                        const std::vector<std::size_t>& order, const PairsOptions& options,
                        const core::ProgressReporter& progress);
