@@ -546,7 +546,7 @@ class Search {
       if (order.empty() || turn == kMostTurnsKept || frames_.size() >= kMostFrames) {
 =======
       if (!order.empty() && tour == frames_[node.work]->tour) return;  // the shortest one, bounded as well as can be
-      if (order.empty() || turn == kMostTurns || frames_.size() >= kMostFrames) {
+      if (order.empty() || turn == kMostTurnsKept || frames_.size() >= kMostFrames) {
 >>>>>>> bounds
         choose_split(number, w, tour);
         break;
