@@ -50,9 +50,9 @@ struct Node {
   std::vector<std::uint32_t> children;
 };
 
-class Search {
+class InsertionSearch {
  public:
-  Search(Cells& cells, const TourSpace& space, const InsertionOptions& options, const core::ProgressReporter& progress)
+  InsertionSearch(Cells& cells, const TourSpace& space, const InsertionOptions& options, const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     Box all;
     for (std::size_t r = 0; r < cells_.region_count(); ++r) all.extend(cells_[r].hull->box());
@@ -510,7 +510,7 @@ class Search {
 
 InsertionBound insertion_bound(Cells& cells, const TourSpace& space, const InsertionOptions& options,
                                const core::ProgressReporter& progress) {
-  return Search(cells, space, options, progress).run();
+  return InsertionSearch(cells, space, options, progress).run();
 }
 
 }  // namespace vantage::internal::flight::tour
