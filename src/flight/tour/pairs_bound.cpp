@@ -19,16 +19,16 @@ namespace {
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = 0x1p-53;
-constexpr double kDualUnit = 0x1p-30;     // metres; duals are whole multiples
+constexpr double kDualUnit = 0x1p-30;  // metres; duals are whole multiples
 constexpr std::size_t kFirstNeighbours = 8;
-constexpr std::size_t kAllEdges = 16;     // of so many regions all edges are columns from the start
+constexpr std::size_t kAllEdges = 16;  // of so many regions all edges are columns from the start
 constexpr std::size_t kMostEdgesAtOnce = 60;
 constexpr std::size_t kMostPairsAtOnce = 3;  // of a region and one of its edges
-constexpr int kMostRounds = 60;           // of columns and cuts, for one node
-constexpr double kPriced = 1e-7;          // of the size: reduced costs as low as that are 0
+constexpr int kMostRounds = 60;              // of columns and cuts, for one node
+constexpr double kPriced = 1e-7;             // of the size: reduced costs as low as that are 0
 constexpr double kFractional = 1e-6;
 constexpr std::size_t kMostOrders = 20;
-constexpr std::size_t kMostTurns = 2;     // of the vectors, at one node
+constexpr std::size_t kMostTurns = 2;  // of the vectors, at one node
 constexpr std::size_t kMostFrames = 60;
 
 double to_dual(double value) { return std::round(value / kDualUnit) * kDualUnit; }
@@ -43,7 +43,8 @@ struct Fixed {
   bool is_in(std::size_t i, std::size_t j) const { return inside.contains(edge_of(i, j)); }
 };
 
-/// The shortest polyline in an order, and the vectors of its legs, which prove its length; without one points to begin with.
+/// The shortest polyline in an order, and the vectors of its legs, which prove its length; without one points to begin
+/// with.
 struct Along {
   std::vector<Vec3> points;        // of each region
   std::vector<std::size_t> stops;  // in order, ends included
@@ -112,7 +113,8 @@ class PairCosts {
   double error_ = 0;
 };
 
-/// What is proved by some duals, whatever they are: see the head of pairs_bound.h. All that rounding may add is taken off.
+/// What is proved by some duals, whatever they are: see the head of pairs_bound.h. All that rounding may add is taken
+/// off.
 double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& duals) {
   const std::size_t n = costs.count();
   double sum = 0, size = 0;
@@ -161,8 +163,8 @@ double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& du
       add(fixed.is_in(i, j) ? left : std::min(0.0, left));
     }
   }
-  // Each term has few roundings of what it is made of, and as many as there are sets; there are at most n + n (n - 1) / 2
-  // and two of each set and region; the sum has one rounding for each term, of no more than all sizes.
+  // Each term has few roundings of what it is made of, and as many as there are sets; there are at most n + n (n - 1) /
+  // 2 and two of each set and region; the sum has one rounding for each term, of no more than all sizes.
   const double nn = static_cast<double>(n), sets = static_cast<double>(duals.of_set.size());
   const double terms = 2 * nn + nn * nn + sets;
   return sum - costs.error_m() - kUnit * (terms * (8 + sets) * largest + terms * size);
@@ -282,8 +284,8 @@ class Master {
   std::vector<std::vector<bool>> sets_;
 };
 
-/// Sets that a solution leaves less than twice: the parts of the graph, or else the cuts of the phases of Stoer and Wagner
-/// 1997.
+/// Sets that a solution leaves less than twice: the parts of the graph, or else the cuts of the phases of Stoer and
+/// Wagner 1997.
 std::vector<std::vector<bool>> short_cuts(const std::vector<std::vector<double>>& weights) {
   const std::size_t n = weights.size();
   std::vector<std::vector<bool>> found;
@@ -321,7 +323,8 @@ std::vector<std::vector<bool>> short_cuts(const std::vector<std::vector<double>>
     std::size_t last = kNone, before = kNone;
     double cut = 0;
     while (!left.empty()) {
-      const auto most = std::max_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return tie[a] < tie[b]; });
+      const auto most =
+          std::max_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return tie[a] < tie[b]; });
       before = last;
       last = *most;
       cut = tie[last];
@@ -368,7 +371,7 @@ class Search {
   PairsBound run() {
     evaluate(0);
     const double first = nodes_[0].bound;
-    while (!heap_.empty() && !stopped_) {
+    while (!heap_.empty() && !stopped_ && first >= options_.worth_m) {
       const double low = -std::get<0>(heap_.top());
       if (low >= options_.enough_m) break;
       progress_.report(std::clamp((low - first) / std::max(options_.enough_m - first, 1e-9), 0.0, 1.0));
@@ -387,7 +390,7 @@ class Search {
     PairsDuals duals;
     std::size_t frame = 0;
     std::size_t work = 0;  // the frame in which the program is solved
-    Edge split = {};  // that is fixed in the children, or where to go on
+    Edge split = {};       // that is fixed in the children, or where to go on
     bool branched = false;
     std::array<std::size_t, 2> children = {};
   };
@@ -446,7 +449,8 @@ class Search {
     return result;
   }
 
-  /// For edges that are no columns: the largest p_ij that keep the pairs at i from costing less than 0, the nearest first.
+  /// For edges that are no columns: the largest p_ij that keep the pairs at i from costing less than 0, the nearest
+  /// first.
   void complete(const Frame& frame, const Fixed& fixed, PairsDuals& duals) const {
     const Master& master = frame.master;
     const PairCosts& costs = frame.costs;
@@ -509,13 +513,14 @@ class Search {
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (master.has_edge(i, j) || fixed.is_out(i, j)) continue;
-        const double reduced = duals.of_edge_at[i][j] + duals.of_edge_at[j][i] - duals.of_region[i] -
-                               duals.of_region[j] - of_sets[i][j];
+        const double reduced =
+            duals.of_edge_at[i][j] + duals.of_edge_at[j][i] - duals.of_region[i] - duals.of_region[j] - of_sets[i][j];
         if (reduced < low) bad.emplace_back(reduced, Edge{j, i});
       }
     }
     std::sort(bad.begin(), bad.end());
-    for (std::size_t b = 0; b < std::min(bad.size(), kMostEdgesAtOnce); ++b) master.add_edge(bad[b].second[0], bad[b].second[1]);
+    for (std::size_t b = 0; b < std::min(bad.size(), kMostEdgesAtOnce); ++b)
+      master.add_edge(bad[b].second[0], bad[b].second[1]);
     return added + std::min(bad.size(), kMostEdgesAtOnce);
   }
 
