@@ -25,9 +25,7 @@ using testing::expect_code;
 using testing::make_box_mesh;
 using testing::Random;
 
-OuterRegion box_region(const Vec3& min, const Vec3& max) {
-  return OuterRegion::given(make_box_mesh(min, max), "box");
-}
+OuterRegion box_region(const Vec3& min, const Vec3& max) { return OuterRegion::given(make_box_mesh(min, max), "box"); }
 
 /// The shortest tour of convex regions, by trying all orders.
 double shortest(const std::vector<OuterRegion>& regions, bool closed, std::vector<std::size_t>& best_order,

@@ -1,4 +1,5 @@
-// Certificates of bounds of tours: a program that shares nothing with vantage accepts them, and nothing more than they say.
+// Certificates of bounds of tours: a program that shares nothing with vantage accepts them, and nothing more than they
+// say.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,8 +30,8 @@ using testing::TemporaryDirectory;
 using testing::write_bytes;
 
 testing::ProgramRun checked(const std::filesystem::path& certificate) {
-  return testing::run_program("/usr/bin/env", {"python3", (testing::source_folder() / "tools/check_tour.py").string(),
-                                               certificate.string()});
+  return testing::run_program(
+      "/usr/bin/env", {"python3", (testing::source_folder() / "tools/check_tour.py").string(), certificate.string()});
 }
 
 /// Another bound in the same certificate.

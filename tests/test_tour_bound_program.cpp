@@ -150,7 +150,8 @@ TEST(TourBoundProgram, IsBelowEveryPolylineAndTight) {
       for (const Hull& hull : hulls) {
         const auto last = static_cast<int>(hull.points().size()) - 1;
         const double share = random.uniform(0, 1);
-        any.push_back(share * hull.points()[random.integer(0, last)] + (1 - share) * hull.points()[random.integer(0, last)]);
+        any.push_back(share * hull.points()[random.integer(0, last)] +
+                      (1 - share) * hull.points()[random.integer(0, last)]);
       }
       EXPECT_LE(solution.bound_m, touring_length(program, any) + 1e-12 * size);
     }

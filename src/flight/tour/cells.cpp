@@ -9,15 +9,23 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
+<<<<<<< HEAD
 constexpr double kCellRounding = 0x1p-53;
 constexpr double kFarEnough = 0.3;    // known halves are used where both lie so far from the point, of what is usual
 constexpr double kLeastShare = 0.1;   // planes keep so far from the ends of a cell
+=======
+constexpr double kUnit = 0x1p-53;
+constexpr double kFarEnough = 0.3;   // known halves are used where both lie so far from the point, of what is usual
+constexpr double kLeastShare = 0.1;  // planes keep so far from the ends of a cell
+>>>>>>> bounds
 
 /// The planes that are tried: the axes, and those between two of them.
 constexpr std::array<std::array<std::int8_t, 3>, 9> kNormals = {
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}};
 
-Vec3 vector_of_normal(const std::array<std::int8_t, 3>& normal) { return {normal[0] * 1.0, normal[1] * 1.0, normal[2] * 1.0}; }
+Vec3 vector_of_normal(const std::array<std::int8_t, 3>& normal) {
+  return {normal[0] * 1.0, normal[1] * 1.0, normal[2] * 1.0};
+}
 
 /// What of a convex polygon has height >= 0.
 void clip(const std::vector<Vec3>& polygon, const Vec3& normal, double offset, std::vector<Vec3>& kept) {
@@ -115,8 +123,8 @@ bool Cells::meets_segment(std::size_t region, const Vec3& from, const Vec3& to) 
   return shape.tree->any_near(box, meets) || distance_m(region, from) == 0;
 }
 
-/// Of the true cell: the plane is moved back by more than all that rounding does to corners and heights. So the cell that
-/// is kept holds the true one, but for how far its points were rounded along the way: Hull::moved_m.
+/// Of the true cell: the plane is moved back by more than all that rounding does to corners and heights. So the cell
+/// that is kept holds the true one, but for how far its points were rounded along the way: Hull::moved_m.
 std::unique_ptr<Cell> Cells::cut(std::size_t number, const CellPlane& plane) const {
   const Cell& cell = *cells_[number];
   const Vec3 normal = (plane.lower ? -1 : 1) * vector_of_normal(plane.normal);

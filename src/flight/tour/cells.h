@@ -1,8 +1,8 @@
 // The regions of a tour about a common origin, and the parts that planes cut them into.
 //
-// A cell is what of a region lies on the one side of some planes. Its hull is that of the region's triangles, clipped: a
-// corner of the hull of a closed set that a half-space clips lies on the set's boundary, or it would be between two others
-// in the plane. So no solids need be cut.
+// A cell is what of a region lies on the one side of some planes. Its hull is that of the region's triangles, clipped:
+// a corner of the hull of a closed set that a half-space clips lies on the set's boundary, or it would be between two
+// others in the plane. So no solids need be cut.
 #pragma once
 
 #include <array>
@@ -28,10 +28,10 @@ struct CellPlane {
 
 struct Cell {
   std::size_t region = 0;
-  std::optional<std::size_t> parent;  ///< a cell
-  CellPlane plane;                    ///< that cuts it from its parent
-  std::vector<std::vector<Vec3>> polygons;  ///< convex; about the origin
-  std::unique_ptr<Hull> hull;               ///< none where the cell is empty
+  std::optional<std::size_t> parent;               ///< a cell
+  CellPlane plane;                                 ///< that cuts it from its parent
+  std::vector<std::vector<Vec3>> polygons;         ///< convex; about the origin
+  std::unique_ptr<Hull> hull;                      ///< none where the cell is empty
   std::vector<std::array<std::size_t, 2>> halves;  ///< pairs of cells that cover it
 };
 
@@ -52,8 +52,8 @@ class Cells {
   double distance_m(std::size_t region, const Vec3& point) const;
   bool meets_segment(std::size_t region, const Vec3& from, const Vec3& to) const;
 
-  /// Two cells that together cover `cell`, and of which, if that can be had, neither hull holds `point` (about the origin).
-  /// Either may be empty.
+  /// Two cells that together cover `cell`, and of which, if that can be had, neither hull holds `point` (about the
+  /// origin). Either may be empty.
   std::array<std::size_t, 2> halves(std::size_t cell, const Vec3& point);
 
  private:

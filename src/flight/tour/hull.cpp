@@ -179,10 +179,8 @@ void Hull::add(const HalfSpace& half_space) {
 }
 
 NearestInHull Hull::nearest(const Vec3& point, double tolerance_m) const {
-  const Vec3 away =
-      nearest_to_origin(lowest(middle_ - point) - point, tolerance_m, [&](const Vec3& direction) -> Vec3 {
-        return lowest(direction) - point;
-      });
+  const Vec3 away = nearest_to_origin(lowest(middle_ - point) - point, tolerance_m,
+                                      [&](const Vec3& direction) -> Vec3 { return lowest(direction) - point; });
   return {point + away, away.norm()};
 }
 

@@ -1,5 +1,5 @@
-// The convex hull of points, asked through its points alone: lowest point in a direction, nearest point, half-spaces round
-// it. No facets are needed, so that nothing can go wrong where the points lie in a plane or on a line.
+// The convex hull of points, asked through its points alone: lowest point in a direction, nearest point, half-spaces
+// round it. No facets are needed, so that nothing can go wrong where the points lie in a plane or on a line.
 #pragma once
 
 #include <array>
@@ -41,10 +41,10 @@ class Hull {
 
   bool is_point() const { return extent_m_ == 0; }
   const std::vector<Vec3>& points() const { return points_; }
-  const Vec3& middle() const { return middle_; }    ///< of the box
-  const Vec3& inside() const { return inside_; }    ///< mean of the lowest points in many directions: deep inside
-  double extent_m() const { return extent_m_; }     ///< the box's diagonal
-  double reach_m() const { return reach_m_; }       ///< the largest coordinate, as a size
+  const Vec3& middle() const { return middle_; }  ///< of the box
+  const Vec3& inside() const { return inside_; }  ///< mean of the lowest points in many directions: deep inside
+  double extent_m() const { return extent_m_; }   ///< the box's diagonal
+  double reach_m() const { return reach_m_; }     ///< the largest coordinate, as a size
   double moved_m() const { return moved_m_; }
   const Box& box() const { return box_; }
   /// That hold it, each touching it: 26, and those that were added.

@@ -15,11 +15,11 @@ namespace vantage::internal::flight::tour {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kAtOnce = 4;      // programs that are solved at once
-constexpr std::size_t kLookedAt = 6;    // regions of which all places are bounded before one is chosen
+constexpr std::size_t kAtOnce = 4;    // programs that are solved at once
+constexpr std::size_t kLookedAt = 6;  // regions of which all places are bounded before one is chosen
 constexpr std::size_t kMostOrders = 20;
-constexpr double kPrecision = 0.01;     // of a program, in parts of the gap that is asked for
-constexpr double kTouches = 1e-6;       // of the size: a region so near to the polyline is met
+constexpr double kPrecision = 0.01;  // of a program, in parts of the gap that is asked for
+constexpr double kTouches = 1e-6;    // of the size: a region so near to the polyline is met
 
 /// Lengths of a detour by a point at distance d from a leg are not less than this.
 double least_detour(double distance, double leg) {
@@ -42,8 +42,8 @@ struct Node {
   bool solved = false, expanded = false, ended = false;
   std::uint32_t place = 0;  // in the parent's sequence: the stop behind which, or that is cut
   std::uint32_t cell = 0;
-  double own = 0, best = 0;  // bounds: of its own vectors; with those of its ancestors
-  std::vector<Direction> local;  // inserted, not solved: of the new legs
+  double own = 0, best = 0;             // bounds: of its own vectors; with those of its ancestors
+  std::vector<Direction> local;         // inserted, not solved: of the new legs
   std::vector<std::uint32_t> sequence;  // of cells; solved ones only, like what follows
   std::vector<Direction> directions;
   std::vector<Vec3> points;
@@ -163,8 +163,8 @@ class InsertionSearch {
 
   void push(std::uint32_t number) {
     const Node& node = nodes_[number];
-    const std::size_t depth = node.solved || node.origin == Origin::root ? node.sequence.size()
-                                                                         : nodes_[node.parent].sequence.size() + 1;
+    const std::size_t depth =
+        node.solved || node.origin == Origin::root ? node.sequence.size() : nodes_[node.parent].sequence.size() + 1;
     heap_.emplace(-node.best, depth, ~number);
   }
 
@@ -287,7 +287,9 @@ class InsertionSearch {
     const bool is_end = !space_.closed && place.leg + 1 == node.points.size();
     const double least = 1e-5 * size_;
     const Direction known = is_end ? Direction{} : node.directions[place.leg];
-    const auto towards = [&](const Vec3& vector) { return vector.norm() > least ? direction_of(vector.normalized()) : known; };
+    const auto towards = [&](const Vec3& vector) {
+      return vector.norm() > least ? direction_of(vector.normalized()) : known;
+    };
     std::vector<Direction> local = {towards(place.point - from)};
     if (!is_end && place.detour < least * 1e-2) local[0] = known;
     if (dwell_m(region) > 0) local.push_back({});
@@ -312,7 +314,8 @@ class InsertionSearch {
     return child;
   }
 
-  std::vector<Node> insert_everywhere(std::uint32_t parent, const std::vector<Place>& places, std::size_t region) const {
+  std::vector<Node> insert_everywhere(std::uint32_t parent, const std::vector<Place>& places,
+                                      std::size_t region) const {
     std::vector<Node> children;
     for (Place place : places) {
       measure(nodes_[parent], *cells_[region].hull, place);
@@ -379,8 +382,8 @@ class InsertionSearch {
     }
   }
 
-  /// A region that no leg meets, although the hull of one is met; the farthest from the polyline, as far as some points of
-  /// it tell.
+  /// A region that no leg meets, although the hull of one is met; the farthest from the polyline, as far as some points
+  /// of it tell.
   std::size_t missed_by_mesh(const Node& node, const std::vector<Place>& places, const std::vector<bool>& has) const {
     std::size_t farthest = kNone;
     double most = -1;
@@ -393,7 +396,8 @@ class InsertionSearch {
           near = 0;
           break;
         }
-        for (const double t : {0.0, 0.25, 0.5, 0.75}) near = std::min(near, cells_.distance_m(r, from + t * (to - from)));
+        for (const double t : {0.0, 0.25, 0.5, 0.75})
+          near = std::min(near, cells_.distance_m(r, from + t * (to - from)));
       }
       if (near > 2 * kTouches * size_ && near > most) {
         most = near;

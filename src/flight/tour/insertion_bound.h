@@ -1,9 +1,9 @@
 // Bound A of docs/theory.md, "Tours": a search over sequences of cells.
 //
-// A node of the tree is a sequence of cells; its bound is that of the shortest polyline through their hulls in this order.
-// A tour that visits more is not shorter (triangle inequality). If the polyline of a node misses a region, the region is
-// inserted at every place; if a point of it lies in the hull of a cell but not in the region, a plane cuts the cell. So the
-// children cover the parent, and the least bound of the leaves is one of all tours.
+// A node of the tree is a sequence of cells; its bound is that of the shortest polyline through their hulls in this
+// order. A tour that visits more is not shorter (triangle inequality). If the polyline of a node misses a region, the
+// region is inserted at every place; if a point of it lies in the hull of a cell but not in the region, a plane cuts
+// the cell. So the children cover the parent, and the least bound of the leaves is one of all tours.
 #pragma once
 
 #include <cstddef>
@@ -26,15 +26,17 @@ struct TourSpace {
 struct InsertionNode {
   enum class Kind { leaf, insert, cut, empty };  // empty: the cell that was cut has nothing on this side
   Kind kind = Kind::leaf;
-  std::size_t what = 0;                ///< insert: the region. cut: the stop of the sequence
-  CellPlane plane;                     ///< cut: first the part above it, then the part below
-  std::vector<std::size_t> children;   ///< insert: behind each stop, in order (of an open tour with an end not behind it)
-  std::vector<Direction> directions;   ///< leaf: of the legs; a stop with a dwell has two points, with a leg between
+  std::size_t what = 0;  ///< insert: the region. cut: the stop of the sequence
+  CellPlane plane;       ///< cut: first the part above it, then the part below
+  std::vector<std::size_t>
+      children;  ///< insert: behind each stop, in order (of an open tour with an end not behind it)
+  std::vector<Direction> directions;  ///< leaf: of the legs; a stop with a dwell has two points, with a leg between
 };
 
 /// The proof: node 0 is the root.
 struct InsertionTree {
-  std::vector<std::size_t> root;  ///< regions: three of a closed tour, or all where there are fewer; else first (and last)
+  std::vector<std::size_t>
+      root;  ///< regions: three of a closed tour, or all where there are fewer; else first (and last)
   std::vector<InsertionNode> nodes;
 };
 

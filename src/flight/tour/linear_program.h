@@ -1,5 +1,5 @@
-// Linear programs that grow: minimise cost . x, rows and columns within bounds. Who solves them is chosen when vantage is
-// built (VANTAGE_WITH_HIGHS): linear_program_*.cpp. What it returns is not trusted anywhere.
+// Linear programs that grow: minimise cost . x, rows and columns within bounds. Who solves them is chosen when vantage
+// is built (VANTAGE_WITH_HIGHS): linear_program_*.cpp. What it returns is not trusted anywhere.
 #pragma once
 
 #include <cstddef>

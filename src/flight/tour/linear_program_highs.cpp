@@ -24,7 +24,8 @@ class HighsProgram : public LinearProgram {
 
   void add_row(double lower, double upper, std::span<const Entry> columns) override {
     split(columns);
-    highs_.addRow(bound_of(lower), bound_of(upper), static_cast<HighsInt>(index_.size()), index_.data(), number_.data());
+    highs_.addRow(bound_of(lower), bound_of(upper), static_cast<HighsInt>(index_.size()), index_.data(),
+                  number_.data());
   }
 
   void add_column(double cost, double lower, double upper, std::span<const Entry> rows) override {
@@ -37,9 +38,7 @@ class HighsProgram : public LinearProgram {
     highs_.changeColBounds(static_cast<HighsInt>(column), bound_of(lower), bound_of(upper));
   }
 
-  void set_cost(std::size_t column, double cost) override {
-    highs_.changeColCost(static_cast<HighsInt>(column), cost);
-  }
+  void set_cost(std::size_t column, double cost) override { highs_.changeColCost(static_cast<HighsInt>(column), cost); }
 
   bool solve(double time_limit_s) override {
     highs_.setOptionValue("time_limit", highs_.getRunTime() + std::max(0.0, time_limit_s));

@@ -25,8 +25,8 @@ OuterRegion::OuterRegion(Kind kind, Mesh mesh, std::string name)
                   "give three finite numbers");
     }
     if (v.cwiseAbs().maxCoeff() > kLargest) {
-      throw Error(ErrorCode::coordinate_too_large, "a vertex of the region is farther than 1e9 m from the origin", name_,
-                  "move the region towards the origin");
+      throw Error(ErrorCode::coordinate_too_large, "a vertex of the region is farther than 1e9 m from the origin",
+                  name_, "move the region towards the origin");
     }
   }
   for (const Triangle& triangle : mesh_.triangles) {

@@ -2,17 +2,17 @@
 //
 // For any vectors u_ij = -u_ji with |u_ij| <= 1 the length of a tour is at least the sum over its regions i of
 // cost_i(j, k) = min over v in W_i of (u_ij + u_ik) . v, with j and k the neighbours of i. The least such sum over all
-// tours is a travelling salesman problem with costs of pairs. For any numbers p_ij, d_i and s_S >= 0 of sets S of regions
-// it is at least
+// tours is a travelling salesman problem with costs of pairs. For any numbers p_ij, d_i and s_S >= 0 of sets S of
+// regions it is at least
 //   sum over i of min over j, k of (cost_i(j, k) - p_ij - p_ik)  +  2 sum d_i + 2 sum s_S
 //   + sum over edges ij of min(0, p_ij + p_ji - d_i - d_j - sum of the s_S that ij leaves),
 // as a tour has two edges at each region, and leaves each set twice at least. A linear program finds good numbers; they
 // need not be trusted.
 //
-// An open tour is closed by a region "anywhere", whose vectors are 0 and which must stand beside the first (and last) one.
-// Where edges are fixed, in or out, the bound is over tours with these edges; fixing an edge both ways covers all tours.
-// Vectors that point along a tour bound this one well, others less: where the program's solution is another tour, new
-// vectors are taken along that.
+// An open tour is closed by a region "anywhere", whose vectors are 0 and which must stand beside the first (and last)
+// one. Where edges are fixed, in or out, the bound is over tours with these edges; fixing an edge both ways covers all
+// tours. Vectors that point along a tour bound this one well, others less: where the program's solution is another
+// tour, new vectors are taken along that.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ namespace vantage::internal::flight::tour {
 
 /// Numbers for tours in which some edges are fixed.
 struct PairsDuals {
-  std::vector<std::vector<double>> of_edge_at;  ///< p_ij
-  std::vector<double> of_region;                ///< d_i
+  std::vector<std::vector<double>> of_edge_at;                      ///< p_ij
+  std::vector<double> of_region;                                    ///< d_i
   std::vector<std::pair<double, std::vector<std::size_t>>> of_set;  ///< s_S
 };
 
@@ -44,13 +44,14 @@ struct PairsNode {
 
 /// The proof. The regions are those of the space, and "anywhere" behind them for open tours.
 struct PairsProof {
-  Vec3 origin = Vec3::Zero();  ///< whole metres; subtracted from all points
+  Vec3 origin = Vec3::Zero();                                ///< whole metres; subtracted from all points
   std::vector<std::vector<std::vector<Direction>>> vectors;  ///< u_ij at [which][i][j], j < i; u_ji is its opposite
   std::vector<PairsNode> nodes;                              ///< in preorder
 };
 
 struct PairsOptions {
   double enough_m = 0;  ///< the search ends when nothing shorter is left
+  double worth_m = 0;   ///< nothing is branched where the first bound is less
   double time_limit_s = 60;
   std::size_t most_nodes = 2'000;
 };

@@ -13,7 +13,8 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-constexpr double kShareOfPairs = 0.4;  // of the time, where both bounds are asked for
+constexpr double kShareOfPairs = 0.3;  // of the time, where both bounds are asked for
+constexpr double kWorthOfPairs = 0.9;  // of the bound that is asked for: from less it does not come near by branching
 constexpr double kRounded = 1e-9;      // of the size: what an incumbent may be off by
 
 void check_problem(const BoundProblem& problem) {
@@ -119,33 +120,36 @@ TourBound bound_tour(const BoundProblem& problem, const Incumbent& incumbent, co
     const double enough = std::isfinite(incumbent.length_m) ? incumbent.length_m * (1 - options.gap)
                                                             : std::numeric_limits<double>::infinity();
     const bool pairs = options.by_pairs && has_pairs_bound() && cells.region_count() >= 5;
-    if (options.by_insertion || !pairs) {
+    // By pairs first: it takes a second or two where it is any good, that is, where regions are small and far apart.
+    if (pairs) {
+      reporter.begin("bound by pairs");
+      PairsOptions how;
+      how.enough_m = enough;
+      how.worth_m = std::isfinite(enough) && options.by_insertion ? kWorthOfPairs * enough : 0;
+      how.time_limit_s = options.time_limit_s * (options.by_insertion ? kShareOfPairs : 1);
+      PairsBound bound =
+          pairs_bound(cells, result.space, anchors_of(cells, incumbent), order_of(incumbent, result), how, reporter);
+      reporter.finish();
+      result.pairs_m = result.length_m = bound.bound_m;
+      result.kind = BoundKind::pairs;
+      result.proof = std::move(bound.proof);
+      add_orders(bound.orders, result.orders);
+    }
+    if (!pairs || (options.by_insertion && result.length_m < enough)) {
       reporter.begin("bound by insertion");
       InsertionOptions how;
       how.enough_m = enough;
       how.gap = options.gap;
       how.most_nodes = options.most_nodes;
-      how.time_limit_s = options.time_limit_s * (pairs ? 1 - kShareOfPairs : 1);
+      how.time_limit_s = std::max(0.0, options.time_limit_s - watch.seconds());
       InsertionBound bound = insertion_bound(cells, result.space, how, reporter);
       reporter.finish();
-      result.insertion_m = result.length_m = bound.bound_m;
-      result.proof = std::move(bound.tree);
+      result.insertion_m = bound.bound_m;
       add_orders(bound.orders, result.orders);
-    }
-    if (pairs && result.length_m < enough) {
-      reporter.begin("bound by pairs");
-      PairsOptions how;
-      how.enough_m = enough;
-      how.time_limit_s = std::max(0.0, options.time_limit_s - watch.seconds());
-      PairsBound bound =
-          pairs_bound(cells, result.space, anchors_of(cells, incumbent), order_of(incumbent, result), how, reporter);
-      reporter.finish();
-      result.pairs_m = bound.bound_m;
-      add_orders(bound.orders, result.orders);
-      if (!result.insertion_m || bound.bound_m > result.length_m) {
+      if (!pairs || bound.bound_m > result.length_m) {
         result.length_m = bound.bound_m;
-        result.kind = BoundKind::pairs;
-        result.proof = std::move(bound.proof);
+        result.kind = BoundKind::insertion;
+        result.proof = std::move(bound.tree);
       }
     }
   });
@@ -158,7 +162,7 @@ TourBound bound_tour(const BoundProblem& problem, const Incumbent& incumbent, co
   result.gap = incumbent.length_m > 0 ? (incumbent.length_m - result.length_m) / incumbent.length_m : 0;
   if (result.length_m > incumbent.length_m * (1 + kRounded) + 1e-6) {
     refuse_region(core::format("the bound, {:.6g} m, is above the length of a known tour, {:.6g} m", result.length_m,
-                              incumbent.length_m),
+                               incumbent.length_m),
                   "tour");
   }
   result.gap_reached = result.gap <= options.gap;

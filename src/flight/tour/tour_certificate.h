@@ -10,25 +10,27 @@
 
 namespace vantage::internal::flight::tour {
 
-/// The mesh of a region, not a point, as binary little-endian PLY of doubles; a comment says which kind of region it is.
+/// The mesh of a region, not a point, as binary little-endian PLY of doubles; a comment says which kind of region it
+/// is.
 std::string region_ply(const OuterRegion& region);
 
-/// JSON, one entry of the tree a line. `files`: of each region the name of its mesh, relative to the certificate's folder;
-/// of points it is not read.
+/// JSON, one entry of the tree a line. `files`: of each region the name of its mesh, relative to the certificate's
+/// folder; of points it is not read.
 ///   format      "vantage tour certificate 1"
 ///   bound_m     what is proved
 ///   closed      first, last: numbers of regions, or null
 ///   regions     name, kind, dwell_m; file and hash (docs/hashes.md, of a volume) of a mesh, "at" of a point
 ///   proof       "kind": "insertion", "root": regions, "tree": in preorder
-///                 ["insert", region] ["cut", stop, [normal], offset] ["leaf", three whole numbers of each leg] ["empty"]
+///                 ["insert", region] ["cut", stop, [normal], offset] ["leaf", three whole numbers of each leg]
+///                 ["empty"]
 ///               "kind": "pairs", "origin": subtracted from all points, "vectors": lists by rows of each pair j < i
 ///               three whole numbers, "tree": in preorder
 ///                 ["edge", i, j] ["leaf", which vectors, p by rows, d, [[s, regions of the set], ...]]
 /// Whole numbers of vectors are in units of 2^-30.
 std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files);
 
-/// Writes FILE and, beside it, a mesh of each region: FILE's stem with .region0.ply and so on. All are written whole, or
-/// none. Throws Error(output).
+/// Writes FILE and, beside it, a mesh of each region: FILE's stem with .region0.ply and so on. All are written whole,
+/// or none. Throws Error(output).
 void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file);
 
 }  // namespace vantage::internal::flight::tour

@@ -16,17 +16,18 @@ constexpr double kDirectionUnit = 0x1p-30;
 constexpr double kRounding = 0x1p-53;
 
 // ---- of the barriers, in parts of the size of the program -----------------------------------------------------------
-constexpr double kFlat = 1e-6;         // a hull that is thinner in a direction is made so thick: barriers need an inside
-constexpr double kFirstBarrier = 0.3;  // the gap of the first step, of the length
+constexpr double kFlat = 1e-6;  // a hull that is thinner in a direction is made so thick: barriers need an inside
+constexpr double kFirstBarrier = 0.3;   // the gap of the first step, of the length
 constexpr double kAgainBarrier = 3e-3;  // and of the first one after half-spaces were added
 constexpr double kLessBarrier = 0.1;
-constexpr double kFirstKept = 1e-3;     // from here on the vectors are looked at
-constexpr double kOfPoints = 1e-11;     // where there is nothing to choose; of the size
-constexpr int kMostNewtonSteps = 25;   // for one strength of the barrier; five are usual
-constexpr double kNewtonDone = 0.1;    // of the squared decrement; below 1 the next step's vectors are short enough
+constexpr double kFirstKept = 1e-3;   // from here on the vectors are looked at
+constexpr double kOfPoints = 1e-11;   // where there is nothing to choose; of the size
+constexpr int kMostNewtonSteps = 25;  // for one strength of the barrier; five are usual
+constexpr double kNewtonDone = 0.1;   // of the squared decrement; below 1 the next step's vectors are short enough
 constexpr double kToTheWall = 0.97;
 
-/// A leg with a barrier for its length t: the least of t - strength log(t^2 - |e|^2), and where it counts as `at_least`,
+/// A leg with a barrier for its length t: the least of t - strength log(t^2 - |e|^2), and where it counts as
+/// `at_least`,
 /// - strength log(t - at_least). Its gradient is the leg's vector, shorter than 1.
 struct LegTerm {
   Vec3 gradient;
@@ -51,8 +52,8 @@ LegTerm leg_term(const Vec3& leg, double at_least, double strength) {
   if (at_least > 0) {
     const double t = length_with_barrier(squared, at_least, strength);
     const double q = t * t - squared;
-    const double by_length = -2 * strength / q + 4 * strength * t * t / (q * q) +
-                             strength / ((t - at_least) * (t - at_least));
+    const double by_length =
+        -2 * strength / q + 4 * strength * t * t / (q * q) + strength / ((t - at_least) * (t - at_least));
     const double moved = 4 * strength * t / (q * q) / by_length;
     term.gradient = 2 * strength / q * leg;
     term.hessian = 2 * strength / q * Eigen::Matrix3d::Identity() +
@@ -120,8 +121,8 @@ class Solver {
     return points[(leg + 1) % points.size()] - points[leg];
   }
 
-  /// Of the legs, as they are after the next step of Newton's method, by its own linear system: these, not the gradients
-  /// at the points, are in balance to the last digits, even where legs are short.
+  /// Of the legs, as they are after the next step of Newton's method, by its own linear system: these, not the
+  /// gradients at the points, are in balance to the last digits, even where legs are short.
   std::vector<Direction> directions() {
     if (!free_) strength_ = kOfPoints * size_;
     assemble();
@@ -342,8 +343,8 @@ Direction direction_of(const Vec3& vector) {
 }
 
 Vec3 vector_of(const Direction& direction) {
-  return kDirectionUnit * Vec3(static_cast<double>(direction[0]), static_cast<double>(direction[1]),
-                               static_cast<double>(direction[2]));
+  return kDirectionUnit *
+         Vec3(static_cast<double>(direction[0]), static_cast<double>(direction[1]), static_cast<double>(direction[2]));
 }
 
 TouringSolution solve_touring(const TouringProgram& program, const TouringOptions& options) {
@@ -369,8 +370,8 @@ double touring_bound(const TouringProgram& program, std::span<const Direction> d
     const double norm = std::ceil((1 + 4 * kRounding) * vector_of(directions[leg]).norm() / kDirectionUnit);
     if (at_least > 0) added += at_least * std::max(0.0, 1 - norm * kDirectionUnit);
   }
-  // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest() may
-  // overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
+  // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest()
+  // may overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
   const double m = static_cast<double>(count);
   return sum + added * (1 - 8 * kRounding) - (4 * m + 40) * kRounding * (reach + added) - 2.001 * moved;
 }

@@ -1,5 +1,5 @@
-// The shortest polyline that meets convex hulls in a given order, and a bound of its length that needs no trust in how it
-// was found (docs/theory.md, "Tours").
+// The shortest polyline that meets convex hulls in a given order, and a bound of its length that needs no trust in how
+// it was found (docs/theory.md, "Tours").
 //
 // For any vectors |u_k| <= 1 on the legs, sum |x_(k+1) - x_k| >= sum u_k . (x_(k+1) - x_k)
 // = sum (u_(k-1) - u_k) . x_k >= sum min over the points v of hull k of (u_(k-1) - u_k) . v. A leg that counts as
@@ -19,9 +19,9 @@
 
 namespace vantage::internal::flight::tour {
 
-/// A vector of length 1 at most, exactly: three whole numbers times 2^-30, so that files hold it exactly and differences
-/// of two are exact as doubles. Rounding to it costs a bound some 4e-9 of the legs'
-/// lengths and of the hulls' sizes.
+/// A vector of length 1 at most, exactly: three whole numbers times 2^-30, so that files hold it exactly and
+/// differences of two are exact as doubles. Rounding to it costs a bound some 4e-9 of the legs' lengths and of the
+/// hulls' sizes.
 using Direction = std::array<std::int32_t, 3>;
 constexpr int kDirectionBits = 30;
 
@@ -48,9 +48,9 @@ struct TouringSolution {
 };
 
 struct TouringOptions {
-  double gap = 1e-6;       ///< of the length; where the search for points stops
-  double in_hull = 1e-4;   ///< points may lie so far outside of the hulls, of the length
-  int most_rounds = 8;     ///< of adding half-spaces
+  double gap = 1e-6;      ///< of the length; where the search for points stops
+  double in_hull = 1e-4;  ///< points may lie so far outside of the hulls, of the length
+  int most_rounds = 8;    ///< of adding half-spaces
   double enough_m = std::numeric_limits<double>::infinity();  ///< stops as soon as the bound is so large
 };
 
