@@ -45,15 +45,15 @@ class WaylineWriter {
     if (points_.size() < 2) {
       fail(ErrorCode::value_unsupported, "a plan of DJI has two waypoints at least", "write another format");
     }
-    constexpr double kLowestM = 1.2, kHighestM = 1500, kFastest = 15;  // as the format states
-    if (!(aircraft().takeoff_height_m >= kLowestM && aircraft().takeoff_height_m <= kHighestM)) {
+    constexpr double kLeastM = 1.2, kMostM = 1500, kMostMetresPerSecond = 15;  // as the format states
+    if (!(aircraft().takeoff_height_m >= kLeastM && aircraft().takeoff_height_m <= kMostM)) {
       fail(ErrorCode::value_out_of_range, "the height to climb to at first is out of range", "give 1.2 to 1500 m");
     }
     for (const OutPoint& point : points_) {
       if (std::isnan(point.speed_m_s)) {
         fail(ErrorCode::missing_key, "a plan of DJI states the speed", "give the speed of the flight");
       }
-      if (point.speed_m_s > kFastest) {
+      if (point.speed_m_s > kMostMetresPerSecond) {
         fail(ErrorCode::value_out_of_range, "the aircraft of DJI fly at 15 m/s at most", "give a lower speed");
       }
       if ((point.action.photo || point.action.video) && !aircraft().payload) {

@@ -9,15 +9,9 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-<<<<<<< HEAD
 constexpr double kCellRounding = 0x1p-53;
-constexpr double kFarEnough = 0.3;    // known halves are used where both lie so far from the point, of what is usual
-constexpr double kLeastShare = 0.1;   // planes keep so far from the ends of a cell
-=======
-constexpr double kUnit = 0x1p-53;
 constexpr double kFarEnough = 0.3;   // known halves are used where both lie so far from the point, of what is usual
 constexpr double kLeastShare = 0.1;  // planes keep so far from the ends of a cell
->>>>>>> bounds
 
 /// The planes that are tried: the axes, and those between two of them.
 constexpr std::array<std::array<std::int8_t, 3>, 9> kNormals = {

@@ -16,33 +16,19 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-<<<<<<< HEAD
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr double kPairRounding = 0x1p-53;
-=======
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnit = 0x1p-53;
->>>>>>> bounds
 constexpr double kDualUnit = 0x1p-30;  // metres; duals are whole multiples
 constexpr std::size_t kFirstNeighbours = 8;
 constexpr std::size_t kAllEdges = 16;  // of so many regions all edges are columns from the start
 constexpr std::size_t kMostEdgesAtOnce = 60;
 constexpr std::size_t kMostPairsAtOnce = 3;  // of a region and one of its edges
-<<<<<<< HEAD
 constexpr int kMostPairRounds = 60;              // of columns and cuts, for one node
 constexpr double kPriced = 1e-7;             // of the size: reduced costs as low as that are 0
 constexpr double kFractional = 1e-6;
 constexpr std::size_t kMostPairOrders = 20;
 constexpr std::size_t kMostTurnsKept = 2;  // of the vectors, at one node
-=======
-constexpr int kMostRounds = 60;              // of columns and cuts, for one node
-constexpr double kPriced = 1e-7;             // of the size: reduced costs as low as that are 0
-constexpr double kFractional = 1e-6;
-constexpr std::size_t kMostOrders = 20;
-constexpr std::size_t kMostTurns = 2;  // of the vectors, at one node
->>>>>>> bounds
 constexpr std::size_t kMostFrames = 60;
 
 double to_dual(double value) { return std::round(value / kDualUnit) * kDualUnit; }
