@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Vec3 direction_of(const SpacePose& pose) {
+Vec3 direction_of_flight(const SpacePose& pose) {
   const auto [sine, cosine] = portable::sine_cosine(pose.heading_rad);
   const auto [rise, level] = portable::sine_cosine(pose.climb_rad);
   return {cosine * level, sine * level, rise};
@@ -25,7 +25,7 @@ double bell(Draw& draw) { return draw.unit() + draw.unit() + draw.unit() + draw.
 
 SpacePose leave(const View& view) {
   SpacePose pose = view.enter;
-  pose.position += view.straight_m * direction_of(pose);
+  pose.position += view.straight_m * direction_of_flight(pose);
   return pose;
 }
 
@@ -56,7 +56,7 @@ std::vector<Vec3> WingSpace::chords(const View& view) const {
   }
   const double radius = limits_.turn_radius_m;
   const int pieces = circle_pieces();
-  const Vec3 ahead = direction_of(view.enter), out = view.side * Vec3(ahead.y(), -ahead.x(), 0);
+  const Vec3 ahead = direction_of_flight(view.enter), out = view.side * Vec3(ahead.y(), -ahead.x(), 0);
   const Vec3 centre = view.enter.position - radius * out;
   std::vector<Vec3> points;
   for (int i = 0; i < pieces; ++i) {
@@ -102,7 +102,7 @@ View WingSpace::drawn(int region, const ViewHint& hint, Draw& draw) const {
   view.enter.heading_rad = hint.heading_rad + turn + 0.75 * kPi * std::min(1.0, hint.spread) * bell(draw);
   view.enter.position = place;
   view.straight_m = view_m_;
-  if (view_m_ > 0) view.enter.position -= draw.unit() * view_m_ * direction_of(view.enter);
+  if (view_m_ > 0) view.enter.position -= draw.unit() * view_m_ * direction_of_flight(view.enter);
   return view;
 }
 
@@ -126,7 +126,7 @@ std::vector<View> WingSpace::draw_views(int region, const ViewHint& hint, std::s
     view.circles_m = std::ceil(view_m_ / chords) * round;
     view.side = draw.unit() < 0.5 ? 1 : -1;
     // The drawn place is the middle.
-    const Vec3 ahead = direction_of(view.enter);
+    const Vec3 ahead = direction_of_flight(view.enter);
     const Vec3 middle = regions_[static_cast<std::size_t>(region)]->touch(view.enter.position, view.enter.position);
     view.enter.position = middle + limits_.turn_radius_m * view.side * Vec3(ahead.y(), -ahead.x(), 0);
     if (is_valid(view)) views.push_back(view);

@@ -130,7 +130,7 @@ class Solver {
     std::vector<Direction> list;
     for (std::size_t leg = 0; leg < program_.leg_count(); ++leg) {
       const LegTerm term = leg_term(leg_vector(points_, leg), program_.at_least(leg), strength_);
-      list.push_back(leg_direction(Vec3(term.gradient + term.hessian * leg_vector(step_, leg))));
+      list.push_back(direction_of(Vec3(term.gradient + term.hessian * leg_vector(step_, leg))));
     }
     return list;
   }
@@ -327,7 +327,7 @@ class Solver {
 
 }  // namespace
 
-Direction leg_direction(const Vec3& vector) {
+Direction direction_of(const Vec3& vector) {
   const double norm = vector.norm();
   if (!(norm > 0)) return {0, 0, 0};
   double scale = (norm > 1 ? 1 / norm : 1.0) / kDirectionUnit;
