@@ -54,7 +54,7 @@ struct NotSeen {
   std::string name;               ///< of the object, or of the limit as PointAnswer::outside_of has it; else empty
   std::vector<FlightSpan> spans;  ///< sorted; apart
 
-  double length_m() const;
+  VANTAGE_API double length_m() const;  ///< of all spans
 };
 
 /// "hidden", "out_of_range", "behind", "limit".
