@@ -177,11 +177,12 @@ void expect_sound(const std::vector<LegBreak>& breaks) {
 struct Counts {
   std::map<std::string, std::size_t> told, ends, explained;
 };
-void compare_leg(const LegLimits& limits, const PointNames& points, const Leg& leg, double step, Counts& counts) {
+void compare_leg(const LegLimits& limits, const PointNames& points, const Leg& leg, double step, Counts& counts,
+                 int places = 60) {
   const std::vector<LegBreak> breaks = limits.broken(leg);
   expect_sound(breaks);
   std::vector<double> shares;
-  for (int i = 0; i <= 60; ++i) shares.push_back(i / 60.0);
+  for (int i = 0; i <= places; ++i) shares.push_back(static_cast<double>(i) / places);
   for (const LegBreak& one : breaks) {
     for (const LegInterval& part : one.intervals) {
       for (const double away : {-1e-3, -1e-5, 0.0, 1e-5, 1e-3}) {
@@ -342,7 +343,7 @@ TEST(LegLimits, SensorsAgreeWithPointsOfTheLeg) {
       const LegLimits limits(target, {});
       const PointNames points(target, {});
       const double step = looking.step * world.scale * 40 + 100 * world.rounding();
-      for (int i = 0; i < 6; ++i) compare_leg(limits, points, some_leg(random, world), step, counts);
+      for (int i = 0; i < 6; ++i) compare_leg(limits, points, some_leg(random, world), step, counts, 12);
       if (HasFatalFailure()) return;
     }
   }
