@@ -14,7 +14,6 @@ using Json = nlohmann::json;
 using testing::kScene;
 using testing::kSensor;
 using testing::kTarget;
-using testing::lines;
 
 class CliFlight : public testing::Cli {
  protected:
@@ -26,7 +25,7 @@ constexpr const char* kTwo =
     "combine: each\n"
     "targets:\n"
     "  - {name: west, vertices: [[-5, -5, 0], [0, -5, 0], [0, 5, 0], [-5, 5, 0]]}\n"
-    "  - {name: buried, vertices: [[22, -3, 1], [28, -3, 1], [28, 3, 1], [22, 3, 1]]}\n";
+    "  - {name: pierced, vertices: [[15, -3, 1], [25, -3, 1], [25, 3, 1], [15, 3, 1]]}\n";
 
 TEST_F(CliFlight, StandPrintsWhereToHover) {
   const Json json = json_of({"stand", "mission.yaml", "--json", "--margin", "2"});
@@ -36,13 +35,10 @@ TEST_F(CliFlight, StandPrintsWhereToHover) {
   EXPECT_EQ(target["margin_m"], 2);
   EXPECT_EQ(target["standpoints"].size(), 4U);
   EXPECT_EQ(target["notes"].size(), 1U) << "there is no camera";
-  std::string points = "x,y,z\n";
   for (const Json& point : target["standpoints"]) {
     EXPECT_GE(point["margin_m"], 2);
     EXPECT_EQ(point["obstacle"], "block");
     EXPECT_TRUE(point["longitude_deg"].is_null());
-    for (int axis = 0; axis < 3; ++axis) points += (axis > 0 ? "," : "") + point["position"][axis].dump();
-    points += "\n";
   }
   const std::string text = run({"stand", "mission.yaml", "-q"}).out;
   for (const char* kind : {"deepest", "nearest", "best_incidence", "farthest"}) {

@@ -69,6 +69,20 @@ void OrbitSearch::run(const std::optional<ClosedCurve>& known, const core::Progr
           depth_.solid().size_m() / 20);
   }
   end_ = search_box(*this, root, request_.limits, progress);
+  if (curve_) polish();
+  end_.bound = std::max(end_.bound, best_);
+}
+
+/// The search looks no closer at a curve than it must. Closer, the best one can be made a little better.
+void OrbitSearch::polish() {
+  constexpr double kFiner = 16;
+  request_.error_m /= kFiner;
+  const double step = request_.error_m * kFiner;
+  request_.limits.tolerance = 0;
+  best_ -= 1e-12 * std::abs(best_);  // so that the same curve counts again, as it is deeper by what is known now
+  offer({curve_->centre.x(), curve_->centre.y(), curve_->centre.z(), curve_->radius_m, curve_->half_straight_m,
+         curve_->angle * angle_scale_},
+        step);
 }
 
 ClosedCurve OrbitSearch::curve_at(const Numbers& numbers) const {

@@ -80,6 +80,7 @@ class OrbitSearch {
   double allowed_value(ClosedCurve& curve) const;
   void moved_to_target(ClosedCurve& curve) const;
   void offer(const Numbers& numbers, double step);
+  void polish();
 
   const CurveDepth& depth_;
   CurveRequest request_;

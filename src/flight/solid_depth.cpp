@@ -36,7 +36,7 @@ SolidDepth::SolidDepth(const Mesh& mesh)
       rounding_m_(rounding_of(bounding_box(mesh))), tree_(mesh_), distance_(mesh_) {
   const Vec3 size = bounds_.max - bounds_.min;
   cell_m_ = std::max(size.maxCoeff() / kCellsAlong, std::numeric_limits<double>::min());
-  cell_error_ = cell_m_ / 8;
+  cell_error_ = cell_m_ / 4;
   for (int a = 0; a < 3; ++a) count_[a] = std::clamp(static_cast<int>(std::ceil(size[a] / cell_m_)), 1, kCellsAlong);
   cells_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
                 static_cast<std::size_t>(count_[2]));
@@ -51,9 +51,13 @@ void SolidDepth::fill_cells(std::size_t begin, std::size_t end) {
     const Vec3 index(static_cast<double>(i % width), static_cast<double>(i / width % depth),
                      static_cast<double>(i / (width * depth)));
     const Vec3 point = bounds_.min + (index + Vec3::Constant(0.5)) * cell_m_;
-    // Up to twice the error too large: so much less is in the middle.
+    // Up to the error too large. So the depth of a point near the surface is 0, to that error.
     constexpr double kNone = std::numeric_limits<double>::infinity();
-    const double distance = distance_.nearest(point, point, kNone, 2 * cell_error_).distance_m - cell_error_;
+    const double distance = distance_.nearest(point, point, kNone, cell_error_).distance_m;
+    if (distance <= cell_error_ + rounding_m_) {
+      last = cells_[i] = 0;
+      continue;
+    }
     // The surface is not between two cells if it is farther from one of them than they are apart.
     const bool is_same = i % width > 0 && std::abs(last) > cell_m_ + cell_error_;
     const bool is_in = is_same ? last > 0 : tree_.winding_number(point) > 0;
@@ -103,7 +107,8 @@ double SolidDepth::depth_m(const Vec3& point) const {
   const Cell cell = cell_at(point);
   const double below = (std::abs(cell.depth) + cell.offset) * (1 + 1e-9);
   const double distance = distance_.nearest(point, point, below, 0).distance_m;
-  return distance > 0 && is_inside(point) ? distance : -distance;
+  // Nearer than rounding it is on neither side.
+  return distance > rounding_m_ && is_inside(point) ? distance : -distance;
 }
 
 double SolidDepth::box_at_most_m(const Vec3& middle, const Vec3& half) const {
@@ -117,7 +122,11 @@ SolidDepth::Bounded SolidDepth::bounded_m(const Vec3& middle, const Vec3& half) 
   const double reach = half.norm(), slack = reach / 4;
   const SegmentDistance::Nearest nearest =
       distance_.nearest(middle, middle, std::numeric_limits<double>::infinity(), slack);
-  if (!(nearest.distance_m > 0) || !is_inside(middle)) {
+  if (nearest.distance_m <= slack + rounding_m_) {  // it may be on the surface
+    const double depth = depth_m(middle);
+    return {depth, std::min(depth + reach, box_at_most_m(middle, half))};
+  }
+  if (!is_inside(middle)) {
     return {-nearest.distance_m, std::min(reach - nearest.distance_m + slack, box_at_most_m(middle, half))};
   }
   const double bound = std::min(nearest.distance_m + reach, box_at_most_m(middle, half));
