@@ -15,7 +15,8 @@ using CliBadOutput = Cli;
 using CliSignals = Cli;
 
 constexpr std::array kCommands = {"scene",   "inspect", "compute", "query",   "verify",
-                                  "compare", "devices", "cameras", "spheres", "render"};
+                                  "compare", "devices", "cameras", "spheres", "render",
+                                  "stand",   "orbit"};
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);

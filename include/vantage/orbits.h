@@ -70,12 +70,12 @@ struct OrbitOptions {
   /// How deep inside the volume all of an orbit is at least; >= 0. NaN: 1 m, but where no orbit keeps 4 m a quarter of
   /// the largest margin; none is looked for that keeps less than half of the tolerance.
   double margin_m = std::numeric_limits<double>::quiet_NaN();
-  /// How far radii and margins may be from the best; > 0. NaN: 0.5 m, but no more than 1/200 of the volume's extent and
-  /// half of the margin. Pixels are right to 2 %.
+  /// How far radii and margins may be from the best; > 0. NaN: 1 m, but no more than a hundredth of the volume's
+  /// extent, an eighth of its height and, once the margin is known, half of that. Pixels are right to 2 %.
   double tolerance_m = std::numeric_limits<double>::quiet_NaN();
   bool racetracks = true;           ///< look for one where no circle fits
   bool clockwise = true;            ///< of what is found
-  std::size_t most_boxes = 50000;  ///< of a search; one that comes to it ends with a looser `bound`
+  std::size_t most_boxes = 20000;  ///< of a search; one that comes to it ends with a looser `bound`
   int threads = 0;                  ///< 0: as many as the machine has. The result does not depend on it
 };
 

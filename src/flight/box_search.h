@@ -90,29 +90,40 @@ inline double flatness(double length_m, double longest_m) {
   return length_m > 0 ? std::clamp(longest_m / length_m, 1.0, kMost) : 1;
 }
 
-/// Walks from a point to better ones beside it, axis by axis, with steps that are halved (Hooke and Jeeves 1961 without
-/// the pattern moves). `value(point)` is minus infinity where a point does not count; `start` has the value `from`.
+/// Walks from a point to better ones beside it, along an axis or two at once, with steps that are halved (a pattern
+/// search, after Hooke and Jeeves 1961; two at once, since the least of several depths has ridges). `value(point)` is
+/// minus infinity where a point does not count; `start` has the value `from`.
 template <std::size_t N, typename Value>
 double climb(std::array<double, N>& point, double from, const std::array<double, N>& steps, double least,
              const Value& value) {
-  for (double scale = 1; scale >= least; scale /= 2) {
-    constexpr int kRounds = 8;
-    bool is_better = true;
-    for (int round = 0; round < kRounds && is_better; ++round) {
-      is_better = false;
-      for (std::size_t a = 0; a < N; ++a) {
-        if (!(steps[a] > 0)) continue;
-        for (const double side : {-1.0, 1.0}) {
-          std::array<double, N> next = point;
-          next[a] += side * scale * steps[a];
-          const double found = value(next);
-          if (!(found > from)) continue;
-          from = found;
-          point = next;
-          is_better = true;
-          break;
+  const auto moves = [&](std::size_t a, double along_a, std::size_t b, double along_b) {
+    std::array<double, N> next = point;
+    next[a] += along_a * steps[a];
+    next[b] += along_b * steps[b];
+    const double found = value(next);
+    if (!(found > from)) return false;
+    from = found;
+    point = next;
+    return true;
+  };
+  const auto is_better_beside = [&](double scale) {
+    for (std::size_t a = 0; a < N; ++a) {
+      if (!(steps[a] > 0)) continue;
+      if (moves(a, scale, a, 0) || moves(a, -scale, a, 0)) return true;
+    }
+    for (std::size_t a = 0; a < N; ++a) {
+      for (std::size_t b = a + 1; b < N; ++b) {
+        if (!(steps[a] > 0) || !(steps[b] > 0)) continue;
+        for (const double side : {scale, -scale}) {
+          if (moves(a, side, b, side) || moves(a, side, b, -side)) return true;
         }
       }
+    }
+    return false;
+  };
+  constexpr int kMostMoves = 16;  // of one size
+  for (double scale = 1; scale >= least; scale /= 2) {
+    for (int moved = 0; moved < kMostMoves && is_better_beside(scale); ++moved) {
     }
   }
   return from;

@@ -27,12 +27,13 @@ double CurveDepth::depth_m(const ClosedCurve& curve, double error_m, double need
     longest = std::max(longest, (corners[i] - corners[(i + 1) % corners.size()]).norm());
   }
   constexpr double kAlongEdge = 1e-8;  // SegmentDistance, of a segment's length
-  const double lost = chord_error + solid_.rounding_m() + kAlongEdge * longest;
+  const double slack = error_m / 4;
+  const double lost = chord_error + slack + solid_.rounding_m() + kAlongEdge * longest;
   // One point inside, and no facet on the way: all of it is.
   double depth = solid_.depth_m(corners[0]);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!(depth - lost >= needed)) return -kNever;
-    depth = segments_.distance_m(corners[i], corners[(i + 1) % corners.size()], depth);
+    depth = solid_.distance().nearest(corners[i], corners[(i + 1) % corners.size()], depth, slack).distance_m;
   }
   return depth - lost >= needed ? depth - lost : -kNever;
 }
@@ -68,6 +69,20 @@ void OrbitSearch::run(const std::optional<ClosedCurve>& known, const core::Progr
           depth_.solid().size_m() / 20);
   }
   end_ = search_box(*this, root, request_.limits, progress);
+  if (curve_) polish();
+  end_.bound = std::max(end_.bound, best_);
+}
+
+/// The search looks no closer at a curve than it must. Closer, the best one can be made a little better.
+void OrbitSearch::polish() {
+  constexpr double kFiner = 16;
+  request_.error_m /= kFiner;
+  const double step = request_.error_m * kFiner;
+  request_.limits.tolerance = 0;
+  best_ -= 1e-12 * std::abs(best_);  // so that the same curve counts again, as it is deeper by what is known now
+  offer({curve_->centre.x(), curve_->centre.y(), curve_->centre.z(), curve_->radius_m, curve_->half_straight_m,
+         curve_->angle * angle_scale_},
+        step);
 }
 
 ClosedCurve OrbitSearch::curve_at(const Numbers& numbers) const {
@@ -115,7 +130,7 @@ std::vector<OrbitSearch::Place> OrbitSearch::places_on(const ClosedCurve& curve,
 SolidDepth::Bounded OrbitSearch::depth_bound(const ClosedCurve& curve, const SearchBox<6>& box,
                                              double interesting) const {
   const SolidDepth& solid = depth_.solid();
-  constexpr std::size_t kMostLookedAt = 24, kFewest = 16;
+  constexpr std::size_t kMostLookedAt = 24, kMostInVain = 3, kFewest = 16;
   SolidDepth::Bounded least{kNever, kNever};
   const double reach = reach_of(box);
   std::vector<Place> places;
@@ -129,9 +144,11 @@ SolidDepth::Bounded OrbitSearch::depth_bound(const ClosedCurve& curve, const Sea
   }
   // First those that may be the least deep.
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.at_least < b.at_least; });
-  for (std::size_t i = 0; i < std::min(kMostLookedAt, places.size()) && least.bound_m >= interesting; ++i) {
-    if (places[i].at_least > least.depth_m - reach / 4) break;
+  std::size_t in_vain = 0;  // looks, since one told something
+  for (std::size_t i = 0; i < std::min(kMostLookedAt, places.size()) && in_vain < kMostInVain; ++i) {
+    if (least.bound_m < interesting || places[i].at_least > least.depth_m - reach / 4) break;
     const SolidDepth::Bounded one = solid.bounded_m(places[i].point, places[i].reach);
+    in_vain = one.bound_m < least.bound_m - reach / 8 ? 0 : in_vain + 1;
     least.bound_m = std::min(least.bound_m, one.bound_m);
     least.depth_m = std::min(least.depth_m, one.depth_m);
   }

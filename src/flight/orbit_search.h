@@ -12,7 +12,6 @@
 
 #include "flight/box_search.h"
 #include "flight/closed_curve.h"
-#include "flight/segment_distance.h"
 #include "flight/solid_depth.h"
 #include "vantage/geometry.h"
 #include "vantage/orbits.h"
@@ -22,7 +21,7 @@ namespace vantage::internal::flight {
 /// How deep all of a curve lies in a solid. Curves are about the solid's origin.
 class CurveDepth {
  public:
-  explicit CurveDepth(const SolidDepth& solid) : solid_(solid), segments_(solid.mesh()) {}
+  explicit CurveDepth(const SolidDepth& solid) : solid_(solid) {}
 
   /// No more than the smallest depth, and less by `error_m` > 0 and rounding at most; minus infinity where it is less
   /// than `needed`, which is more than 0. Chords are compared with the facets; they are as far from the arcs as the
@@ -32,7 +31,6 @@ class CurveDepth {
 
  private:
   const SolidDepth& solid_;
-  SegmentDistance segments_;
 };
 
 /// What curves are asked for. Lengths are metres, about the solid's origin.
@@ -82,6 +80,7 @@ class OrbitSearch {
   double allowed_value(ClosedCurve& curve) const;
   void moved_to_target(ClosedCurve& curve) const;
   void offer(const Numbers& numbers, double step);
+  void polish();
 
   const CurveDepth& depth_;
   CurveRequest request_;

@@ -64,7 +64,9 @@ class OrbitFinder {
   Orbits find(const ProgressReporter& progress) {
     const Vec3 size = solid_.bounds().max - solid_.bounds().min;
     most_radius_m_ = std::min(options_.most_radius_m, size.head<2>().minCoeff() / 2);
-    tolerance_m_ = std::isnan(options_.tolerance_m) ? std::min(0.5, solid_.size_m() / 200) : options_.tolerance_m;
+    // A layer of air has orbits too.
+    const double fine = std::min({1.0, solid_.size_m() / 100, size.minCoeff() / 8});
+    tolerance_m_ = std::isnan(options_.tolerance_m) ? fine : options_.tolerance_m;
     if (most_radius_m_ < options_.least_radius_m) {
       result_.reason =
           fmt::format("a circle of radius {:.6g} m is wider than the volume, which is {:.1f} m by {:.1f} m",

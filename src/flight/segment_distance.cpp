@@ -80,20 +80,27 @@ SegmentDistance::SegmentDistance(const Mesh& mesh) : mesh_(mesh) {
   bvh_ = core::build_bvh(bounds, order_);
 }
 
-double SegmentDistance::distance_m(const Vec3& p, const Vec3& q, double below) const {
+SegmentDistance::Nearest SegmentDistance::nearest(const Vec3& p, const Vec3& q, double below, double slack) const {
   Box box;
   box.extend(p);
   box.extend(q);
-  double best = below * below;
+  const bool is_point = p == q;
+  Nearest best{below, std::nullopt};
+  const auto enters = [&](double squared) {
+    const double needed = best.distance_m - slack;
+    return needed > 0 && squared < needed * needed;
+  };
   core::walk_nearer_first(
       bvh_, [&](const core::Bounds& bounds) { return squared_gap(bounds, box); },
-      [&](const core::BvhNode&, double squared) { return squared < best; },
+      [&](const core::BvhNode&, double squared) { return enters(squared); },
       [&](std::uint32_t item) {
         const Triangle& t = mesh_.triangles[order_[item]];
-        best = std::min(best, squared_segment_distance(p, q, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
-                                                       mesh_.vertices[t[2]]));
+        const Vec3 &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
+        const double distance = std::sqrt(is_point ? core::squared_distance_to_triangle(p, a, b, c)
+                                                   : squared_segment_distance(p, q, a, b, c));
+        if (distance < best.distance_m) best = {distance, order_[item]};
       });
-  return std::sqrt(best);
+  return best;
 }
 
 }  // namespace vantage::internal::flight

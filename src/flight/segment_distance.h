@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/bvh.h"
@@ -20,9 +21,14 @@ class SegmentDistance {
   /// Cost: O(n log n).
   explicit SegmentDistance(const Mesh& mesh);
 
+  struct Nearest {
+    double distance_m = 0;
+    std::optional<std::uint32_t> triangle;  ///< nothing where none is nearer than `below`
+  };
   /// From the segment pq to the mesh, which must not be empty; 0 where they meet. Only what is nearer than `below` is
-  /// looked for: else that is the answer.
-  double distance_m(const Vec3& p, const Vec3& q, double below) const;
+  /// looked for: else that is the answer. The distance is right, or up to `slack` >= 0 too large: much is saved where
+  /// thousands of facets are about as near, as in the middle of a dome.
+  Nearest nearest(const Vec3& p, const Vec3& q, double below, double slack) const;
 
  private:
   const Mesh& mesh_;

@@ -58,8 +58,10 @@ double PointSearch::bound_of(const SearchBox<3>& box) {
   if (depth.bound_m < needed) return kNone;
   if (!request_.value) bound = depth.bound_m;
   if (depth.depth_m < request_.margin_m) return bound;
-  const double value = request_.value ? request_.value(middle, 0) : depth.depth_m;
-  if (value > best_ && request_.is_inside(middle)) take(box, value);
+  const double at_least = request_.value ? request_.value(middle, 0) : depth.depth_m;
+  if (!(at_least > best_)) return bound;
+  const double value = allowed_value(middle);
+  if (value > best_) take(box, value);
   return bound;
 }
 

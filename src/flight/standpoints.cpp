@@ -64,9 +64,10 @@ class StandpointFinder {
     constexpr double kQuarter = 0.25;
     result_.margin_m = std::isnan(options_.margin_m) ? std::min(1.0, kQuarter * deepest.best()) : options_.margin_m;
     if (deepest.best() < result_.margin_m + solid_.rounding_m()) {
-      result_.reason = fmt::format("no position lies {:.3g} m inside the volume: the deepest that was found lies {:.3g} m "
-                                   "inside, and none more than {:.3g} m",
-                                   result_.margin_m, deepest.best(), bound_);
+      result_.reason =
+          fmt::format("no position lies {:.3g} m inside the volume: the deepest that was found lies {:.3g} m inside, "
+                      "and none more than {:.3g} m",
+                      result_.margin_m, deepest.best(), bound_);
       return std::move(result_);
     }
     add(StandpointKind::deepest, deepest);
