@@ -76,15 +76,19 @@ def clip(faces, normal, offset):
         kept = []
         for i, p in enumerate(face):
             q, at_p, at_q = face[i - 1], heights[i], heights[i - 1]
-            if (at_p <= 0) != (at_q <= 0):
-                t = at_q / (at_q - at_p)
-                kept.append(tuple(b + t * (a - b) for a, b in zip(p, q)))
+            if (at_p < 0 < at_q) or (at_q < 0 < at_p):
+                (low, at_low), (high, at_high) = sorted(((p, at_p), (q, at_q)))  # the same point from both faces
+                t = at_low / (at_low - at_high)
+                kept.append(tuple(a + t * (b - a) for a, b in zip(low, high)))
                 rim.append(kept[-1])
             if at_p <= 0:
                 kept.append(p)
+            if at_p == 0:
+                rim.append(p)
         if len(kept) >= 3:
             out.append(kept)
-    if rim:
+    rim = list(set(rim))
+    if len(rim) > 2:
         middle = tuple(sum(p[k] for p in rim) / len(rim) for k in range(3))
         right = next(s for s in (minus(p, middle) for p in rim) if dot(s, s) > 0)
         up = cross(normal, right)

@@ -167,7 +167,8 @@ double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& du
   // 2 and two of each set and region; the sum has one rounding for each term, of no more than all sizes.
   const double nn = static_cast<double>(n), sets = static_cast<double>(duals.of_set.size());
   const double terms = 2 * nn + nn * nn + sets;
-  return sum - costs.error_m() - kPairRounding * (terms * (8 + sets) * largest + terms * size);
+  const double bound = sum - costs.error_m() - kUnit * (terms * (8 + sets) * largest + terms * size);
+  return std::isfinite(bound) ? bound : -kInfinity;
 }
 
 /// The linear program over the columns that matter so far.
@@ -576,6 +577,10 @@ class PairsSearch {
       PairsDuals duals = frame.master.duals();
       complete(frame, fixed, duals);
       const double bound = bound_of(frame.costs, fixed, duals);
+      if (bound == -kInfinity) {  // the solver returned what are no numbers
+        stopped_ = true;
+        return false;
+      }
       w = weights(frame.master);
       const std::size_t columns = price(frame, fixed, duals);
       Node& node = nodes_[number];

@@ -329,7 +329,7 @@ class Solver {
 
 Direction direction_of(const Vec3& vector) {
   const double norm = vector.norm();
-  if (!(norm > 0)) return {0, 0, 0};
+  if (!(norm > 0) || !std::isfinite(norm)) return {0, 0, 0};
   double scale = (norm > 1 ? 1 / norm : 1.0) / kDirectionUnit;
   for (;; scale *= 1 - 0x1p-50) {
     Direction direction;
