@@ -167,8 +167,8 @@ double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& du
   // 2 and two of each set and region; the sum has one rounding for each term, of no more than all sizes.
   const double nn = static_cast<double>(n), sets = static_cast<double>(duals.of_set.size());
   const double terms = 2 * nn + nn * nn + sets;
-  const double bound = sum - costs.error_m() - kUnit * (terms * (8 + sets) * largest + terms * size);
-  return std::isfinite(bound) ? bound : -kInfinity;
+  const double bound = sum - costs.error_m() - kPairRounding * (terms * (8 + sets) * largest + terms * size);
+  return std::isfinite(bound) ? bound : -kNoBound;
 }
 
 /// The linear program over the columns that matter so far.
@@ -577,7 +577,7 @@ class PairsSearch {
       PairsDuals duals = frame.master.duals();
       complete(frame, fixed, duals);
       const double bound = bound_of(frame.costs, fixed, duals);
-      if (bound == -kInfinity) {  // the solver returned what are no numbers
+      if (bound == -kNoBound) {  // the solver returned what are no numbers
         stopped_ = true;
         return false;
       }
