@@ -286,7 +286,9 @@ TEST(FlightCheckText, IsJsonThatSaysWhatIsNotKnown) {
   EXPECT_EQ(json["targets"][0]["not_seen"][0]["name"], "wall");
   EXPECT_EQ(json["nearest"]["object"], "wall");
   EXPECT_FALSE(json["nearest"]["position"].contains("lon_deg"));
-  const Georeference place{.latitude_deg = 48, .longitude_deg = 11};
+  Georeference place;
+  place.latitude_deg = 48;
+  place.longitude_deg = 11;
   const auto placed = nlohmann::json::parse(json_text(check, &place));
   EXPECT_NEAR(placed["nearest"]["position"]["lat_deg"].get<double>(), 48 + 27 / 111'200.0, 1e-5);
 }
