@@ -231,6 +231,13 @@ class Tours(unittest.TestCase):
                 expected = min(pairs_by_hand(certificate, one, ends + [{0, 2}], []),
                                pairs_by_hand(certificate, other, ends, [{0, 2}]))
                 self.assertAlmostEqual(self.proved(), expected, 6)
+                tour, both = checker.Tour(certificate, self.folder), []
+                check = checker.leaf_of_pairs
+                checker.leaf_of_pairs = lambda *of, check=check, both=both: both.append(check(*of)) or both[-1]
+                checker.check_pairs(tour, certificate["proof"])
+                checker.leaf_of_pairs = check
+                self.assertAlmostEqual(float(Fraction(both[0], UNIT << tour.bits)),
+                                       pairs_by_hand(certificate, one, ends + [{0, 2}], []), 6)
 
     def test_insertion_by_hand(self):
         """Of the open tour: home, two points in each of two regions."""
