@@ -55,6 +55,42 @@ def towards(a, b):
     return [int(0.999999999 * UNIT * x / length) for x in difference] if length else [0, 0, 0]
 
 
+def least(region, u):
+    """Of u . v over the corners of a box, or of a place."""
+    if "at" in region:
+        return sum(a * b for a, b in zip(u, region["at"]))
+    low, high = BOXES[int(region["name"][1:])]
+    return sum(min(x * a, x * b) for x, a, b in zip(u, low, high))
+
+
+def pairs_by_hand(certificate, leaf, inside, outside):
+    """The formula of docs/theory.md, in doubles and term by term."""
+    regions, rows = certificate["regions"], certificate["proof"]["vectors"][leaf[1]]
+    origin, (p, d, sets), n = certificate["proof"]["origin"], leaf[2:], len(rows)
+
+    def u(i, j):
+        return [x / UNIT for x in rows[i][3 * j:3 * j + 3]] if j < i else [-x for x in u(j, i)]
+
+    def cost(i, j, k):
+        if i >= len(regions):
+            return 0
+        both = [a + b for a, b in zip(u(i, j), u(i, k))]
+        stay = regions[i]["dwell_m"]
+        of = least(regions[i], u(i, j)) + least(regions[i], u(i, k)) + stay if stay else least(regions[i], both)
+        return of - sum(a * b for a, b in zip(both, origin))
+
+    total = sum(2 * x for x in d) + sum(2 * s for s, _ in sets)
+    for i in range(n):
+        beside = [j for j in range(n) if j != i and {i, j} not in outside]
+        pairs = [(j, k) for j in beside for k in beside if j < k]
+        pairs = [q for q in pairs if all(next(iter(e - {i})) in q for e in inside if i in e)]
+        total += min(cost(i, j, k) - p[i][j] - p[i][k] for j, k in pairs)
+        for j in range(i):
+            left = p[i][j] + p[j][i] - d[i] - d[j] - sum(s for s, of in sets if len({i, j} & set(of)) == 1)
+            total += 0 if {i, j} in outside else left if {i, j} in inside else min(0, left)
+    return total
+
+
 def middle(i):
     return [(a + b) / 2 for a, b in zip(*BOXES[i])]
 
@@ -113,16 +149,19 @@ class Tours(unittest.TestCase):
                      ["cut", 0, [1, 1, 0], 100.0], ["empty"], self.leaf([middle(s) for s in stops])]
         self.write(self.certificate(self.regions()[:4], {"kind": "insertion", "root": [0, 1, 2], "tree": tree}))
 
-    def open_with_dwell(self):
+    def open_with_dwell(self, within=(0, 0, 0)):
+        """`within`: the vector of the stretch in each region."""
         regions = self.regions(dwell=8.0)[1:3] + [{"name": "home", "kind": "point", "dwell_m": 0.0, "at": [0.5, 1, 1]}]
         home = [0.5, 1, 1]
         one, two = middle(1), middle(2)
         tree = [["insert", 0], ["insert", 1], self.leaf([home, two, two, one, one], False),
                 self.leaf([home, one, one, two, two], False)]
+        for leaf in tree[2:]:
+            leaf[1][3:6], leaf[1][9:12] = within, within
         self.write(self.certificate(regions, {"kind": "insertion", "root": [2], "tree": tree}, closed=False, first=2))
 
-    def pairs(self, opened=False):
-        regions, count = self.regions(), len(BOXES)
+    def pairs(self, opened=False, dwell=0.0):
+        regions, count = self.regions(dwell), len(BOXES)
         at = [middle(i) for i in range(count)]
         if opened:
             regions.append({"name": "home", "kind": "point", "dwell_m": 0.0, "at": [15, 15, 0]})
@@ -179,6 +218,39 @@ class Tours(unittest.TestCase):
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.refused(lambda c: c.update(bound_m=math.nextafter(c["bound_m"], math.inf)), "less is proved")
 
+    def test_pairs_by_hand(self):
+        for opened, dwell in ((False, 0.0), (True, 0.0), (False, 3.0), (True, 3.0)):
+            self.pairs(opened, dwell)
+            certificate = json.loads(self.file.read_text(encoding="ascii"))
+            edge, one, other = certificate["proof"]["tree"]
+            ends = [{5, 6}] if opened else []
+            one[2][0][2] -= 4.0  # dear, but fixed
+            for sets in ([], one[4], [[1.5, [1, 2]]]):
+                one[4] = other[4] = sets
+                self.put(certificate)
+                expected = min(pairs_by_hand(certificate, one, ends + [{0, 2}], []),
+                               pairs_by_hand(certificate, other, ends, [{0, 2}]))
+                self.assertAlmostEqual(self.proved(), expected, 6)
+                tour, both = checker.Tour(certificate, self.folder), []
+                check = checker.leaf_of_pairs
+                checker.leaf_of_pairs = lambda *of, check=check, both=both: both.append(check(*of)) or both[-1]
+                checker.check_pairs(tour, certificate["proof"])
+                checker.leaf_of_pairs = check
+                self.assertAlmostEqual(float(Fraction(both[0], UNIT << tour.bits)),
+                                       pairs_by_hand(certificate, one, ends + [{0, 2}], []), 6)
+
+    def test_insertion_by_hand(self):
+        """Of the open tour: home, two points in each of two regions."""
+        for within in ((0, 0, 0), (UNIT // 2, 0, 0), (UNIT // 3, -UNIT // 2, UNIT // 5)):
+            self.open_with_dwell(within)
+            certificate, bounds = json.loads(self.file.read_text(encoding="ascii")), []
+            for leaf, order in zip(certificate["proof"]["tree"][2:], ([2, 1, 1, 0, 0], [2, 0, 0, 1, 1])):
+                u = [[0, 0, 0]] + [[x / UNIT for x in leaf[1][k:k + 3]] for k in range(0, 12, 3)] + [[0, 0, 0]]
+                ways = [[a - b for a, b in zip(before, behind)] for before, behind in zip(u, u[1:])]
+                bounds.append(sum(least(certificate["regions"][r], w) for r, w in zip(order, ways)) +
+                              sum(8 * (1 - math.sqrt(sum(x * x for x in u[k]))) for k in (2, 4)))
+            self.assertAlmostEqual(self.proved(), min(bounds), 6)
+
     def test_bounds_are_below_tours(self):
         """Random points of the boxes in random orders."""
         numbers = random.Random(20261126)
@@ -204,11 +276,22 @@ class Tours(unittest.TestCase):
                 offset, side = checker.dot(normal, inside), numbers.randrange(2)
                 planes.append((normal, offset, side))
                 cell = cell.cut(normal, tour.whole(offset))[side]
+            for polygon in cell.polygons:  # its corners, which were rounded
+                for corner in polygon:
+                    for u in ((1, 0, 0), (-1, 0, 0), (0, 0, 1), (-3, 5, -7)):
+                        self.assertGreaterEqual(checker.dot(u, corner), cell.least(u) * corner[3])
             for _ in range(200):
                 point = [numbers.uniform(a, b) for a, b in zip(low, high)]
                 if all((checker.dot(n, point) >= o) == (side == 0) for n, o, side in planes):
                     u = tuple(numbers.randrange(-UNIT, UNIT) for _ in range(3))
                     self.assertGreaterEqual(checker.dot(u, tuple(map(tour.whole, point))), cell.least(u))
+
+    def test_points_of_cuts_are_rounded_down(self):
+        triangle = checker.Cell(0, [[(0, 0, 0, 1), (3, 1, 0, 1), (3, 0, 0, 1)]], False)
+        below = triangle.cut((1, 0, 0), 2)[1]  # its highest corner is (2, 2/3, 0)
+        for u in ((0, -1, 0), (0, -7, 0), (1, -9, 2)):
+            exact = min(Fraction(checker.dot(u, c), c[3]) for p in below.polygons for c in p)
+            self.assertLessEqual(below.least(u), exact)
 
     # ---- what was tampered with ---------------------------------------------
 
@@ -251,6 +334,8 @@ class Tours(unittest.TestCase):
         self.refused(lambda c: c.update(first=0), "ends that it cannot have")
         self.refused(lambda c: c["regions"].append(c["regions"][0] | {"name": "again", "dwell_m": -1.0}), "negative")
         self.open_with_dwell()
+        self.refused(lambda c: c["proof"].update(root=[0]), "begin")
+        self.refused(lambda c: c["proof"].update(root=[]), "begin")
         self.refused(lambda c: c.update(first=0), "an end is no place")
         self.refused(lambda c: c.update(last=2), "both ends")
         self.refused(lambda c: c.update(closed=True, first=None), "three regions")

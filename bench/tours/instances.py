@@ -5,6 +5,9 @@ intersections of the two).
 A body is stood for by a polyhedron that holds it ("outer", for bounds) or lies in it ("inner", for tours). Polyhedra
 are the same in both. An ellipsoid is the image of a ball; round the ball lies a polyhedron with facets that touch it
 from outside, in the ball one with corners on it. Nothing but the standard library is needed.
+
+The files have four decimals, although what was published was computed of more: a plane at coordinates of 500 m may lie
+5 cm from where it was. Outer bodies hold all that the decimals can stand for, inner ones are of the numbers as written.
 """
 
 import math
@@ -12,6 +15,7 @@ import pathlib
 import re
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
+ROUNDED = 0.5e-4  # of each number in the files
 GROWN = 1e-9  # of the size: by so much more than rounding needs are outer bodies larger, inner ones smaller
 
 
@@ -100,10 +104,14 @@ def clip(faces, normal, offset):
 def body(shape, faces_of_ball, scale):
     """The faces of a body; `scale` of the ball: 1 for inner ones, one over the least distance for outer ones."""
     low, high = shape["lb"], shape["ub"]
+    far = [max(abs(a), abs(b)) for a, b in zip(low, high)]
     sign = 1 if scale > 1 else -1
     size = max(b - a for a, b in zip(low, high))
     if shape["P^-1"]:
-        root = cholesky(inverse(shape["P^-1"]))
+        # The norm of a matrix of such numbers is 3 times as large at most.
+        form = [[x - (3 * ROUNDED if sign > 0 and i == j else 0) for j, x in enumerate(row)]
+                for i, row in enumerate(shape["P^-1"])]
+        root = cholesky(inverse(form))
         place = lambda p: tuple(c + scale * (1 + sign * GROWN) * dot(r, p)  # noqa: E731
                                 for c, r in zip(shape["q_c"], root))
         faces = [[place(p) for p in f] for f in faces_of_ball]
@@ -113,7 +121,8 @@ def body(shape, faces_of_ball, scale):
         faces = [[corner(i) for i in f] for f in
                  ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
     for normal, offset in zip(shape["A"], shape["b"]):
-        faces = clip(faces, normal, offset + sign * GROWN * size)
+        by = GROWN * size + (ROUNDED * (1 + sum(map(abs, far))) if sign > 0 else 0)
+        faces = clip(faces, normal, offset + sign * by)
     return faces
 
 
