@@ -1,0 +1,103 @@
+// The airspace of a scene: the exact distance of legs from its surfaces, and the limits of navigation.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vantage/error.h"
+#include "vantage/leg_query.h"
+#include "vantage/tour.h"
+
+namespace vantage {
+namespace {
+
+/// What a leg may deviate at most is known only when it is asked for: so far beyond the clearance the scene is
+/// searched.
+constexpr double kMostDeviation = 2;
+
+LegDistanceOptions options_of(double clearance_m) {
+  LegDistanceOptions options;
+  options.cutoff_m = clearance_m + kMostDeviation;
+  options.without_ground = true;
+  return options;
+}
+
+/// Around all positions that the limits allow, or more.
+Box bounds_of(const Navigation& navigation) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box bounds = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
+  if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) {
+    Box allowed;
+    for (const Box& box : navigation.keep_in) allowed.extend(box);
+    for (const Zone& zone : navigation.keep_in_zones) {
+      for (const Eigen::Vector2d& corner : zone.outer) {
+        allowed.extend(Vec3(corner.x(), corner.y(), zone.min_z_m));
+        allowed.extend(Vec3(corner.x(), corner.y(), zone.max_z_m));
+      }
+    }
+    bounds = allowed;
+  }
+  const auto cut = [&](const Box& box) {
+    bounds.min = bounds.min.cwiseMax(box.min);
+    bounds.max = bounds.max.cwiseMin(box.max);
+  };
+  for (const KeepInMesh& mesh : navigation.meshes) cut(bounding_box(mesh.mesh));
+  if (navigation.altitude) {
+    bounds.min.z() = std::max(bounds.min.z(), navigation.altitude->min_m);
+    bounds.max.z() = std::min(bounds.max.z(), navigation.altitude->max_m);
+  }
+  return bounds;
+}
+
+class SceneAirspace : public Airspace {
+ public:
+  SceneAirspace(const PreparedScene& scene, double clearance_m, const Navigation& navigation)
+      : distances_(scene, options_of(clearance_m)),
+        limits_(navigation),
+        clearance_(clearance_m),
+        has_limits_(!navigation.empty()),
+        bounds_(bounds_of(navigation)) {}
+
+  bool allows(const Leg& leg, double deviation_m) const override {
+    return !is_near(distances_.nearest(leg), deviation_m) && (!has_limits_ || limits_.broken(leg, deviation_m).empty());
+  }
+
+  std::string obstacle(const Leg& leg, double deviation_m) const override {
+    const LegDistance nearest = distances_.nearest(leg);
+    if (is_near(nearest, deviation_m)) return nearest.name;
+    if (!has_limits_) return {};
+    const std::vector<LegBreak> broken = limits_.broken(leg, deviation_m);
+    return broken.empty() ? std::string() : broken.front().limit;
+  }
+
+  Box bounds() const override { return bounds_; }
+
+ private:
+  bool is_near(const LegDistance& nearest, double deviation) const {
+    if (deviation > kMostDeviation) return true;  // not certain
+    const double least = clearance_ + deviation;
+    // Without a clearance, surfaces are still not passed through.
+    return least > 0 ? nearest.distance_m < least : nearest.distance_m <= 0;
+  }
+
+  LegDistances distances_;
+  LegLimits limits_;
+  double clearance_;
+  bool has_limits_;
+  Box bounds_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Airspace> make_airspace(const PreparedScene& scene, double clearance_m,
+                                              const Navigation& navigation) {
+  if (!(clearance_m >= 0) || !std::isfinite(clearance_m)) {
+    throw Error(ErrorCode::value_out_of_range, "the clearance is not a number of at least 0", "tour.clearance",
+                "give metres");
+  }
+  return std::make_shared<SceneAirspace>(scene, clearance_m, navigation);
+}
+
+}  // namespace vantage
