@@ -182,8 +182,7 @@ class Tour:
 def leaf_of_insertion(tour, stops, vectors):
     """A stop with a dwell is two points, with a leg between that counts as so long at least."""
     points, stays = [], []
-    for cell in stops:
-        stay = tour.dwell[cell.region]
+    for cell, stay in ((cell, tour.dwell[cell.region]) for cell in stops):
         points, stays = (points + [cell, cell], stays + [stay, 0]) if stay else (points + [cell], stays + [0])
     legs = len(points) - (not tour.closed or len(points) == 1)
     demand(len(vectors) == legs, "there are vectors for another number of legs")
