@@ -16,7 +16,7 @@ using CliSignals = Cli;
 
 constexpr std::array kCommands = {"scene",   "inspect", "compute", "query",   "verify",
                                   "compare", "devices", "cameras", "spheres", "render",
-                                  "stand",   "orbit"};
+                                  "stand",   "orbit", "check"};
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);

@@ -33,11 +33,17 @@ Target checked_square(const Vec3& centre = Vec3::Zero()) {
                     centre + Vec3(-kHalf, kHalf, 0)});
 }
 
+/// The first object is the ground.
+Scene with_ground(Scene scene) {
+  scene.objects.front().kind = ObjectKind::ground;
+  return scene;
+}
+
 /// A square on the ground, and a wall north of it, 10 m long and 10 m high.
 Mission behind_a_wall(double range_m = 100) {
   SceneBuilder scene;
   scene.ground("ground", 200, -0.5).box("wall", {-5, 6, -0.5}, {5, 7, 10});
-  return mission_in(scene, checked_square(), range_m);
+  return mission_in(with_ground(scene), checked_square(), range_m);
 }
 
 Flight flight_along(const std::vector<Vec3>& positions, double speed_m_s = std::numeric_limits<double>::quiet_NaN()) {
@@ -193,12 +199,12 @@ Mission drawn_mission(Random& random) {
   SceneBuilder scene;
   scene.ground("ground", 300, -0.5);
   for (int i = 0; i < 12; ++i) {
-    const double angle = random.uniform(0, 2 * std::numbers::pi), radius = random.uniform(8, 40);
-    const Vec3 corner(radius * std::cos(angle), radius * std::sin(angle), -0.5);
-    scene.box("box " + std::to_string(i), corner,
-              corner + Vec3(random.uniform(0.5, 8), random.uniform(0.5, 8), random.uniform(2, 20)));
+    const double angle = random.uniform(0, 2 * std::numbers::pi), radius = random.uniform(12, 40);
+    const Vec3 middle(radius * std::cos(angle), radius * std::sin(angle), -0.5);
+    const Vec3 half(random.uniform(0.5, 5), random.uniform(0.5, 5), 0);
+    scene.box("box " + std::to_string(i), middle - half, middle + half + Vec3(0, 0, random.uniform(2, 20)));
   }
-  Mission mission = mission_in(scene, checked_square(), random.uniform(30, 70));
+  Mission mission = mission_in(with_ground(scene), checked_square(), random.uniform(30, 70));
   if (random.chance(0.5)) mission.sensor.incidence_deg = random.uniform(30, 80);
   if (random.chance(0.5)) mission.sensor.min_range_m = random.uniform(5, 25);
   if (random.chance(0.5)) mission.sensor.sun = SunLimit{random.direction(), random.uniform(5, 40)};

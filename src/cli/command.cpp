@@ -57,7 +57,7 @@ std::string exit_code_table() {
   return "\n"
          "EXIT CODES\n"
          "  0      done\n"
-         "  1      wrong: verify, prove, report, compute --prove; too many facets: simplify;\n"
+         "  1      wrong: verify, prove, check, report, compute --prove; too many facets: simplify;\n"
          "         nothing found: stand, orbit, --fail-empty\n"
          "  2      bad input, bad arguments, or a result that could not be written\n"
          "  3      a defect of vantage: please report it together with the input\n"

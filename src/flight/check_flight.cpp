@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -250,11 +251,25 @@ std::vector<BrokenLimit> broken_limits(const std::vector<OnLeg>& legs, const Alo
   return result;
 }
 
-NearestPass nearest_pass(const std::vector<Leg>& legs, const PreparedScene& scene, const Along& along, double radius_m,
-                         const Progress& progress) {
+/// All but the scene's ground, and the object that the mission calls so.
+LegDistanceOptions but_for_the_ground(const Mission& mission) {
   LegDistanceOptions options;
   options.without_ground = true;
-  const std::vector<LegDistance> distances = LegDistances(scene, options).nearest(legs, progress);
+  if (!mission.as_written.ground) return options;
+  const std::string& ground = mission.as_written.ground->object;
+  const std::vector<SceneObject>& objects = mission.scene().objects;
+  for (std::uint32_t i = 0; i < objects.size() && !ground.empty(); ++i) {
+    const SceneObject& object = objects[i];
+    if (display_name(object) == ground || object.name == ground || object.source_id == ground) {
+      options.without_objects.push_back(i);
+    }
+  }
+  return options;
+}
+
+NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene, const Along& along, double radius_m,
+                         const Progress& progress) {
+  const std::vector<LegDistance> distances = scene.nearest(legs, progress);
   NearestPass nearest;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -363,7 +378,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
     check.targets.push_back(check_target(targets[i], i, found, along));
   }
   check.broken = broken_limits(found, along);
-  check.nearest = nearest_pass(legs, scene, along, check.tube_radius_m, progress);
+  check.nearest = nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
   check.failures = failures_of(check, options);
   return check;
 }
