@@ -62,8 +62,8 @@ TEST(FlightCheck, TellsWhatIsSeenAndWhatHidesIt) {
   const TargetCheck& target = check.targets[0];
   EXPECT_EQ(check.length_m, 120);
   EXPECT_EQ(check.duration_s, 24);
-  // Seen from (x, 27, 20), the corner (2, 2, 0) is behind the wall's top edge at y = 7 where the line to it is at z < 10
-  // there: z = 20 (7 - 2) / 25 = 4. The last line that the wall's end at x = 5 hides ends at the corner (-2, 2): at
+  // Seen from (x, 27, 20), the corner (2, 2, 0) is behind the wall's top edge at y = 7 where the line to it is at z <
+  // 10 there: z = 20 (7 - 2) / 25 = 4. The last line that the wall's end at x = 5 hides ends at the corner (-2, 2): at
   // y = 6, a share 4 / 25 from the corner, x = -2 + (x + 2) 4 / 25 = 5.
   const double last = -2 + 7 * 25 / 4.0;
   ASSERT_EQ(target.seen.size(), 2U);
@@ -159,9 +159,12 @@ TEST(FlightCheck, RefusesOptionsThatMeanNothing) {
   const Mission mission = behind_a_wall();
   const Flight flight = flight_along({{-30, -20, 20}, {30, -20, 20}}, 5);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  for (const FlightCheckOptions& options :
-       {FlightCheckOptions{.tube_radius_m = -1}, {.tube_radius_m = kNaN}, {.speed_m_s = 0.0}, {.dwell_s = -1.0},
-        {.clearance_m = kNaN}, {.gimbal_rate_deg_s = 0.0}}) {
+  for (const FlightCheckOptions& options : {FlightCheckOptions{.tube_radius_m = -1},
+                                            {.tube_radius_m = kNaN},
+                                            {.speed_m_s = 0.0},
+                                            {.dwell_s = -1.0},
+                                            {.clearance_m = kNaN},
+                                            {.gimbal_rate_deg_s = 0.0}}) {
     EXPECT_THROW(check_flight(mission, flight, options), Error);
   }
   EXPECT_THROW(check_flight(mission, Flight{}), Error);

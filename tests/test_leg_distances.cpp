@@ -81,12 +81,12 @@ TEST(LegDistances, KnowsDistancesAndPlaces) {
   };
   expect({{0, 0, 7}, {0, 0, 7}}, 7, 0, "ground");
   expect({{5, 0, 30}, {5, 0, 8}}, 5, 1, "box");
-  expect({{0, 9, 11}, {40, 9, 11}}, 5, 0.25, "box");           // beside the upper edge: the first of many places
-  expect({{15, 0, 20}, {15, 0, 6}}, 0, 12.0 / 14, "box");      // into the roof
-  expect({{9, 4, 9}, {9, 4, 9}}, std::sqrt(2.0), 0, "box");    // off the edge
-  expect({{9, 6, 9}, {9, 6, 9}}, std::sqrt(3.0), 0, "box");    // off a corner
-  expect({{14, -5, 8}, {16, 5, 8}}, 0, 0, "box");              // in a plane of the roof
-  expect({{10, -9, 8}, {10, 9, 8}}, 0, 4.0 / 18, "box");       // along an edge
+  expect({{0, 9, 11}, {40, 9, 11}}, 5, 0.25, "box");         // beside the upper edge: the first of many places
+  expect({{15, 0, 20}, {15, 0, 6}}, 0, 12.0 / 14, "box");    // into the roof
+  expect({{9, 4, 9}, {9, 4, 9}}, std::sqrt(2.0), 0, "box");  // off the edge
+  expect({{9, 6, 9}, {9, 6, 9}}, std::sqrt(3.0), 0, "box");  // off a corner
+  expect({{14, -5, 8}, {16, 5, 8}}, 0, 0, "box");            // in a plane of the roof
+  expect({{10, -9, 8}, {10, 9, 8}}, 0, 4.0 / 18, "box");     // along an edge
 }
 
 TEST(LegDistances, KeepsToTheCutOff) {
@@ -112,8 +112,11 @@ TEST(LegDistances, RefusesWhatIsNoOption) {
   const PreparedScene scene(SceneBuilder().ground("ground", 10));
   testing::expect_error([&] { LegDistances(scene, {.cutoff_m = -1}); }, ErrorCode::value_out_of_range);
   testing::expect_error([&] { LegDistances(scene, {.without_objects = {1}}); }, ErrorCode::index_out_of_range);
-  testing::expect_error([&] { LegDistances(scene).nearest({{0, 0, NAN}, {0, 0, 1}}); },
-                        ErrorCode::coordinate_not_finite);
+  testing::expect_error(
+      [&] {
+        LegDistances(scene).nearest({{0, 0, NAN}, {0, 0, 1}});
+      },
+      ErrorCode::coordinate_not_finite);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ Mesh some_ground(Random& random) {
 const Zone::Ring kBent = {{-40, -30}, {-5, -30}, {-5, 0}, {-20, 10}, {-5, 25}, {-40, 30}};
 
 enum class Kind { altitude, boxes, zones, ground, mesh, clearance, heights };
-constexpr Kind kKinds[] = {Kind::altitude, Kind::boxes, Kind::zones,  Kind::ground,
+constexpr Kind kKinds[] = {Kind::altitude, Kind::boxes,     Kind::zones,  Kind::ground,
                            Kind::mesh,     Kind::clearance, Kind::heights};
 
 Navigation some_navigation(Random& random, const LegWorld& world, Kind kind) {
@@ -310,19 +310,28 @@ std::vector<Looking> some_sensors(double scale) {
   const Pinhole camera = pinhole_of_fov(60, 40, 4000, 3000);
   add("min_range", [&](Sensor& s) { s.min_range_m = 20 * scale; });
   add("incidence", [](Sensor& s) { s.incidence_deg = 50; });
-  add("pixel", [&](Sensor& s) {
-    s.camera = pinhole_of_fov(150, 150, 4000, 4000);
-    s.pixel = PixelLimit{60 * scale / *s.camera->focal_px, PixelLimit::Kind::worst};
-  }, 1e-4);
+  add(
+      "pixel",
+      [&](Sensor& s) {
+        s.camera = pinhole_of_fov(150, 150, 4000, 4000);
+        s.pixel = PixelLimit{60 * scale / *s.camera->focal_px, PixelLimit::Kind::worst};
+      },
+      1e-4);
   add("sun", [](Sensor& s) { s.sun = SunLimit{{-1, 0.3, -1.5}, 25}; });
-  add("frame", [&](Sensor& s) {
-    s.camera = camera;
-    s.mount = {.yaw_deg = 30, .min_pitch_deg = -60, .max_pitch_deg = -60, .roll_deg = 10};
-  }, 1e-4);
-  add("gimbal", [&](Sensor& s) {
-    s.camera = camera;
-    s.mount = {.yaw_deg = {}, .min_pitch_deg = -70, .max_pitch_deg = -20};
-  }, 1e-4);
+  add(
+      "frame",
+      [&](Sensor& s) {
+        s.camera = camera;
+        s.mount = {.yaw_deg = 30, .min_pitch_deg = -60, .max_pitch_deg = -60, .roll_deg = 10};
+      },
+      1e-4);
+  add(
+      "gimbal",
+      [&](Sensor& s) {
+        s.camera = camera;
+        s.mount = {.yaw_deg = {}, .min_pitch_deg = -70, .max_pitch_deg = -20};
+      },
+      1e-4);
   return all;
 }
 

@@ -175,9 +175,9 @@ TEST(LegViews, MeetsKnownBorders) {
     const SceneBuilder builder =
         SceneBuilder().polygon("screen", {{-5, -50, 4}, {-5, 50, 4}, {-5, 50, 6}, {-5, -50, 6}});
     const PreparedScene scene(world.scene(builder));
-    const PreparedTarget target(
-        scene, world.target(testing::target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
-        {.max_range_m = 1000 * world.scale});
+    const PreparedTarget target(scene,
+                                world.target(testing::target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
+                                {.max_range_m = 1000 * world.scale});
     const LegViews views(target);
     const Leg leg{world.at({-40, 0, 10}), world.at({10, 0, 10})};
     const double tolerance = 1e-8 + 10 * world.rounding() / world.scale;
@@ -238,13 +238,11 @@ TEST(LegViews, DegenerateLegsAreHidden) {
     SCOPED_TRACE(world.scale);
     const SceneBuilder builder = SceneBuilder().polygon("wall", {{5, -5, 0}, {5, 5, 0}, {5, 5, 8}, {5, -5, 8}});
     const PreparedScene scene(world.scene(builder));
-    const PreparedTarget target(
-        scene, world.target(testing::target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
-        {.max_range_m = 1000 * world.scale});
+    const PreparedTarget target(scene,
+                                world.target(testing::target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})),
+                                {.max_range_m = 1000 * world.scale});
     const LegViews views(target);
-    const auto seen = [&](const Vec3& from, const Vec3& to) {
-      return views.look({world.at(from), world.at(to)}).seen;
-    };
+    const auto seen = [&](const Vec3& from, const Vec3& to) { return views.look({world.at(from), world.at(to)}).seen; };
     const std::vector<LegInterval> all = {{0, 1}};
     EXPECT_TRUE(seen({5, 0, 4}, {5, 0, 4}).empty()) << "in the wall";
     EXPECT_TRUE(seen({5, -4, 1}, {5, 4, 7}).empty()) << "along the wall";

@@ -1,6 +1,4 @@
 // Orbits in volumes: closed forms, dense sampling, and circles drawn at random.
-#include "vantage/orbits.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,6 +19,7 @@
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
+#include "vantage/orbits.h"
 #include "vantage/view_description.h"
 
 namespace vantage {
@@ -126,8 +125,7 @@ TEST(Orbits, AreNoWorseThanCirclesDrawnAtRandom) {
     SCOPED_TRACE(round);
     Scene scene = testing::random_city(random, 8, 20);
     scene.objects[0].kind = ObjectKind::ground;
-    const FlightCase one(
-        mission_in(scene, testing::random_target(random, 5, 3, Vec3(0, 0, 0), Vec3::UnitZ()), 80));
+    const FlightCase one(mission_in(scene, testing::random_target(random, 5, 3, Vec3(0, 0, 0), Vec3::UnitZ()), 80));
     const OrbitOptions options{.least_radius_m = 15, .margin_m = 0.5, .tolerance_m = 1, .most_boxes = 10000};
     const Orbits orbits = found_in(one, options);
     expect_inside(one, orbits, 100);

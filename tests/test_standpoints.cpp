@@ -1,6 +1,4 @@
 // The best places of a volume: closed forms, and a grid of all positions.
-#include "vantage/standpoints.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "support/wording.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
+#include "vantage/standpoints.h"
 #include "vantage/view_description.h"
 
 namespace vantage {
@@ -81,8 +80,7 @@ TEST(Standpoints, OfAnOpenSquareAreThoseOfTheClosedForms) {
     const Standpoint& farthest = points[StandpointKind::farthest];
     EXPECT_LT(farthest.view.position.x(), centre.x() - 40);
     EXPECT_EQ(farthest.view.obstacle, "far block");
-    EXPECT_NEAR(*farthest.view.obstacle_distance_m,
-                plain_distance(mission.scene().mesh, farthest.view.position), 1e-6);
+    EXPECT_NEAR(*farthest.view.obstacle_distance_m, plain_distance(mission.scene().mesh, farthest.view.position), 1e-6);
   }
 }
 

@@ -45,9 +45,9 @@ struct LegBlocker {
 
 /// What is seen of a target along a leg. All lists of intervals are sorted, and disjoint.
 struct LegView {
-  std::vector<LegInterval> seen;      ///< from there, and from all of the tube, all of the target is seen, within
-                                      ///< range and from the front
-  std::vector<LegBlocker> hidden_by;  ///< by object; where some of the tube is in front and may be in range
+  std::vector<LegInterval> seen;           ///< from there, and from all of the tube, all of the target is seen, within
+                                           ///< range and from the front
+  std::vector<LegBlocker> hidden_by;       ///< by object; where some of the tube is in front and may be in range
   std::vector<LegInterval> out_of_range;   ///< some of the tube is
   std::vector<LegInterval> behind_target;  ///< some of the tube is; never for a point that is seen from all sides
 };
@@ -186,8 +186,8 @@ VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken
 /// boxes and meshes to leave: how far into them, or out of them; heights vertically; "pixel": beyond the ball that
 /// keeps it; "ground edge": in plan from the ground). Degrees: "incidence", "sun", and of "frame" and "gimbal" how far
 /// at least a corner of the target is out of the picture. The radius adds itself, or the angle that it subtends at
-/// the nearest corner. It is searched for among 17 places of each interval and about the best of these; that of a picture
-/// to a hundredth of a degree.
+/// the nearest corner. It is searched for among 17 places of each interval and about the best of these; that of a
+/// picture to a hundredth of a degree.
 class VANTAGE_API LegLimits {
  public:
   /// Of navigation alone. Throws as check_navigation.

@@ -55,9 +55,9 @@ struct Orbit {
   double length_m = 0;  ///< once round
   /// The centre as a position: its place on the earth and its heights. Its view is that from the centre.
   ViewDescription place;
-  double min_pitch_deg = 0, max_pitch_deg = 0;        ///< of the camera that looks at the target's centre, all round
-  double min_distance_m = 0, max_distance_m = 0;      ///< to the target's centre
-  std::optional<double> pixel_m = std::nullopt;       ///< the largest all round: ViewDescription::pixel_m
+  double min_pitch_deg = 0, max_pitch_deg = 0;         ///< of the camera that looks at the target's centre, all round
+  double min_distance_m = 0, max_distance_m = 0;       ///< to the target's centre
+  std::optional<double> pixel_m = std::nullopt;        ///< the largest all round: ViewDescription::pixel_m
   std::optional<double> incidence_deg = std::nullopt;  ///< likewise
   std::optional<double> obstacle_distance_m = std::nullopt;  ///< the smallest all round; a few centimetres less
   std::string obstacle = {};                                 ///< that one
@@ -73,10 +73,10 @@ struct OrbitOptions {
   /// How far radii and margins may be from the best; > 0. NaN: 1 m, but no more than a hundredth of the volume's
   /// extent, an eighth of its height and, once the margin is known, half of that. Pixels are right to 2 %.
   double tolerance_m = std::numeric_limits<double>::quiet_NaN();
-  bool racetracks = true;           ///< look for one where no circle fits
-  bool clockwise = true;            ///< of what is found
+  bool racetracks = true;          ///< look for one where no circle fits
+  bool clockwise = true;           ///< of what is found
   std::size_t most_boxes = 20000;  ///< of a search; one that comes to it ends with a looser `bound`
-  int threads = 0;                  ///< 0: as many as the machine has. The result does not depend on it
+  int threads = 0;                 ///< 0: as many as the machine has. The result does not depend on it
 };
 
 struct Orbits {

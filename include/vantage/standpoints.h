@@ -51,9 +51,9 @@ struct StandpointOptions {
 };
 
 struct Standpoints {
-  std::vector<Standpoint> found;  ///< at most one of each kind, in their order
-  double margin_m = 0;            ///< that they keep
-  std::string reason;             ///< why there are none; else empty
+  std::vector<Standpoint> found;   ///< at most one of each kind, in their order
+  double margin_m = 0;             ///< that they keep
+  std::string reason;              ///< why there are none; else empty
   std::vector<std::string> notes;  ///< of kinds that have no answer, and of searches that were cut short
 };
 

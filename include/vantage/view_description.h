@@ -25,9 +25,9 @@ struct ViewDescription {
   /// picture, though whole in it.
   bool is_centred = true;
 
-  double distance_m = 0;                                ///< to the target's centre
-  std::optional<double> pixel_m = std::nullopt;         ///< on the target, the largest: see ViewDescriber
-  std::optional<double> incidence_deg = std::nullopt;   ///< between a normal and the line to the position, the largest
+  double distance_m = 0;                               ///< to the target's centre
+  std::optional<double> pixel_m = std::nullopt;        ///< on the target, the largest: see ViewDescriber
+  std::optional<double> incidence_deg = std::nullopt;  ///< between a normal and the line to the position, the largest
   std::optional<double> obstacle_distance_m = std::nullopt;  ///< to the nearest obstacle of the scene
   std::string obstacle = {};                                 ///< its display_name; may be empty
 };

@@ -15,8 +15,8 @@ namespace vantage::cli {
 
 struct TargetVolume {
   std::string name;
-  Mission mission;  ///< of this volume alone
-  Volume volume;    ///< empty where there is an error
+  Mission mission;                  ///< of this volume alone
+  Volume volume;                    ///< empty where there is an error
   std::optional<Error> error = {};  ///< why there is no volume: the target cannot be seen as it lies
 };
 

@@ -11,8 +11,8 @@ void add_place(TextTable& table, const ViewDescription& view) {
   constexpr int kCentimetreOnEarth = 7;  // digits of degrees
   table.row("  position", vector(view.position), "x, y and z in metres, scene frame");
   if (view.longitude_deg && view.latitude_deg) {
-    table.row("  on the earth", fixed(*view.latitude_deg, kCentimetreOnEarth) + " " +
-                                    fixed(*view.longitude_deg, kCentimetreOnEarth),
+    table.row("  on the earth",
+              fixed(*view.latitude_deg, kCentimetreOnEarth) + " " + fixed(*view.longitude_deg, kCentimetreOnEarth),
               "latitude and longitude, WGS 84");
   }
   if (view.above_ground_m) table.row("  height", fixed(*view.above_ground_m, 2), "metres above the ground");

@@ -23,8 +23,8 @@ struct SearchBox {
 };
 
 struct SearchLimits {
-  double tolerance = 0;         ///< > 0: the search ends where nothing can be better by more
-  std::size_t most_boxes = 0;   ///< or after so many
+  double tolerance = 0;        ///< > 0: the search ends where nothing can be better by more
+  std::size_t most_boxes = 0;  ///< or after so many
 };
 
 struct SearchEnd {

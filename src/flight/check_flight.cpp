@@ -378,7 +378,8 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
     check.targets.push_back(check_target(targets[i], i, found, along));
   }
   check.broken = broken_limits(found, along);
-  check.nearest = nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
+  check.nearest =
+      nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
   check.failures = failures_of(check, options);
   return check;
 }

@@ -49,7 +49,9 @@ std::vector<std::string> names_in(const Scene& scene) {
 }  // namespace
 
 Obstacles::Obstacles(const Mission& mission)
-    : origin_(middle_of(mission.scene().mesh)), names_(names_in(mission.scene())), mesh_([&] {
+    : origin_(middle_of(mission.scene().mesh)),
+      names_(names_in(mission.scene())),
+      mesh_([&] {
         auto [mesh, objects] = obstacles_in(mission, origin_);
         object_of_ = std::move(objects);
         return std::move(mesh);

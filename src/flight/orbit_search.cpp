@@ -205,7 +205,7 @@ void OrbitSearch::offer(const Numbers& numbers, double step) {
   const double scaled = request_.most_half_straight_m > 0 ? step : 0;
   const bool is_over = request_.centre == OrbitCentre::over_target;
   const Numbers steps = {is_over ? 0 : step, is_over ? 0 : step, step, step, scaled, scaled};
-  Numbers place = {curve.centre.x(), curve.centre.y(), curve.centre.z(),
+  Numbers place = {curve.centre.x(), curve.centre.y(),      curve.centre.z(),
                    curve.radius_m,   curve.half_straight_m, curve.angle * angle_scale_};
   climb(place, value, steps, std::min(1.0, request_.error_m / step), [&](const Numbers& next) {
     ClosedCurve other = curve_at(next);

@@ -52,8 +52,8 @@ void check_orbit_options(const OrbitOptions& options) {
 /// All searches in one volume.
 class OrbitFinder {
  public:
-  OrbitFinder(const Mission& mission, const Volume& volume, const PreparedScene& scene,
-              const ViewDescriber& describer, const OrbitOptions& options)
+  OrbitFinder(const Mission& mission, const Volume& volume, const PreparedScene& scene, const ViewDescriber& describer,
+              const OrbitOptions& options)
       : exact_(volume.mesh),  // first: it checks the mesh
         solid_(volume.mesh),
         depth_(solid_),
@@ -158,14 +158,14 @@ class OrbitFinder {
     const std::string asked = fmt::format("{} of radius {:.6g} m or more{}", what, options_.least_radius_m, where);
     const std::string inside = fmt::format("lies {:.3g} m inside the volume", result_.margin_m);
     if (!search.end().is_cut) return "no " + asked + " " + inside;
-    return fmt::format("no {} was found that {}; it is not proved that there is none, but none lies more than {:.3g} m "
-                       "inside",
-                       asked, inside, search.end().bound);
+    return fmt::format(
+        "no {} was found that {}; it is not proved that there is none, but none lies more than {:.3g} m "
+        "inside",
+        asked, inside, search.end().bound);
   }
 
   void add_racetrack(const ProgressReporter& progress) {
-    const OrbitSearch found =
-        search(OrbitKind::deepest, result_.margin_m, std::nullopt, progress, solid_.size_m() / 2);
+    const OrbitSearch found = search(OrbitKind::deepest, result_.margin_m, std::nullopt, progress, solid_.size_m() / 2);
     if (found.curve()) {
       set_margin(found);
       add(OrbitKind::deepest, found);
@@ -300,9 +300,8 @@ Orbits find_orbits(const Mission& mission, const Volume& volume, const PreparedS
   }
   const ProgressReporter reporter(progress, "orbits");
   reporter.begin("orbits");
-  internal::parallel::with_threads(options.threads, [&] {
-    result = OrbitFinder(mission, volume, scene, describer, options).find(reporter);
-  });
+  internal::parallel::with_threads(
+      options.threads, [&] { result = OrbitFinder(mission, volume, scene, describer, options).find(reporter); });
   reporter.finish();
   return result;
 }

@@ -32,8 +32,12 @@ double rounding_of(const Box& box) {
 }  // namespace
 
 SolidDepth::SolidDepth(const Mesh& mesh)
-    : origin_(middle_of(bounding_box(mesh))), mesh_(moved(mesh, origin_)), bounds_(bounding_box(mesh_)),
-      rounding_m_(rounding_of(bounding_box(mesh))), tree_(mesh_), distance_(mesh_) {
+    : origin_(middle_of(bounding_box(mesh))),
+      mesh_(moved(mesh, origin_)),
+      bounds_(bounding_box(mesh_)),
+      rounding_m_(rounding_of(bounding_box(mesh))),
+      tree_(mesh_),
+      distance_(mesh_) {
   const Vec3 size = bounds_.max - bounds_.min;
   cell_m_ = std::max(size.maxCoeff() / kCellsAlong, std::numeric_limits<double>::min());
   cell_error_ = cell_m_ / 4;
@@ -73,10 +77,10 @@ SolidDepth::Cell SolidDepth::cell_at(const Vec3& point) const {
     index[a] = static_cast<int>(std::clamp(cell, 0.0, static_cast<double>(count_[a] - 1)));
     middle[a] = bounds_.min[a] + (index[a] + 0.5) * cell_m_;
   }
-  const auto i = (static_cast<std::size_t>(index[2]) * static_cast<std::size_t>(count_[1]) +
-                  static_cast<std::size_t>(index[1])) *
-                     static_cast<std::size_t>(count_[0]) +
-                 static_cast<std::size_t>(index[0]);
+  const auto i =
+      (static_cast<std::size_t>(index[2]) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(index[1])) *
+          static_cast<std::size_t>(count_[0]) +
+      static_cast<std::size_t>(index[0]);
   return {cells_[i], (point - middle).norm() + cell_error_};
 }
 
@@ -113,8 +117,7 @@ double SolidDepth::depth_m(const Vec3& point) const {
 
 double SolidDepth::box_at_most_m(const Vec3& middle, const Vec3& half) const {
   // A point of the solid is no deeper than the solid's box is near: the way there leaves the solid.
-  const double in_box =
-      std::min((bounds_.max - middle + half).minCoeff(), (middle + half - bounds_.min).minCoeff());
+  const double in_box = std::min((bounds_.max - middle + half).minCoeff(), (middle + half - bounds_.min).minCoeff());
   return std::min(in_box, at_most_m(middle) + half.norm());
 }
 

@@ -40,9 +40,8 @@ void PointSearch::take(const SearchBox<3>& box, double value) {
   if (is_much_better) {
     const double reach = point_at(box.half).norm();
     steps.fill(reach);
-    best_ = climb(place, value, steps, std::min(1.0, request_.least_step_m / reach), [&](const auto& next) {
-      return allowed_value(point_at(next));
-    });
+    best_ = climb(place, value, steps, std::min(1.0, request_.least_step_m / reach),
+                  [&](const auto& next) { return allowed_value(point_at(next)); });
   }
   point_ = point_at(place);
 }

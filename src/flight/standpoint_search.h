@@ -19,11 +19,11 @@ namespace vantage::internal::flight {
 using PointValue = std::function<double(const Vec3& point, double reach_m)>;
 
 struct PointRequest {
-  PointValue value;        ///< empty: the depth
-  double margin_m = 0;     ///< points count at this depth and deeper
-  double slack_m = 0;      ///< the bound is of points that are so much deeper than that
-  SearchLimits limits;     ///< the tolerance is of the value
-  double least_step_m = 0;  ///< > 0: no point is moved by less to make it better
+  PointValue value;                            ///< empty: the depth
+  double margin_m = 0;                         ///< points count at this depth and deeper
+  double slack_m = 0;                          ///< the bound is of points that are so much deeper than that
+  SearchLimits limits;                         ///< the tolerance is of the value
+  double least_step_m = 0;                     ///< > 0: no point is moved by less to make it better
   std::function<bool(const Vec3&)> is_inside;  ///< asked of each point before it counts
 };
 

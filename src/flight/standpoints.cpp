@@ -64,10 +64,10 @@ class StandpointFinder {
     constexpr double kQuarter = 0.25;
     result_.margin_m = std::isnan(options_.margin_m) ? std::min(1.0, kQuarter * deepest.best()) : options_.margin_m;
     if (deepest.best() < result_.margin_m + solid_.rounding_m()) {
-      result_.reason =
-          fmt::format("no position lies {:.3g} m inside the volume: the deepest that was found lies {:.3g} m inside, "
-                      "and none more than {:.3g} m",
-                      result_.margin_m, deepest.best(), bound_);
+      result_.reason = fmt::format(
+          "no position lies {:.3g} m inside the volume: the deepest that was found lies {:.3g} m inside, "
+          "and none more than {:.3g} m",
+          result_.margin_m, deepest.best(), bound_);
       return std::move(result_);
     }
     add(StandpointKind::deepest, deepest);
@@ -164,8 +164,8 @@ class StandpointFinder {
     const SearchEnd end = found.run(progress);
     bound_ = told(kind, end.bound);
     if (end.is_cut) {
-      result_.notes.push_back(fmt::format("{}: the search was cut short after {} boxes; its bound is loose",
-                                          name_of(kind), end.boxes));
+      result_.notes.push_back(
+          fmt::format("{}: the search was cut short after {} boxes; its bound is loose", name_of(kind), end.boxes));
     }
     return found;
   }
@@ -219,9 +219,8 @@ Standpoints find_standpoints(const Mission& mission, const Volume& volume, const
   }
   const ProgressReporter reporter(progress, "standpoints");
   reporter.begin("standpoints");
-  internal::parallel::with_threads(options.threads, [&] {
-    result = StandpointFinder(mission, volume, scene, describer, options).find(reporter);
-  });
+  internal::parallel::with_threads(
+      options.threads, [&] { result = StandpointFinder(mission, volume, scene, describer, options).find(reporter); });
   reporter.finish();
   return result;
 }

@@ -17,10 +17,8 @@ std::string json_text(const std::vector<NamedStandpoints>& targets) {
                 {"notes", target.standpoints.notes}};
     row["standpoints"] = Json::array();
     for (const Standpoint& point : target.standpoints.found) {
-      Json one = {{"kind", name_of(point.kind)},
-                  {"value", point.value},
-                  {"bound", point.bound},
-                  {"margin_m", point.margin_m}};
+      Json one = {
+          {"kind", name_of(point.kind)}, {"value", point.value}, {"bound", point.bound}, {"margin_m", point.margin_m}};
       internal::flight::add_view(one, point.view);
       row["standpoints"].push_back(std::move(one));
     }

@@ -61,16 +61,14 @@ class AimLook {
 
   /// All corners inside of four planes: linear.
   LegIntervals fixed() const {
-    const sensor::PictureEdges edges =
-        sensor::picture_edges(camera_, {*mount_.yaw_deg * kRadian, mount_.min_pitch_deg * kRadian},
-                              sensor::Angle(mount_.roll_deg * kRadian));
+    const sensor::PictureEdges edges = sensor::picture_edges(
+        camera_, {*mount_.yaw_deg * kRadian, mount_.min_pitch_deg * kRadian}, sensor::Angle(mount_.roll_deg * kRadian));
     LegIntervals parts;
     for (const Vec3& edge : edges) {
       const Vec3 normal = edge.normalized();
       for (const Vec3& corner : corners_) {
-        for (const LegInterval& part :
-             where_positive(local_.radius - normal.dot(corner - local_.leg.from),
-                            local_.radius - normal.dot(corner - local_.leg.to))) {
+        for (const LegInterval& part : where_positive(local_.radius - normal.dot(corner - local_.leg.from),
+                                                      local_.radius - normal.dot(corner - local_.leg.to))) {
           parts.push_back(part);
         }
       }
@@ -88,7 +86,8 @@ class AimLook {
     const double slack = angle_of(place, 0.02 * half);
     if (has_aim(place, {.inside_m = half + radius}, slack)) return;
     const bool is_short = 2 * half <= std::max(shortest, radius / 8);
-    if (!has_aim(place, {.inside_m = -1.05 * half}, slack) || (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
+    if (!has_aim(place, {.inside_m = -1.05 * half}, slack) ||
+        (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
       parts_.push_back({begin, end});
       return;
     }

@@ -155,7 +155,7 @@ std::optional<LegInterval> near_part(const Vec3& from, const Vec3& to, std::span
   if (!(radius > 0)) return clamped();
   const double scale = std::max(from.norm(), to.norm()) + radius;
   constexpr int kMostSteps = 40;
-  for (double LegInterval::* end : {&LegInterval::begin, &LegInterval::end}) {
+  for (double LegInterval::*end : {&LegInterval::begin, &LegInterval::end}) {
     for (int step = 0; step < kMostSteps; ++step) {
       const double place = part.*end;
       const Projection nearest(from + place * (to - from), set, kMet * scale);

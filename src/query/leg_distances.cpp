@@ -55,8 +55,7 @@ LegDistance LegDistances::nearest(const Leg& leg) const {
   internal::core::walk_nearest_first(
       scene.bvh,
       [&](const internal::core::Bounds& bounds) { return internal::query::distance_to_box(from, to, bounds); },
-      least + rounding,
-      [&](const internal::core::BvhNode&, double distance) { return distance <= least + rounding; },
+      least + rounding, [&](const internal::core::BvhNode&, double distance) { return distance <= least + rounding; },
       [&](std::uint32_t polygon) {
         const std::uint32_t object = scene.polygon_object[polygon];
         if (is_left_out_[object]) return;

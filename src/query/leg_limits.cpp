@@ -232,8 +232,8 @@ LegLimits::LegLimits(const Navigation& navigation) {
 }
 LegLimits::LegLimits(const PreparedTarget& target, const Navigation& navigation) {
   check_navigation(navigation);
-  data_ = std::make_unique<Data>(
-      navigation, internal::sensor::SensorLimits(internal::sensor::viewed_of(target), target.sensor()));
+  data_ = std::make_unique<Data>(navigation,
+                                 internal::sensor::SensorLimits(internal::sensor::viewed_of(target), target.sensor()));
 }
 LegLimits::~LegLimits() = default;
 LegLimits::LegLimits(LegLimits&&) noexcept = default;

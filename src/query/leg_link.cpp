@@ -5,7 +5,7 @@
 namespace vantage::internal::query {
 namespace {
 
-constexpr double kShortest = 1e-3;        // metres
+constexpr double kShortest = 1e-3;       // metres
 constexpr double kShortestShare = 1e-5;  // and of the leg
 
 /// A zone that nothing enters when it is so much longer in all is not even touched within rounding.

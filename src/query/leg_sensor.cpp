@@ -101,8 +101,8 @@ class PartsLook {
   }
 
   LegIntervals too_slanted(const ViewedPart& part) const {
-    return rest_of(below([&](double share) { return -limits_.incidence_margin(part, local_.at(share)); },
-                         -local_.radius));
+    return rest_of(
+        below([&](double share) { return -limits_.incidence_margin(part, local_.at(share)); }, -local_.radius));
   }
   double slant(const ViewedPart& part, const Vec3& place) const {
     double worst = -INFINITY;

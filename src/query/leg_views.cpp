@@ -1,6 +1,4 @@
 // LegViews: what hides a target from a leg is one interval for each polygon.
-#include "vantage/leg_query.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +17,7 @@
 #include "query/side.h"
 #include "target/numerics.h"
 #include "vantage/error.h"
+#include "vantage/leg_query.h"
 
 namespace vantage {
 namespace {

@@ -113,8 +113,8 @@ LegIntervals LegZone::broken(const Tube& tube) const {
   }
   if (!zone_.above_ground || parts.empty()) return parts;
   // Above the lowest height over some piece of ground, and below the highest one over some other; or without ground.
-  LegIntervals between = common(ground_->over(tube, zone_.above_ground->min_m),
-                                ground_->below(tube, zone_.above_ground->max_m));
+  LegIntervals between =
+      common(ground_->over(tube, zone_.above_ground->min_m), ground_->below(tube, zone_.above_ground->max_m));
   const LegIntervals beside = ground_->beside(tube);
   between.insert(between.end(), beside.begin(), beside.end());
   return common(parts, joined(std::move(between)));
@@ -122,9 +122,8 @@ LegIntervals LegZone::broken(const Tube& tube) const {
 
 double LegZone::outside(const Vec3& place) const {
   double aside = INFINITY;
-  for_each_side(zone_, [&](const Plan& a, const Plan& b) {
-    aside = std::min(aside, distance_to_side(place.head<2>(), a, b));
-  });
+  for_each_side(
+      zone_, [&](const Plan& a, const Plan& b) { aside = std::min(aside, distance_to_side(place.head<2>(), a, b)); });
   if (place_in(zone_, place.head<2>()) != ZonePlace::outside) aside = -aside;
   const double beyond = std::max(zone_.min_z_m - place.z(), place.z() - zone_.max_z_m);
   if (aside <= 0 && beyond <= 0) return std::max(aside, beyond);

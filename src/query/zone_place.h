@@ -20,8 +20,8 @@ Box box_of(const Zone& zone);
 
 enum class ZonePlace { outside, border, inside };
 
-/// In plan: a ray eastward crosses the sides of a polygon and its holes an odd number of times from inside. Cost: linear
-/// in the corners.
+/// In plan: a ray eastward crosses the sides of a polygon and its holes an odd number of times from inside. Cost:
+/// linear in the corners.
 ZonePlace place_in(const Zone& zone, const Eigen::Vector2d& p);
 
 }  // namespace vantage::internal::query

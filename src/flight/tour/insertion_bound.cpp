@@ -52,7 +52,8 @@ struct Node {
 
 class InsertionSearch {
  public:
-  InsertionSearch(Cells& cells, const TourSpace& space, const InsertionOptions& options, const core::ProgressReporter& progress)
+  InsertionSearch(Cells& cells, const TourSpace& space, const InsertionOptions& options,
+                  const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     Box all;
     for (std::size_t r = 0; r < cells_.region_count(); ++r) all.extend(cells_[r].hull->box());

@@ -24,7 +24,7 @@ constexpr std::size_t kFirstNeighbours = 8;
 constexpr std::size_t kAllEdges = 16;  // of so many regions all edges are columns from the start
 constexpr std::size_t kMostEdgesAtOnce = 60;
 constexpr std::size_t kMostPairsAtOnce = 3;  // of a region and one of its edges
-constexpr int kMostPairRounds = 60;              // of columns and cuts, for one node
+constexpr int kMostPairRounds = 60;          // of columns and cuts, for one node
 constexpr double kPriced = 1e-7;             // of the size: reduced costs as low as that are 0
 constexpr double kFractional = 1e-6;
 constexpr std::size_t kMostPairOrders = 20;
@@ -357,7 +357,8 @@ struct Frame {
 class PairsSearch {
  public:
   PairsSearch(const Cells& cells, const TourSpace& space, const std::vector<Vec3>& anchors,
-         const std::vector<std::size_t>& order, const PairsOptions& options, const core::ProgressReporter& progress)
+              const std::vector<std::size_t>& order, const PairsOptions& options,
+              const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     n_ = cells.region_count() + (space.closed ? 0 : 1);
     add_frame(order.empty() ? Along{anchors, {}, {}} : along(order), order);
