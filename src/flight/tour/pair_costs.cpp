@@ -12,7 +12,7 @@ constexpr double kPairRounding = 0x1p-53;
 
 }  // namespace
 
-double pairs_value(const PairCosts& costs, const Fixed& fixed, const PairsDuals& duals) {
+double pairs_value(const PairCosts& costs, const FixedEdges& fixed, const PairsDuals& duals) {
   const std::size_t n = costs.count();
   double sum = 0, size = 0;
   const auto add = [&](double term) {

@@ -17,19 +17,19 @@
 
 namespace vantage::internal::flight::tour {
 
-using Edge = std::array<std::size_t, 2>;
-inline Edge edge_of(std::size_t i, std::size_t j) { return {std::min(i, j), std::max(i, j)}; }
+using PairEdge = std::array<std::size_t, 2>;
+inline PairEdge edge_of(std::size_t i, std::size_t j) { return {std::min(i, j), std::max(i, j)}; }
 
 /// What is fixed at a node.
-struct Fixed {
-  std::set<Edge> inside, outside;
+struct FixedEdges {
+  std::set<PairEdge> inside, outside;
   bool is_out(std::size_t i, std::size_t j) const { return outside.contains(edge_of(i, j)); }
   bool is_in(std::size_t i, std::size_t j) const { return inside.contains(edge_of(i, j)); }
 };
 
 /// The shortest polyline in an order, and the vectors of its legs, which prove its length; without one points to begin
 /// with.
-struct Along {
+struct AlongTour {
   std::vector<Vec3> points;        // of each region
   std::vector<std::size_t> stops;  // in order, ends included
   std::vector<Direction> legs;     // from each stop to the next one
@@ -38,7 +38,7 @@ struct Along {
 /// The vectors of all pairs and the costs that follow.
 class PairCosts {
  public:
-  PairCosts(const Cells& cells, const TourSpace& space, const Along& along)
+  PairCosts(const Cells& cells, const TourSpace& space, const AlongTour& along)
       : regions_(cells.region_count()), count_(regions_ + (space.closed ? 0 : 1)) {
     vectors_.resize(count_);
     for (std::size_t i = 0; i < count_; ++i) {
@@ -99,6 +99,6 @@ class PairCosts {
 
 /// What is proved by some duals, whatever they are: see the head of pairs_bound.h. All that rounding may add is taken
 /// off.
-double pairs_value(const PairCosts& costs, const Fixed& fixed, const PairsDuals& duals);
+double pairs_value(const PairCosts& costs, const FixedEdges& fixed, const PairsDuals& duals);
 
 }  // namespace vantage::internal::flight::tour

@@ -31,12 +31,12 @@ constexpr std::size_t kMostTurnsKept = 2;  // of the vectors, at one node
 constexpr std::size_t kMostFrames = 60;
 
 /// Vectors along a tour, and the program of their costs.
-struct Frame {
-  Frame(const Cells& cells, const TourSpace& space, const Along& along, double penalty)
+struct PairsFrame {
+  PairsFrame(const Cells& cells, const TourSpace& space, const AlongTour& along, double penalty)
       : costs(cells, space, along), master(costs, penalty) {}
   PairCosts costs;
   PairsMaster master;
-  std::set<Edge> tour;  // the edges of the one along which they are
+  std::set<PairEdge> tour;  // the edges of the one along which they are
 };
 
 class PairsSearch {
@@ -46,7 +46,7 @@ class PairsSearch {
               const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     n_ = cells.region_count() + (space.closed ? 0 : 1);
-    add_frame(order.empty() ? Along{anchors, {}, {}} : along(order), order);
+    add_frame(order.empty() ? AlongTour{anchors, {}, {}} : along(order), order);
     nodes_.emplace_back();
     if (!space.closed) {
       const std::size_t anywhere = n_ - 1;
@@ -72,27 +72,27 @@ class PairsSearch {
 
  private:
   struct Node {
-    Fixed fixed;
+    FixedEdges fixed;
     double bound = -kNoBound;  // what is proved, with which duals and vectors
     PairsDuals duals;
     std::size_t frame = 0;
     std::size_t work = 0;  // the frame in which the program is solved
-    Edge split = {};       // that is fixed in the children, or where to go on
+    PairEdge split = {};   // that is fixed in the children, or where to go on
     bool branched = false;
     std::array<std::size_t, 2> children = {};
   };
 
   bool is_late() const { return watch_.seconds() >= options_.time_limit_s; }
 
-  void add_frame(const Along& along, const std::vector<std::size_t>& order) {
+  void add_frame(const AlongTour& along, const std::vector<std::size_t>& order) {
     const std::vector<Vec3>& anchors = along.points;
     Box box;
     for (const Vec3& a : anchors) box.extend(a);
     size_ = std::max((box.max - box.min).norm(), 1e-9);
     double around = 0;
     for (std::size_t i = 0; i + 1 < anchors.size(); ++i) around += (anchors[i + 1] - anchors[i]).norm();
-    frames_.push_back(std::make_unique<Frame>(cells_, space_, along, around + 4 * size_));
-    Frame& frame = *frames_.back();
+    frames_.push_back(std::make_unique<PairsFrame>(cells_, space_, along, around + 4 * size_));
+    PairsFrame& frame = *frames_.back();
     const std::size_t regions = cells_.region_count();
     for (std::size_t i = 0; i < regions; ++i) {
       std::vector<std::pair<double, std::size_t>> near;
@@ -118,8 +118,8 @@ class PairsSearch {
     }
   }
 
-  Along along(const std::vector<std::size_t>& order) const {
-    Along result;
+  AlongTour along(const std::vector<std::size_t>& order) const {
+    AlongTour result;
     std::vector<std::size_t>& stops = result.stops;
     stops = order;
     if (!space_.closed) {
@@ -138,7 +138,7 @@ class PairsSearch {
 
   /// For edges that are no columns: the largest p_ij that keep the pairs at i from costing less than 0, the nearest
   /// first.
-  void complete(const Frame& frame, const Fixed& fixed, PairsDuals& duals) const {
+  void complete(const PairsFrame& frame, const FixedEdges& fixed, PairsDuals& duals) const {
     const PairsMaster& master = frame.master;
     const PairCosts& costs = frame.costs;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -166,7 +166,7 @@ class PairsSearch {
   }
 
   /// Adds columns whose reduced cost is negative; how many.
-  std::size_t price(Frame& frame, const Fixed& fixed, const PairsDuals& duals) {
+  std::size_t price(PairsFrame& frame, const FixedEdges& fixed, const PairsDuals& duals) {
     PairsMaster& master = frame.master;
     const PairCosts& costs = frame.costs;
     const double low = -kPriced * size_;
@@ -196,13 +196,13 @@ class PairsSearch {
         for (std::size_t j = 0; j < n_; ++j) of_sets[i][j] += in[i] != in[j] ? dual : 0;
       }
     }
-    std::vector<std::pair<double, Edge>> bad;
+    std::vector<std::pair<double, PairEdge>> bad;
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (master.has_edge(i, j) || fixed.is_out(i, j)) continue;
         const double reduced =
             duals.of_edge_at[i][j] + duals.of_edge_at[j][i] - duals.of_region[i] - duals.of_region[j] - of_sets[i][j];
-        if (reduced < low) bad.emplace_back(reduced, Edge{j, i});
+        if (reduced < low) bad.emplace_back(reduced, PairEdge{j, i});
       }
     }
     std::sort(bad.begin(), bad.end());
@@ -213,7 +213,7 @@ class PairsSearch {
 
   std::vector<std::vector<double>> weights(const PairsMaster& master) const {
     std::vector<std::vector<double>> w(n_, std::vector<double>(n_, 0.0));
-    for (const Edge& e : master.edges()) {
+    for (const PairEdge& e : master.edges()) {
       w[e[0]][e[1]] = w[e[1]][e[0]] = std::clamp(master.value(e), 0.0, 1.0);
     }
     return w;
@@ -226,7 +226,7 @@ class PairsSearch {
       if (!solve(number, w) || nodes_[number].bound >= options_.enough_m) break;
       Node& node = nodes_[number];
       const std::vector<std::size_t> order = order_of(w);
-      std::set<Edge> tour;
+      std::set<PairEdge> tour;
       for (std::size_t i = 0; i < n_ && !order.empty(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
           if (w[i][j] > 0.5) tour.insert({j, i});
@@ -251,8 +251,8 @@ class PairsSearch {
 
   /// False where time ended it. `w`: the values of the edges.
   bool solve(std::size_t number, std::vector<std::vector<double>>& w) {
-    const Fixed fixed = nodes_[number].fixed;
-    Frame& frame = *frames_[nodes_[number].work];
+    const FixedEdges fixed = nodes_[number].fixed;
+    PairsFrame& frame = *frames_[nodes_[number].work];
     for (int round = 0; round < kMostPairRounds; ++round) {
       progress_.check();
       frame.master.fix(fixed);
@@ -285,7 +285,7 @@ class PairsSearch {
   }
 
   /// The edge that is least decided; of a tour one that the frame's tour does not have.
-  void choose_split(std::size_t number, const std::vector<std::vector<double>>& w, const std::set<Edge>& tour) {
+  void choose_split(std::size_t number, const std::vector<std::vector<double>>& w, const std::set<PairEdge>& tour) {
     Node& node = nodes_[number];
     double best = kFractional;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -299,11 +299,11 @@ class PairsSearch {
         }
       }
     }
-    if (node.split != Edge{}) heap_.emplace(-node.bound, number);
+    if (node.split != PairEdge{}) heap_.emplace(-node.bound, number);
   }
 
   void branch(std::size_t number) {
-    const Edge edge = nodes_[number].split;
+    const PairEdge edge = nodes_[number].split;
     const double above = nodes_[number].bound;
     for (std::size_t side = 0; side < 2; ++side) {
       Node child;
@@ -356,11 +356,11 @@ class PairsSearch {
       if (!node.branched) result.bound_m = std::min(result.bound_m, node.bound);
     }
     result.proof.origin = cells_.origin();
-    for (const std::unique_ptr<Frame>& frame : frames_) result.proof.vectors.push_back(frame->costs.vectors());
+    for (const std::unique_ptr<PairsFrame>& frame : frames_) result.proof.vectors.push_back(frame->costs.vectors());
     write(0, result.bound_m, result.proof.nodes);
     result.orders = std::move(orders_);
     result.nodes = nodes_.size();
-    for (const std::unique_ptr<Frame>& frame : frames_) result.columns += frame->master.columns();
+    for (const std::unique_ptr<PairsFrame>& frame : frames_) result.columns += frame->master.columns();
     return result;
   }
 
@@ -386,7 +386,7 @@ class PairsSearch {
   std::size_t n_ = 0;
   double size_ = 0;
   bool stopped_ = false;
-  std::vector<std::unique_ptr<Frame>> frames_;
+  std::vector<std::unique_ptr<PairsFrame>> frames_;
   std::vector<Node> nodes_;
   std::priority_queue<std::tuple<double, std::size_t>> heap_;
   std::vector<std::vector<std::size_t>> orders_;

@@ -33,7 +33,7 @@ class PairsMaster {
   }
 
   bool has_edge(std::size_t i, std::size_t j) const { return column_of_edge_[i * n_ + j] != kNoColumn; }
-  const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<PairEdge>& edges() const { return edges_; }
   std::size_t columns() const { return columns_; }
 
   void add_edge(std::size_t i, std::size_t j) {
@@ -70,7 +70,7 @@ class PairsMaster {
 
   void add_set(const std::vector<bool>& in) {
     std::vector<LinearProgram::Entry> entries;
-    for (const Edge& e : edges_) {
+    for (const PairEdge& e : edges_) {
       if (in[e[0]] != in[e[1]]) entries.emplace_back(column_of_edge_[e[0] * n_ + e[1]], 1.0);
     }
     sets_.push_back(in);
@@ -79,15 +79,15 @@ class PairsMaster {
     add_column(penalty_, {{row_of_set_.back(), 1.0}});
   }
 
-  void fix(const Fixed& fixed) {
-    for (const Edge& e : edges_) {
+  void fix(const FixedEdges& fixed) {
+    for (const PairEdge& e : edges_) {
       const bool out = fixed.is_out(e[0], e[1]), in = fixed.is_in(e[0], e[1]);
       program_->set_column_bounds(column_of_edge_[e[0] * n_ + e[1]], in ? 1 : 0, out ? 0 : 1);
     }
   }
 
   bool solve(double time_limit_s) { return program_->solve(time_limit_s); }
-  double value(const Edge& e) const { return program_->value(column_of_edge_[e[0] * n_ + e[1]]); }
+  double value(const PairEdge& e) const { return program_->value(column_of_edge_[e[0] * n_ + e[1]]); }
 
   PairsDuals duals() const {
     PairsDuals duals;
@@ -129,7 +129,7 @@ class PairsMaster {
   std::vector<std::size_t> column_of_edge_, row_of_edge_at_, row_of_set_;
   std::vector<bool> has_pair_;
   std::vector<std::vector<std::size_t>> beside_;
-  std::vector<Edge> edges_;
+  std::vector<PairEdge> edges_;
   std::vector<std::vector<bool>> sets_;
 };
 
