@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <queue>
@@ -12,14 +11,14 @@
 
 #include "core/stopwatch.h"
 #include "flight/tour/linear_program.h"
+#include "flight/tour/pair_costs.h"
+#include "flight/tour/pairs_master.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
 
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
-constexpr double kPairRounding = 0x1p-53;
-constexpr double kDualUnit = 0x1p-30;  // metres; duals are whole multiples
 constexpr std::size_t kFirstNeighbours = 8;
 constexpr std::size_t kAllEdges = 16;  // of so many regions all edges are columns from the start
 constexpr std::size_t kMostEdgesAtOnce = 60;
@@ -31,327 +30,13 @@ constexpr std::size_t kMostPairOrders = 20;
 constexpr std::size_t kMostTurnsKept = 2;  // of the vectors, at one node
 constexpr std::size_t kMostFrames = 60;
 
-double to_dual(double value) { return std::round(value / kDualUnit) * kDualUnit; }
-
-using Edge = std::array<std::size_t, 2>;
-Edge edge_of(std::size_t i, std::size_t j) { return {std::min(i, j), std::max(i, j)}; }
-
-/// What is fixed at a node.
-struct Fixed {
-  std::set<Edge> inside, outside;
-  bool is_out(std::size_t i, std::size_t j) const { return outside.contains(edge_of(i, j)); }
-  bool is_in(std::size_t i, std::size_t j) const { return inside.contains(edge_of(i, j)); }
-};
-
-/// The shortest polyline in an order, and the vectors of its legs, which prove its length; without one points to begin
-/// with.
-struct Along {
-  std::vector<Vec3> points;        // of each region
-  std::vector<std::size_t> stops;  // in order, ends included
-  std::vector<Direction> legs;     // from each stop to the next one
-};
-
-/// The vectors of all pairs and the costs that follow.
-class PairCosts {
- public:
-  PairCosts(const Cells& cells, const TourSpace& space, const Along& along)
-      : regions_(cells.region_count()), count_(regions_ + (space.closed ? 0 : 1)) {
-    vectors_.resize(count_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const bool anywhere = i >= regions_;
-        vectors_[i].push_back(anywhere ? Direction{} : direction_of(unit_of(along.points[i] - along.points[j])));
-      }
-    }
-    // Where legs of the tour have no length, or nearly so, only these vectors prove that they need none.
-    for (std::size_t k = 0; k < along.legs.size(); ++k) {
-      const std::size_t from = along.stops[k], to = along.stops[(k + 1) % along.stops.size()];
-      Direction& vector = vectors_[std::max(from, to)][std::min(from, to)];
-      vector = along.legs[k];
-      if (to < from) {
-        for (std::int32_t& x : vector) x = -x;
-      }
-    }
-    costs_.assign(count_, std::vector<double>(count_ * count_, 0.0));
-    for (std::size_t i = 0; i < regions_; ++i) {
-      const double dwell = space.dwell_m.empty() ? 0 : space.dwell_m[i];
-      const Hull& hull = *cells[i].hull;
-      for (std::size_t j = 0; j < count_; ++j) {
-        for (std::size_t k = j + 1; k < count_; ++k) {
-          if (i == j || i == k) continue;
-          costs_[i][j * count_ + k] = costs_[i][k * count_ + j] = cost(hull, vector(i, j), vector(i, k), dwell);
-        }
-      }
-      error_ += (2 * 44 * kPairRounding * hull.reach_m() + 2.001 * hull.moved_m()) * 2 + 4 * kPairRounding * dwell;
-    }
-  }
-
-  std::size_t count() const { return count_; }
-  /// Of region i between j and k, but for rounding.
-  double operator()(std::size_t i, std::size_t j, std::size_t k) const { return costs_[i][j * count_ + k]; }
-  /// All rounding of the costs of a tour: as for touring_bound, at every region.
-  double error_m() const { return error_; }
-  const std::vector<std::vector<Direction>>& vectors() const { return vectors_; }
-
- private:
-  static Vec3 unit_of(const Vec3& vector) {
-    const double norm = vector.norm();
-    return norm > 0 ? Vec3(vector / norm) : vector;
-  }
-  Vec3 vector(std::size_t i, std::size_t j) const {
-    return j < i ? vector_of(vectors_[i][j]) : Vec3(-vector_of(vectors_[j][i]));
-  }
-  static double cost(const Hull& hull, const Vec3& one, const Vec3& other, double dwell) {
-    if (dwell > 0) return one.dot(hull.lowest(one)) + other.dot(hull.lowest(other)) + dwell;
-    const Vec3 both = one + other;  // exact
-    return both.dot(hull.lowest(both));
-  }
-
-  std::size_t regions_, count_;
-  std::vector<std::vector<Direction>> vectors_;
-  std::vector<std::vector<double>> costs_;
-  double error_ = 0;
-};
-
-/// What is proved by some duals, whatever they are: see the head of pairs_bound.h. All that rounding may add is taken
-/// off.
-double bound_of(const PairCosts& costs, const Fixed& fixed, const PairsDuals& duals) {
-  const std::size_t n = costs.count();
-  double sum = 0, size = 0;
-  const auto add = [&](double term) {
-    sum += term;
-    size += std::abs(term);
-  };
-  for (const double d : duals.of_region) add(2 * d);
-  std::vector<std::vector<double>> of_sets(n, std::vector<double>(n, 0.0));
-  double largest = 0;
-  for (const auto& [dual, members] : duals.of_set) {
-    add(2 * dual);
-    std::vector<bool> in(n, false);
-    for (const std::size_t m : members) in[m] = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (in[i] != in[j]) of_sets[i][j] += dual;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<std::size_t> beside, must;
-    for (std::size_t j = 0; j < n; ++j) {
-      if (j == i || fixed.is_out(i, j)) continue;
-      beside.push_back(j);
-      if (fixed.is_in(i, j)) must.push_back(j);
-    }
-    double least = kNoBound;
-    const std::vector<double>& p = duals.of_edge_at[i];
-    for (std::size_t a = 0; a < beside.size(); ++a) {
-      for (std::size_t b = a + 1; b < beside.size(); ++b) {
-        const std::size_t j = beside[a], k = beside[b];
-        if (std::any_of(must.begin(), must.end(), [&](std::size_t m) { return m != j && m != k; })) continue;
-        const double here = costs(i, j, k) - p[j] - p[k];
-        largest = std::max(largest, std::abs(p[j]) + std::abs(p[k]) + std::abs(costs(i, j, k)));
-        least = std::min(least, here);
-      }
-    }
-    if (least == kNoBound) return kNoBound;  // no tour has these edges
-    add(least);
-    for (const std::size_t j : beside) {
-      if (j > i) continue;
-      const double left = p[j] + duals.of_edge_at[j][i] - duals.of_region[i] - duals.of_region[j] - of_sets[i][j];
-      largest = std::max(largest, std::abs(p[j]) + std::abs(duals.of_edge_at[j][i]) + std::abs(duals.of_region[i]) +
-                                      std::abs(duals.of_region[j]) + of_sets[i][j]);
-      add(fixed.is_in(i, j) ? left : std::min(0.0, left));
-    }
-  }
-  // Each term has few roundings of what it is made of, and as many as there are sets; there are at most n + n (n - 1) /
-  // 2 and two of each set and region; the sum has one rounding for each term, of no more than all sizes.
-  const double nn = static_cast<double>(n), sets = static_cast<double>(duals.of_set.size());
-  const double terms = 2 * nn + nn * nn + sets;
-  const double bound = sum - costs.error_m() - kPairRounding * (terms * (8 + sets) * largest + terms * size);
-  return std::isfinite(bound) ? bound : -kNoBound;
-}
-
-/// The linear program over the columns that matter so far.
-class Master {
- public:
-  Master(const PairCosts& costs, double penalty) : costs_(costs), penalty_(penalty), n_(costs.count()) {
-    program_ = make_linear_program();
-    column_of_edge_.assign(n_ * n_, kNobody);
-    row_of_edge_at_.assign(n_ * n_, kNobody);
-    has_pair_.assign(n_ * n_ * n_, false);
-    beside_.resize(n_);
-    for (std::size_t i = 0; i < n_; ++i) {
-      add_row(2, 2);
-      add_column(penalty_, {{i, 2.0}});
-    }
-  }
-
-  bool has_edge(std::size_t i, std::size_t j) const { return column_of_edge_[i * n_ + j] != kNobody; }
-  const std::vector<Edge>& edges() const { return edges_; }
-  std::size_t columns() const { return columns_; }
-
-  void add_edge(std::size_t i, std::size_t j) {
-    if (i == j || has_edge(i, j)) return;
-    for (const auto& [at, to] : {std::pair(i, j), std::pair(j, i)}) {
-      row_of_edge_at_[at * n_ + to] = rows_;
-      add_row(0, 0);
-    }
-    const std::size_t one = row_of_edge_at_[i * n_ + j], other = row_of_edge_at_[j * n_ + i];
-    std::vector<LinearProgram::Entry> entries = {{i, 1.0}, {j, 1.0}, {one, -1.0}, {other, -1.0}};
-    for (std::size_t s = 0; s < sets_.size(); ++s) {
-      if (sets_[s][i] != sets_[s][j]) entries.emplace_back(row_of_set_[s], 1.0);
-    }
-    column_of_edge_[i * n_ + j] = column_of_edge_[j * n_ + i] = columns_;
-    add_column(0, entries);
-    add_column(penalty_, {{one, 1.0}});
-    add_column(penalty_, {{other, 1.0}});
-    edges_.push_back(edge_of(i, j));
-    for (const auto& [at, to] : {std::pair(i, j), std::pair(j, i)}) {
-      for (const std::size_t k : beside_[at]) add_pair(at, to, k);
-      beside_[at].push_back(to);
-    }
-  }
-
-  void add_pair(std::size_t i, std::size_t j, std::size_t k) {
-    const std::size_t key = (i * n_ + std::min(j, k)) * n_ + std::max(j, k);
-    if (has_pair_[key]) return;
-    has_pair_[key] = true;
-    add_column(costs_(i, j, k), {{row_of_edge_at_[i * n_ + j], 1.0}, {row_of_edge_at_[i * n_ + k], 1.0}});
-  }
-  bool has_pair(std::size_t i, std::size_t j, std::size_t k) const {
-    return has_pair_[(i * n_ + std::min(j, k)) * n_ + std::max(j, k)];
-  }
-
-  void add_set(const std::vector<bool>& in) {
-    std::vector<LinearProgram::Entry> entries;
-    for (const Edge& e : edges_) {
-      if (in[e[0]] != in[e[1]]) entries.emplace_back(column_of_edge_[e[0] * n_ + e[1]], 1.0);
-    }
-    sets_.push_back(in);
-    row_of_set_.push_back(rows_++);
-    program_->add_row(2, kNoBound, entries);
-    add_column(penalty_, {{row_of_set_.back(), 1.0}});
-  }
-
-  void fix(const Fixed& fixed) {
-    for (const Edge& e : edges_) {
-      const bool out = fixed.is_out(e[0], e[1]), in = fixed.is_in(e[0], e[1]);
-      program_->set_column_bounds(column_of_edge_[e[0] * n_ + e[1]], in ? 1 : 0, out ? 0 : 1);
-    }
-  }
-
-  bool solve(double time_limit_s) { return program_->solve(time_limit_s); }
-  double value(const Edge& e) const { return program_->value(column_of_edge_[e[0] * n_ + e[1]]); }
-
-  PairsDuals duals() const {
-    PairsDuals duals;
-    duals.of_edge_at.assign(n_, std::vector<double>(n_, 0.0));
-    for (std::size_t i = 0; i < n_; ++i) {
-      duals.of_region.push_back(to_dual(program_->dual(i)));
-      for (const std::size_t j : beside_[i]) {
-        duals.of_edge_at[i][j] = to_dual(program_->dual(row_of_edge_at_[i * n_ + j]));
-      }
-    }
-    for (std::size_t s = 0; s < sets_.size(); ++s) {
-      const double dual = to_dual(program_->dual(row_of_set_[s]));
-      if (!(dual > 0)) continue;
-      std::vector<std::size_t> members;
-      for (std::size_t i = 0; i < n_; ++i) {
-        if (sets_[s][i]) members.push_back(i);
-      }
-      duals.of_set.emplace_back(dual, std::move(members));
-    }
-    return duals;
-  }
-
- private:
-  void add_row(double lower, double upper) {
-    program_->add_row(lower, upper, {});
-    ++rows_;
-  }
-  void add_column(double cost, const std::vector<LinearProgram::Entry>& rows) {
-    program_->add_column(cost, 0, kNoBound, rows);
-    ++columns_;
-  }
-
-  const PairCosts& costs_;
-  double penalty_;
-  std::size_t n_, rows_ = 0, columns_ = 0;
-  std::unique_ptr<LinearProgram> program_;
-  std::vector<std::size_t> column_of_edge_, row_of_edge_at_, row_of_set_;
-  std::vector<bool> has_pair_;
-  std::vector<std::vector<std::size_t>> beside_;
-  std::vector<Edge> edges_;
-  std::vector<std::vector<bool>> sets_;
-};
-
-/// Sets that a solution leaves less than twice: the parts of the graph, or else the cuts of the phases of Stoer and
-/// Wagner 1997.
-std::vector<std::vector<bool>> short_cuts(const std::vector<std::vector<double>>& weights) {
-  const std::size_t n = weights.size();
-  std::vector<std::vector<bool>> found;
-  std::vector<bool> seen(n, false);
-  for (std::size_t start = 0; start < n; ++start) {
-    if (seen[start]) continue;
-    std::vector<bool> part(n, false);
-    std::vector<std::size_t> stack = {start};
-    std::size_t size = 0;
-    part[start] = seen[start] = true;
-    while (!stack.empty()) {
-      const std::size_t i = stack.back();
-      stack.pop_back();
-      ++size;
-      for (std::size_t j = 0; j < n; ++j) {
-        if (weights[i][j] > kFractional && !part[j]) {
-          part[j] = seen[j] = true;
-          stack.push_back(j);
-        }
-      }
-    }
-    if (size < n) found.push_back(std::move(part));
-  }
-  if (!found.empty()) return found;
-  std::vector<std::vector<double>> w = weights;
-  std::vector<std::vector<bool>> group(n, std::vector<bool>(n, false));
-  std::vector<std::size_t> active;
-  for (std::size_t i = 0; i < n; ++i) {
-    group[i][i] = true;
-    active.push_back(i);
-  }
-  while (active.size() > 1) {
-    std::vector<double> tie(n, 0.0);
-    std::vector<std::size_t> left = active;
-    std::size_t last = kNobody, before = kNobody;
-    double cut = 0;
-    while (!left.empty()) {
-      const auto most =
-          std::max_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) { return tie[a] < tie[b]; });
-      before = last;
-      last = *most;
-      cut = tie[last];
-      left.erase(most);
-      for (const std::size_t i : left) tie[i] += w[last][i];
-    }
-    const auto members = static_cast<std::size_t>(std::count(group[last].begin(), group[last].end(), true));
-    if (cut < 2 - 1e-4 && members > 1 && members + 1 < n) found.push_back(group[last]);
-    for (const std::size_t i : active) {
-      if (i == last || i == before) continue;
-      w[before][i] += w[last][i];
-      w[i][before] = w[before][i];
-    }
-    for (std::size_t i = 0; i < n; ++i) group[before][i] = group[before][i] || group[last][i];
-    active.erase(std::find(active.begin(), active.end(), last));
-  }
-  return found;
-}
-
 /// Vectors along a tour, and the program of their costs.
-struct Frame {
-  Frame(const Cells& cells, const TourSpace& space, const Along& along, double penalty)
+struct PairsFrame {
+  PairsFrame(const Cells& cells, const TourSpace& space, const AlongTour& along, double penalty)
       : costs(cells, space, along), master(costs, penalty) {}
   PairCosts costs;
-  Master master;
-  std::set<Edge> tour;  // the edges of the one along which they are
+  PairsMaster master;
+  std::set<PairEdge> tour;  // the edges of the one along which they are
 };
 
 class PairsSearch {
@@ -361,7 +46,7 @@ class PairsSearch {
               const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     n_ = cells.region_count() + (space.closed ? 0 : 1);
-    add_frame(order.empty() ? Along{anchors, {}, {}} : along(order), order);
+    add_frame(order.empty() ? AlongTour{anchors, {}, {}} : along(order), order);
     nodes_.emplace_back();
     if (!space.closed) {
       const std::size_t anywhere = n_ - 1;
@@ -387,27 +72,27 @@ class PairsSearch {
 
  private:
   struct Node {
-    Fixed fixed;
+    FixedEdges fixed;
     double bound = -kNoBound;  // what is proved, with which duals and vectors
     PairsDuals duals;
     std::size_t frame = 0;
     std::size_t work = 0;  // the frame in which the program is solved
-    Edge split = {};       // that is fixed in the children, or where to go on
+    PairEdge split = {};   // that is fixed in the children, or where to go on
     bool branched = false;
     std::array<std::size_t, 2> children = {};
   };
 
   bool is_late() const { return watch_.seconds() >= options_.time_limit_s; }
 
-  void add_frame(const Along& along, const std::vector<std::size_t>& order) {
+  void add_frame(const AlongTour& along, const std::vector<std::size_t>& order) {
     const std::vector<Vec3>& anchors = along.points;
     Box box;
     for (const Vec3& a : anchors) box.extend(a);
     size_ = std::max((box.max - box.min).norm(), 1e-9);
     double around = 0;
     for (std::size_t i = 0; i + 1 < anchors.size(); ++i) around += (anchors[i + 1] - anchors[i]).norm();
-    frames_.push_back(std::make_unique<Frame>(cells_, space_, along, around + 4 * size_));
-    Frame& frame = *frames_.back();
+    frames_.push_back(std::make_unique<PairsFrame>(cells_, space_, along, around + 4 * size_));
+    PairsFrame& frame = *frames_.back();
     const std::size_t regions = cells_.region_count();
     for (std::size_t i = 0; i < regions; ++i) {
       std::vector<std::pair<double, std::size_t>> near;
@@ -433,8 +118,8 @@ class PairsSearch {
     }
   }
 
-  Along along(const std::vector<std::size_t>& order) const {
-    Along result;
+  AlongTour along(const std::vector<std::size_t>& order) const {
+    AlongTour result;
     std::vector<std::size_t>& stops = result.stops;
     stops = order;
     if (!space_.closed) {
@@ -453,8 +138,8 @@ class PairsSearch {
 
   /// For edges that are no columns: the largest p_ij that keep the pairs at i from costing less than 0, the nearest
   /// first.
-  void complete(const Frame& frame, const Fixed& fixed, PairsDuals& duals) const {
-    const Master& master = frame.master;
+  void complete(const PairsFrame& frame, const FixedEdges& fixed, PairsDuals& duals) const {
+    const PairsMaster& master = frame.master;
     const PairCosts& costs = frame.costs;
     for (std::size_t i = 0; i < n_; ++i) {
       std::vector<double>& p = duals.of_edge_at[i];
@@ -481,8 +166,8 @@ class PairsSearch {
   }
 
   /// Adds columns whose reduced cost is negative; how many.
-  std::size_t price(Frame& frame, const Fixed& fixed, const PairsDuals& duals) {
-    Master& master = frame.master;
+  std::size_t price(PairsFrame& frame, const FixedEdges& fixed, const PairsDuals& duals) {
+    PairsMaster& master = frame.master;
     const PairCosts& costs = frame.costs;
     const double low = -kPriced * size_;
     std::size_t added = 0;
@@ -511,13 +196,13 @@ class PairsSearch {
         for (std::size_t j = 0; j < n_; ++j) of_sets[i][j] += in[i] != in[j] ? dual : 0;
       }
     }
-    std::vector<std::pair<double, Edge>> bad;
+    std::vector<std::pair<double, PairEdge>> bad;
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (master.has_edge(i, j) || fixed.is_out(i, j)) continue;
         const double reduced =
             duals.of_edge_at[i][j] + duals.of_edge_at[j][i] - duals.of_region[i] - duals.of_region[j] - of_sets[i][j];
-        if (reduced < low) bad.emplace_back(reduced, Edge{j, i});
+        if (reduced < low) bad.emplace_back(reduced, PairEdge{j, i});
       }
     }
     std::sort(bad.begin(), bad.end());
@@ -526,9 +211,9 @@ class PairsSearch {
     return added + std::min(bad.size(), kMostEdgesAtOnce);
   }
 
-  std::vector<std::vector<double>> weights(const Master& master) const {
+  std::vector<std::vector<double>> weights(const PairsMaster& master) const {
     std::vector<std::vector<double>> w(n_, std::vector<double>(n_, 0.0));
-    for (const Edge& e : master.edges()) {
+    for (const PairEdge& e : master.edges()) {
       w[e[0]][e[1]] = w[e[1]][e[0]] = std::clamp(master.value(e), 0.0, 1.0);
     }
     return w;
@@ -541,7 +226,7 @@ class PairsSearch {
       if (!solve(number, w) || nodes_[number].bound >= options_.enough_m) break;
       Node& node = nodes_[number];
       const std::vector<std::size_t> order = order_of(w);
-      std::set<Edge> tour;
+      std::set<PairEdge> tour;
       for (std::size_t i = 0; i < n_ && !order.empty(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
           if (w[i][j] > 0.5) tour.insert({j, i});
@@ -561,13 +246,13 @@ class PairsSearch {
     // Nothing was solved: no duals prove something, too.
     node.duals.of_edge_at.assign(n_, std::vector<double>(n_, 0.0));
     node.duals.of_region.assign(n_, 0.0);
-    node.bound = bound_of(frames_[node.frame]->costs, node.fixed, node.duals);
+    node.bound = pairs_value(frames_[node.frame]->costs, node.fixed, node.duals);
   }
 
   /// False where time ended it. `w`: the values of the edges.
   bool solve(std::size_t number, std::vector<std::vector<double>>& w) {
-    const Fixed fixed = nodes_[number].fixed;
-    Frame& frame = *frames_[nodes_[number].work];
+    const FixedEdges fixed = nodes_[number].fixed;
+    PairsFrame& frame = *frames_[nodes_[number].work];
     for (int round = 0; round < kMostPairRounds; ++round) {
       progress_.check();
       frame.master.fix(fixed);
@@ -577,7 +262,7 @@ class PairsSearch {
       }
       PairsDuals duals = frame.master.duals();
       complete(frame, fixed, duals);
-      const double bound = bound_of(frame.costs, fixed, duals);
+      const double bound = pairs_value(frame.costs, fixed, duals);
       if (bound == -kNoBound) {  // the solver returned what are no numbers
         stopped_ = true;
         return false;
@@ -600,7 +285,7 @@ class PairsSearch {
   }
 
   /// The edge that is least decided; of a tour one that the frame's tour does not have.
-  void choose_split(std::size_t number, const std::vector<std::vector<double>>& w, const std::set<Edge>& tour) {
+  void choose_split(std::size_t number, const std::vector<std::vector<double>>& w, const std::set<PairEdge>& tour) {
     Node& node = nodes_[number];
     double best = kFractional;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -614,11 +299,11 @@ class PairsSearch {
         }
       }
     }
-    if (node.split != Edge{}) heap_.emplace(-node.bound, number);
+    if (node.split != PairEdge{}) heap_.emplace(-node.bound, number);
   }
 
   void branch(std::size_t number) {
-    const Edge edge = nodes_[number].split;
+    const PairEdge edge = nodes_[number].split;
     const double above = nodes_[number].bound;
     for (std::size_t side = 0; side < 2; ++side) {
       Node child;
@@ -628,7 +313,7 @@ class PairsSearch {
       child.duals = nodes_[number].duals;
       child.frame = nodes_[number].frame;
       child.work = nodes_[number].work;
-      child.bound = std::max(above, bound_of(frames_[child.frame]->costs, child.fixed, child.duals));
+      child.bound = std::max(above, pairs_value(frames_[child.frame]->costs, child.fixed, child.duals));
       nodes_[number].children[side] = nodes_.size();
       nodes_.push_back(std::move(child));
       if (nodes_.back().bound < options_.enough_m && !stopped_) evaluate(nodes_.size() - 1);
@@ -671,11 +356,11 @@ class PairsSearch {
       if (!node.branched) result.bound_m = std::min(result.bound_m, node.bound);
     }
     result.proof.origin = cells_.origin();
-    for (const std::unique_ptr<Frame>& frame : frames_) result.proof.vectors.push_back(frame->costs.vectors());
+    for (const std::unique_ptr<PairsFrame>& frame : frames_) result.proof.vectors.push_back(frame->costs.vectors());
     write(0, result.bound_m, result.proof.nodes);
     result.orders = std::move(orders_);
     result.nodes = nodes_.size();
-    for (const std::unique_ptr<Frame>& frame : frames_) result.columns += frame->master.columns();
+    for (const std::unique_ptr<PairsFrame>& frame : frames_) result.columns += frame->master.columns();
     return result;
   }
 
@@ -701,7 +386,7 @@ class PairsSearch {
   std::size_t n_ = 0;
   double size_ = 0;
   bool stopped_ = false;
-  std::vector<std::unique_ptr<Frame>> frames_;
+  std::vector<std::unique_ptr<PairsFrame>> frames_;
   std::vector<Node> nodes_;
   std::priority_queue<std::tuple<double, std::size_t>> heap_;
   std::vector<std::vector<std::size_t>> orders_;
