@@ -58,7 +58,7 @@ std::string exit_code_table() {
          "EXIT CODES\n"
          "  0      done\n"
          "  1      wrong: verify, prove, check, report, compute --prove; too many facets: simplify;\n"
-         "         nothing found: stand, orbit, --fail-empty\n"
+         "         none: stand, orbit, --fail-empty\n"
          "  2      bad input, bad arguments, or a result that could not be written\n"
          "  3      a defect of vantage: please report it together with the input\n"
          "  4      prove, report or compute --prove neither proved nor refuted the volume\n"
