@@ -15,7 +15,7 @@ using CliBadOutput = Cli;
 using CliSignals = Cli;
 
 constexpr std::array kCommands = {"scene",   "inspect", "compute", "query", "verify", "compare", "devices",
-                                  "cameras", "spheres", "render",  "stand", "orbit",  "check"};
+                                  "cameras", "spheres", "render",  "stand", "orbit",  "check",   "tour"};
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);

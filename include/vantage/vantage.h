@@ -28,6 +28,7 @@
 #include "vantage/kept_volumes.h"
 #include "vantage/leg_query.h"
 #include "vantage/mission.h"
+#include "vantage/mission_tour.h"
 #include "vantage/navigation.h"
 #include "vantage/objects.h"
 #include "vantage/orbits.h"

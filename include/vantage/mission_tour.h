@@ -1,0 +1,78 @@
+// The tour that a mission asks for: its volumes, the flight through them, and a bound that no flight is shorter.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/export.h"
+#include "vantage/flight_plan.h"
+#include "vantage/geometry.h"
+#include "vantage/mission.h"
+#include "vantage/progress.h"
+#include "vantage/tour.h"
+
+namespace vantage {
+
+/// What no tour can be shorter than.
+struct TourLowerBound {
+  double length_m = 0;
+  double gap = 1;                    ///< (length - bound) / length of the tour that was found
+  std::string kind = {};             ///< "insertion", "pairs": docs/theory.md, "Tours"
+  std::vector<std::string> ignored;  ///< what makes tours longer, and the bound does not know
+};
+
+/// A target of a tour.
+struct MissionTourTarget {
+  std::string name;
+  Vec3 centre = Vec3::Zero();  ///< the camera looks there; scene frame
+  Mesh volume;                 ///< computed: from its inside the target is seen
+};
+
+struct MissionTour {
+  TourSettings settings;
+  Tour tour;
+  std::vector<MissionTourTarget> targets;    ///< of the mission, in its order
+  std::optional<Vec3> home = std::nullopt;   ///< on the ground; scene frame
+  std::optional<TourLowerBound> bound = {};  ///< of the targets that are visited; nothing where it was not asked for
+  std::vector<std::string> notes = {};       ///< what to know before relying on it
+
+  /// Whether all targets are visited.
+  bool is_complete() const { return tour.problems.empty(); }
+  /// Whether the gap that the settings ask for was reached.
+  bool reaches_gap() const { return bound && bound->gap <= settings.gap; }
+};
+
+struct MissionTourOptions {
+  int threads = 0;                         ///< at most; 0: as many as the machine has
+  bool with_bound = true;                  ///< it takes outer volumes, which take longer than the volumes
+  std::filesystem::path certificate = {};  ///< of the bound, and the meshes it is of beside it; empty: none is written
+};
+
+/// Computes a volume of each target of the mission, and plans the tour that MissionFile::tour asks for (TourSettings()
+/// where it asks for none): plan_tour, with the mission's limits of navigation and its clearance from the scene as the
+/// airspace. From the home it climbs straight up to where flying is allowed. The bound is over outer volumes
+/// (vantage/outer.h), in which every position lies from which a target is seen: so no tour is shorter, whatever its
+/// order and its positions.
+///
+/// The time limit is that of the search for the tour, and once more that of the bound; volumes come on top.
+///
+/// Throws Error(input) as run_missions and plan_tour do; for a target that cannot be seen from anywhere, with its name;
+/// for a home from which nothing can be reached straight up, with what stands there. Error(cancelled) before there is a
+/// tour; later the tour is returned without a bound.
+VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options = {},
+                                          const Progress& progress = {});
+
+/// The tour as a plan for ground stations: photos where targets are seen, with yaw and gimbal pitch that centre them.
+/// Heights are above the home, where there is one. Of a scene without a place on the earth it is x, y and z of the
+/// scene frame, which a table (CSV) alone can state.
+VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission);
+
+/// JSON (UTF-8, indented, a newline at the end). Lengths in metres, the scene frame.
+VANTAGE_API std::string json_text(const MissionTour& tour);
+
+}  // namespace vantage

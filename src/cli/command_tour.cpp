@@ -1,0 +1,157 @@
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/progress_line.h"
+#include "cli/standard_streams.h"
+#include "cli/text_table.h"
+#include "vantage/error.h"
+#include "vantage/flight_plan.h"
+#include "vantage/input.h"
+#include "vantage/mission.h"
+#include "vantage/mission_tour.h"
+#include "vantage/output.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kTourExamples =
+    "TOUR\n"
+    "  The shortest flight that is found through the volumes of all targets, by what 'tour' in the mission says of "
+    "the\n"
+    "  vehicle, its home, how long and how deep inside it stays, and what distance it keeps from the scene. And a\n"
+    "  bound: no flight that sees all targets is shorter. The bound is over outer volumes, which hold every position\n"
+    "  from which a target is seen. docs/flight.md says more.\n"
+    "\n"
+    "  The exit code is 1 where a target is left out, and 4 where the gap between the flight and the bound stays "
+    "larger\n"
+    "  than 'tour.gap'. The plan is written all the same.\n"
+    "\n"
+    "EXAMPLES\n"
+    "  vantage tour mission.yaml\n"
+    "  vantage tour mission.yaml -o tour.plan\n"
+    "  vantage tour mission.yaml -o tour.kml --no-bound\n"
+    "  vantage tour mission.yaml -o tour.csv --certificate tour.cert --json > tour.json\n";
+
+struct TourArguments {
+  CommonOptions common;
+  std::string mission_file, output_file, certificate_file;
+  bool no_bound = false, json = false;
+};
+
+constexpr double kPercent = 100;
+
+void add_problems(TextTable& table, const MissionTour& tour) {
+  for (const TourProblem& problem : tour.tour.problems) {
+    const std::string& name = tour.targets[problem.target].name;
+    const std::string in_the_way = problem.obstacle.empty() ? "" : "; in the way: " + problem.obstacle;
+    if (problem.kind == TourProblem::Kind::no_place) {
+      table.row("left out", name, "no position of its volume may be flown to" + in_the_way);
+      continue;
+    }
+    const std::string from = problem.neighbour ? tour.targets[*problem.neighbour].name : "home";
+    table.row("left out", name, "no way was found between it and " + from + in_the_way);
+  }
+}
+
+std::string table_text(const MissionTour& tour) {
+  TextTable table;
+  table.heading(std::string("tour of a ") +
+                (tour.settings.vehicle.kind == TourVehicle::Kind::multirotor ? "multirotor" : "fixed-wing aircraft") +
+                ", " + count(tour.tour.order.size()) + " of " + count(tour.targets.size()) + " targets");
+  table.row("length", fixed(tour.tour.length_m, 1), "m");
+  table.row("time", fixed(tour.tour.time_s, 1), "s");
+  if (tour.bound) {
+    table.row("bound", fixed(tour.bound->length_m, 1), "m: no tour is shorter; by " + tour.bound->kind);
+    table.row("gap", fixed(kPercent * tour.bound->gap, 2) + " %",
+              tour.reaches_gap() ? "" : "more than the " + fixed(kPercent * tour.settings.gap, 2) + " % asked for");
+    for (const std::string& ignored : tour.bound->ignored) table.row("it ignores", "", ignored);
+  }
+  table.heading("in view");
+  for (const TourVisit& visit : tour.tour.visits) {
+    table.row(tour.targets[visit.target].name, fixed(visit.dwell_s, 1) + " s",
+              fixed(visit.begin_m, 1) + " to " + fixed(visit.end_m, 1) + " m along the flight, " +
+                  vector(tour.tour.flight.points[visit.first_point].position));
+  }
+  add_problems(table, tour);
+  return table.text();
+}
+
+void check_outputs(const TourArguments& options, const MissionFile& mission) {
+  std::vector<std::string> outputs;
+  for (const std::string& file : {options.output_file, options.certificate_file}) {
+    if (file.empty()) continue;
+    check_can_write(file);
+    check_not_an_input(file, input_files(mission));
+    outputs.push_back(std::filesystem::weakly_canonical(file).string());
+  }
+  if (outputs.size() == 2 && outputs[0] == outputs[1]) {
+    throw Error(ErrorCode::output_named_twice, "an output is named twice", options.output_file, "give each a name");
+  }
+  if (!options.output_file.empty()) plan_format_of(options.output_file);
+  if (options.no_bound && !options.certificate_file.empty()) {
+    throw Error(ErrorCode::conflicting_keys, "a certificate is of the bound, and --no-bound asks for none",
+                "command line, --certificate", "leave out one of them");
+  }
+}
+
+/// Before anything is computed.
+void check_can_state(const Mission& mission, const std::string& file) {
+  if (file.empty() || mission.scene().georeference || plan_format_of(file) == PlanFormat::csv) return;
+  throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and the plan has to",
+              file, "write it as .csv, or give a scene with a place: a map, or a mesh with 'crs'");
+}
+
+int run_tour(const TourArguments& options) {
+  MissionFile file = read_mission_argument(options.mission_file);
+  check_outputs(options, file);
+  if (!file.targets.empty()) file.combine = Combine::each;
+  ProgressLine progress(options.common);
+  const Mission mission = resolve_mission(file, progress.callback());
+  check_can_state(mission, options.output_file);
+  MissionTourOptions asked;
+  asked.threads = options.common.threads;
+  asked.with_bound = !options.no_bound;
+  asked.certificate = options.certificate_file;
+  const MissionTour tour = plan_mission_tour(mission, asked, progress.callback());
+  if (!options.common.quiet) {
+    notes(mission.notes);
+    for (const std::string& text : tour.notes) note(text);
+  }
+  if (!options.output_file.empty() && !tour.tour.order.empty())
+    write_flight_plan(plan_of_tour(tour, mission), options.output_file);
+  if (options.json) {
+    print(json_text(tour));
+  } else if (!options.common.quiet) {
+    print(table_text(tour));
+  }
+  if (!tour.is_complete()) return kCheckFailed;
+  return options.no_bound || tour.reaches_gap() ? kSuccess : kUndecided;
+}
+
+}  // namespace
+
+void add_tour(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("tour", "Plan the shortest flight that sees every target, and bound how short one can be");
+  auto options = std::make_shared<TourArguments>();
+  command->add_option("mission", options->mission_file, "The mission; - for standard input")
+      ->required()
+      ->option_text("MISSION");
+  command
+      ->add_option("-o,--output", options->output_file, "Write a plan: .plan, .waypoints, .kml, .gpx, .geojson or .csv")
+      ->option_text("FILE");
+  command->add_flag("--no-bound", options->no_bound, "Plan alone: quicker, and no word on how short a flight can be");
+  command
+      ->add_option("--certificate", options->certificate_file,
+                   "Write what proves the bound, for tools/check_tour.py, and the outer volumes beside it")
+      ->option_text("FILE");
+  command->add_flag("--json", options->json, "Print the tour as JSON");
+  finish<TourArguments>(*command, options, kTourExamples, chosen, run_tour);
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,225 @@
+#include "vantage/mission_tour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/format.h"
+#include "core/text.h"
+#include "flight/gimbal.h"
+#include "flight/tour/tour_bound.h"
+#include "flight/tour/tour_certificate.h"
+#include "vantage/error.h"
+#include "vantage/leg_query.h"
+#include "vantage/outer.h"
+
+namespace vantage {
+namespace {
+
+namespace tour = internal::flight::tour;
+
+/// Of all corners.
+Vec3 middle_of(const Target& target) {
+  Vec3 sum = Vec3::Zero();
+  std::size_t corners = 0;
+  for (const std::vector<Vec3>& part : target.parts) {
+    for (const Vec3& corner : part) sum += corner;
+    corners += part.size();
+  }
+  return corners == 0 ? sum : Vec3(sum / static_cast<double>(corners));
+}
+
+std::vector<MissionTourTarget> volumes_of(const Mission& mission, const PreparedScene& scene, int threads,
+                                          const Progress& progress) {
+  RunOptions options;
+  options.threads = threads;
+  options.prepared = scene;
+  std::vector<Result> results;
+  if (volume_count(mission) == 1) {
+    results.push_back(run_mission(mission, options, progress));
+  } else {
+    results = run_missions(mission, options, progress);
+  }
+  std::vector<MissionTourTarget> targets;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const Mission one = one_volume(mission, i);
+    Volume& volume = results[i].volume;
+    if (volume.mesh.empty()) {
+      throw Error(ErrorCode::nothing_given,
+                  "the target '" + one.target.name + "' can be seen from nowhere: " + volume.reason,
+                  mission.as_written.places.target, volume.hint.empty() ? "take it out" : volume.hint);
+    }
+    targets.push_back({one.target.name, middle_of(one.target), std::move(volume.mesh)});
+  }
+  return targets;
+}
+
+/// Straight above the home, the lowest place where flying is allowed.
+Vec3 above(const Vec3& home, const Mission& mission, const PreparedScene& scene, const Airspace& airspace) {
+  constexpr double kStep = 0.5, kHighest = 1000;
+  const std::string& where = mission.as_written.places.tour;
+  for (double height = 0; height <= kHighest; height += kStep) {
+    const Vec3 at = home + Vec3(0, 0, height);
+    if (!airspace.allows({at, at}, 0)) continue;
+    LegDistanceOptions options;
+    options.without_ground = true;
+    const LegDistance nearest = LegDistances(scene, options).nearest({home, at});
+    if (nearest.distance_m > 0) return at;
+    throw Error(ErrorCode::viewpoint_inside_solid,
+                "tour.home lies inside or under " + (nearest.name.empty() ? "the scene" : nearest.name), where,
+                "move it to where the way up is free");
+  }
+  throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
+              "move it into the zones of 'navigation', or widen these; nearest above it: " +
+                  airspace.obstacle({home, home + Vec3(0, 0, kHighest)}, 0));
+}
+
+tour::Incumbent incumbent_of(const Tour& found) {
+  tour::Incumbent incumbent;
+  std::vector<std::size_t> place(found.order.size());
+  std::vector<std::size_t> visited = found.order;
+  std::sort(visited.begin(), visited.end());
+  const auto number = [&](std::size_t target) {  // among those that are visited
+    return static_cast<std::size_t>(std::lower_bound(visited.begin(), visited.end(), target) - visited.begin());
+  };
+  for (const std::size_t target : found.order) {
+    incumbent.order.push_back(number(target));
+    for (const TourVisit& visit : found.visits) {
+      if (visit.target != target) continue;
+      incumbent.points.push_back(found.flight.points[visit.first_point].position);
+      break;
+    }
+  }
+  incumbent.length_m = found.length_m;
+  return incumbent;
+}
+
+TourLowerBound bound_of(const Mission& mission, const MissionTour& of, const std::optional<Vec3>& start,
+                        const MissionTourOptions& options, const Progress& progress) {
+  tour::BoundProblem problem;
+  RunOptions run;
+  run.threads = options.threads;
+  std::vector<std::size_t> visited = of.tour.order;
+  std::sort(visited.begin(), visited.end());
+  for (const std::size_t target : visited) {
+    const Mission one = volume_count(mission) == 1 ? mission : one_volume(mission, target);
+    problem.regions.push_back(tour::OuterRegion::of(outer_volume(one, run, {}, progress), of.targets[target].name));
+  }
+  const TourSettings& settings = of.settings;
+  problem.closed = settings.closed;
+  problem.start = start;
+  // A multirotor may hover: its dwell is no length.
+  if (settings.vehicle.kind == TourVehicle::Kind::fixed_wing && !settings.simultaneous) {
+    problem.dwell_m.assign(problem.regions.size(), settings.vehicle.speed_m_s * settings.dwell_s);
+  }
+  tour::BoundOptions bounds;
+  bounds.gap = settings.gap;
+  bounds.time_limit_s = settings.time_limit_s;
+  bounds.threads = options.threads;
+  const tour::TourBound found = tour::bound_tour(problem, incumbent_of(of.tour), bounds, progress);
+  if (!options.certificate.empty()) tour::write_tour_certificate(found, options.certificate);
+  TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored};
+  if (settings.margin_m > 0) bound.ignored.emplace_back("the margin inside the volumes");
+  return bound;
+}
+
+/// Where the vehicle is when a target is in view, the middle of it.
+Vec3 view_position(const Flight& flight, const TourVisit& visit) {
+  return (flight.points[visit.first_point].position + flight.points[visit.last_point].position) / 2;
+}
+
+}  // namespace
+
+MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options, const Progress& progress) {
+  MissionTour result;
+  result.settings = mission.as_written.tour.value_or(TourSettings());
+  result.home = mission.home;
+  const PreparedScene scene(mission.scene(), progress);
+  result.targets = volumes_of(mission, scene, options.threads, progress);
+
+  TourRequest request;
+  request.settings = result.settings;
+  request.airspace = make_airspace(scene, result.settings.clearance_m, mission.navigation);
+  if (mission.home) request.home = above(*mission.home, mission, scene, *request.airspace);
+  for (const MissionTourTarget& target : result.targets) {
+    request.targets.push_back({target.name, target.volume, target.centre});
+  }
+  result.tour = plan_tour(request, progress);
+  if (!options.with_bound || result.tour.order.empty() || result.tour.end == Tour::End::cancelled) return result;
+  try {
+    result.bound = bound_of(mission, result, request.home, options, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::cancelled) throw;
+    result.notes.emplace_back("the bound was stopped: the tour is known, and not how much shorter one could be");
+  }
+  return result;
+}
+
+FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
+  const Flight& flight = of.tour.flight;
+  FlightOut out;
+  out.flight = flight;
+  out.actions.resize(flight.points.size());
+  for (const TourVisit& visit : of.tour.visits) {
+    const MissionTourTarget& target = of.targets[visit.target];
+    FlightAction& action = out.actions[visit.first_point];
+    const internal::flight::Aim aim = internal::flight::aim_at(view_position(flight, visit), target.centre);
+    action.yaw_deg = aim.yaw_deg;
+    action.gimbal_pitch_deg = aim.pitch_deg;
+    action.photo = true;
+    action.sees = target.name;
+  }
+  if (mission.scene().georeference) {
+    out.georeference = *mission.scene().georeference;
+  } else {
+    out.heights = HeightDatum::scene_z;
+  }
+  out.levels.sea_level_z_m = sea_level_m(mission);
+  out.home = of.home;
+  const bool is_wing = of.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
+  out.vehicle = is_wing ? PlanVehicle::fixed_wing : PlanVehicle::multirotor;
+  out.speed_m_s = of.settings.vehicle.speed_m_s;
+  out.takes_off = out.returns_home = of.home.has_value();
+  if (of.home && mission.scene().georeference) out.heights = HeightDatum::home;
+  for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
+  return out;
+}
+
+std::string json_text(const MissionTour& of) {
+  using Json = nlohmann::ordered_json;
+  const auto point_json = [](const Vec3& p) { return Json{p.x(), p.y(), p.z()}; };
+  Json json;
+  json["vehicle"] = name_of(of.settings.vehicle.kind);
+  json["length_m"] = of.tour.length_m;
+  json["time_s"] = of.tour.time_s;
+  json["bound"] = nullptr;
+  if (of.bound) {
+    json["bound"] = {{"length_m", of.bound->length_m},
+                     {"gap", of.bound->gap},
+                     {"kind", of.bound->kind},
+                     {"ignored", of.bound->ignored}};
+  }
+  json["visits"] = Json::array();
+  for (const TourVisit& visit : of.tour.visits) {
+    json["visits"].push_back({{"target", of.targets[visit.target].name},
+                              {"begin_m", visit.begin_m},
+                              {"end_m", visit.end_m},
+                              {"dwell_s", visit.dwell_s},
+                              {"from", point_json(of.tour.flight.points[visit.first_point].position)},
+                              {"to", point_json(of.tour.flight.points[visit.last_point].position)}});
+  }
+  json["left_out"] = Json::array();
+  for (const TourProblem& problem : of.tour.problems) {
+    json["left_out"].push_back({{"target", of.targets[problem.target].name}, {"obstacle", problem.obstacle}});
+  }
+  json["points"] = Json::array();
+  for (const FlightPoint& point : of.tour.flight.points) {
+    json["points"].push_back({{"position", point_json(point.position)}, {"hold_s", point.hold_s}});
+  }
+  constexpr int kIndentation = 2;
+  return internal::core::escaped_json(json.dump(kIndentation, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+}  // namespace vantage
