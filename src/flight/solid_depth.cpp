@@ -52,8 +52,8 @@ void SolidDepth::fill_cells(std::size_t begin, std::size_t end) {
   const auto width = static_cast<std::size_t>(count_[0]), depth = static_cast<std::size_t>(count_[1]);
   double last = 0;  // depth of the cell before, 0: not known
   for (std::size_t i = begin; i < end; ++i) {
-    const Vec3 index(static_cast<double>(i % width), static_cast<double>(i / width % depth),
-                     static_cast<double>(i / (width * depth)));
+    const std::size_t row = i / width % depth, layer = i / (width * depth);
+    const Vec3 index(static_cast<double>(i % width), static_cast<double>(row), static_cast<double>(layer));
     const Vec3 point = bounds_.min + (index + Vec3::Constant(0.5)) * cell_m_;
     // Up to the error too large. So the depth of a point near the surface is 0, to that error.
     constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -140,7 +140,7 @@ std::optional<Use> use_of(std::string_view title, std::size_t index) {
     for (const std::string& end :
          {"(" + std::string(unit.name) + ")", "[" + std::string(unit.name) + "]", "_" + std::string(unit.name)}) {
       const bool ends_so = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-      if (ends_so && !found) found = known(std::string_view(name).substr(0, name.size() - end.size()), unit.factor);
+      if (ends_so && !found) found = known(std::string_view{name}.substr(0, name.size() - end.size()), unit.factor);
     }
   }
   return found;

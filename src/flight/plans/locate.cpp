@@ -118,7 +118,7 @@ void Locator::check_options() const {
 Point Locator::local(const Point& horizontal, const std::string& where) const {
   if (!frame_) return horizontal;
   const geo::LonLat position{horizontal.x(), horizontal.y()};
-  const Point at = frame_->to_local(position);
+  Point at = frame_->to_local(position);
   const double farthest = std::min(options_.farthest_m, geo::kFarthestM);
   if (at.norm() <= farthest) return at;
   const geo::LonLat swapped{horizontal.y(), horizontal.x()};

@@ -153,7 +153,8 @@ class GroundStationPlan {
     const auto items = stored->find("Items");
     if (items != stored->end() && items->is_array() && !items->empty()) {
       for (std::size_t i = 0; i < items->size(); ++i) {
-        const std::string place = where + " (" + name + "), item " + std::to_string(i + 1);
+        const std::string place =
+            std::string(where).append(" (").append(name).append("), item ").append(std::to_string(i + 1));
         if (!(*items)[i].is_object())
           PlanSource::fail_at(ErrorCode::plan_syntax, place, "it is not an object", "correct it");
         add_simple((*items)[i], place);

@@ -138,7 +138,7 @@ XmlTree::XmlTree(const PlanSource& source) { XmlBuilder(source, *this).build(); 
 
 std::string_view XmlTree::text(Node node) const {
   const Element& element = nodes_[node];
-  return std::string_view(texts_).substr(element.text_begin, element.text_end - element.text_begin);
+  return std::string_view{texts_}.substr(element.text_begin, element.text_end - element.text_begin);
 }
 
 XmlTree::Node XmlTree::child(Node node, std::string_view wanted) const {

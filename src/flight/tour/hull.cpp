@@ -109,7 +109,8 @@ Hull::Hull(std::vector<Vec3> points, double moved_m) : points_(std::move(points)
   build(0, static_cast<std::uint32_t>(points_.size()));
   inside_ = Vec3::Zero();
   for (int i = 0; i < 27; ++i) {
-    Vec3 normal(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const int y = i / 3 % 3 - 1, z = i / 9 - 1;
+    Vec3 normal(i % 3 - 1, y, z);
     if (normal.isZero(0)) continue;
     normal.normalize();
     half_spaces_.push_back(half_space(normal));

@@ -61,7 +61,7 @@ Vec3 above(const Vec3& home, const Mission& mission, const PreparedScene& scene,
   constexpr double kStep = 0.5, kHighest = 1000;
   const std::string& where = mission.as_written.places.tour;
   for (double height = 0; height <= kHighest; height += kStep) {
-    const Vec3 at = home + Vec3(0, 0, height);
+    Vec3 at = home + Vec3(0, 0, height);
     if (!airspace.allows({at, at}, 0)) continue;
     LegDistanceOptions options;
     options.without_ground = true;

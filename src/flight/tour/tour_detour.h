@@ -43,7 +43,7 @@ inline Vec3 shortest_on_triangle(const std::array<Vec3, 3>& t, const Vec3& a, co
   if (area > 0) {
     const Vec3 unit = normal / area;
     const double da = unit.dot(a - t[0]), db = unit.dot(b - t[0]);
-    const Vec3 x = shortest_on_flat(a - da * unit, std::hypot(da, smoothing), b - db * unit, std::hypot(db, smoothing));
+    Vec3 x = shortest_on_flat(a - da * unit, std::hypot(da, smoothing), b - db * unit, std::hypot(db, smoothing));
     const auto is_left = [&](int i) { return normal.dot((t[(i + 1) % 3] - t[i]).cross(x - t[i])) >= 0; };
     if (is_left(0) && is_left(1) && is_left(2)) return x;
   }

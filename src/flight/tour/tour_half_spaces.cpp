@@ -82,7 +82,7 @@ std::optional<Vec3> HalfSpaces::on_segment(const Vec3& a, const Vec3& b, double 
 
 std::optional<Vec3> HalfSpaces::shortest_way(const Vec3& a, const Vec3& b, double smoothing) const {
   const double slack = kSlack * (1 + a.norm() + b.norm());
-  if (const std::optional<Vec3> point = on_segment(a, b, slack)) return point;
+  if (std::optional<Vec3> point = on_segment(a, b, slack)) return point;
   Best best{*this, a, b, smoothing, slack};
   for (std::size_t i = 0; i < count_; ++i) {
     best.offer_plane(planes_[i]);

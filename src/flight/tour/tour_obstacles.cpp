@@ -179,10 +179,10 @@ std::optional<std::vector<Vec3>> way_over(const Airspace& airspace, const Leg& l
 
 /// A place in the spheroid with its foci at the ends of the leg, inside the bounds.
 Vec3 draw_about(const Leg& leg, double reach, const Box& bounds, Draw& draw) {
-  const Vec3 middle = (leg.from + leg.to) / 2;
+  Vec3 middle = (leg.from + leg.to) / 2;
   for (int i = 0; i < 64; ++i) {
     const Vec3 offset(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1));
-    const Vec3 point = (middle + reach / 2 * offset).cwiseMax(bounds.min).cwiseMin(bounds.max);
+    Vec3 point = (middle + reach / 2 * offset).cwiseMax(bounds.min).cwiseMin(bounds.max);
     if ((point - leg.from).norm() + (point - leg.to).norm() <= reach) return point;
   }
   return middle;
@@ -232,7 +232,7 @@ class ClearFlight {
     const Box box = region.box();
     for (int k = 0; k < kDraws; ++k) {
       // Near the wanted place first, then anywhere.
-      const double share = std::min(1.0, (k + 1.0) / (kDraws / 2));
+      const double share = std::min(1.0, (k + 1.0) / (kDraws / 2.0));
       const Vec3 low = wanted + share * (box.min - wanted), high = wanted + share * (box.max - wanted);
       offer({draw_.uniform(low.x(), high.x()), draw_.uniform(low.y(), high.y()), draw_.uniform(low.z(), high.z())});
     }

@@ -168,7 +168,7 @@ std::optional<Vec3> TourRegion::first_inside(const Vec3& from, const Vec3& to) c
 /// The point in the middle, or the nearest one to it.
 std::optional<Vec3> TourRegion::on_segment(const Vec3& a, const Vec3& b) const {
   const Vec3 middle = (a + b) / 2;
-  const std::optional<Vec3> one = first_inside(middle, a);
+  std::optional<Vec3> one = first_inside(middle, a);
   if (one && *one == middle) return one;
   const std::optional<Vec3> other = first_inside(middle, b);
   if (!one || !other) return one ? one : other;
