@@ -54,7 +54,7 @@ void add_problems(TextTable& table, const MissionTour& tour) {
       continue;
     }
     const std::string from = problem.neighbour ? tour.targets[*problem.neighbour].name : "home";
-    table.row("left out", name, "no way was found between it and " + from + in_the_way);
+    table.row("left out", name, std::string("no way was found between it and ").append(from).append(in_the_way));
   }
 }
 
