@@ -99,9 +99,17 @@ void check_outputs(const TourArguments& options, const MissionFile& mission) {
   }
 }
 
-/// Before anything is computed.
+/// Before anything is computed: whether the format can state a flight of this mission. A flight of one point shows it.
 void check_can_state(const Mission& mission, const std::string& file) {
-  if (file.empty() || mission.scene().georeference || plan_format_of(file) == PlanFormat::csv) return;
+  if (file.empty()) return;
+  if (mission.scene().georeference || plan_format_of(file) == PlanFormat::csv) {
+    MissionTour tour;
+    tour.settings = mission.as_written.tour.value_or(TourSettings());
+    tour.home = mission.home;
+    tour.tour.flight.points.push_back({mission.home.value_or(Vec3::Zero())});
+    flight_plan_bytes(plan_of_tour(tour, mission), plan_format_of(file));
+    return;
+  }
   throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and the plan has to",
               file, "write it as .csv, or give a scene with a place: a map, or a mesh with 'crs'");
 }
