@@ -543,7 +543,7 @@ TEST(LocateFlight, FollowsPositionsOfTheFrame) {
   EXPECT_EQ(located.flight.points[1].speed_m_s, 5);
   EXPECT_EQ(located.flight.points[1].place, "/data/flight.plan: item 2");
   EXPECT_EQ(located.items, (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(located.flight.chord_error_m, 0.05);
+  EXPECT_LT(located.flight.chord_error_m, 1e-3);  // of geodesics alone
 }
 
 TEST(LocateFlight, CutsGeodesicsWhereTheFrameBendsThem) {

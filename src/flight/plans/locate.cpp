@@ -97,6 +97,7 @@ class Locator {
   LocatedPlan located_;
   std::size_t timed_circles_ = 0, level_returns_ = 0;
   bool has_curves_ = false, has_following_ = false;
+  mutable double bent_m_ = 0;  // geodesics lie at most so far from their chords
 };
 
 void Locator::check_options() const {
@@ -408,7 +409,9 @@ std::vector<double> Locator::geodesic_shares(const Point& from, const Point& to)
     // where the sagitta of that is far below what is allowed.
     constexpr double kRadiusM = 6.3e6;
     const double bend = std::max(from.norm(), to.norm()) / (kRadiusM * kRadiusM), length = (to - from).norm();
-    if (length * length * bend / 8 > geodesic_error_m()) cut_geodesic(from, to, 0, 1, 0, shares);
+    const double sagitta = length * length * bend / 8;
+    if (sagitta > geodesic_error_m()) cut_geodesic(from, to, 0, 1, 0, shares);
+    bent_m_ = std::max(bent_m_, std::min(sagitta, geodesic_error_m()));
   }
   shares.push_back(1);
   return shares;
@@ -512,7 +515,7 @@ LocatedPlan Locator::locate() {
     }
   }
   located_.flight.chord_error_m =
-      (frame_ || has_curves_ ? options_.chord_error_m : 0) + (has_following_ ? options_.ground_error_m : 0);
+      (has_curves_ ? options_.chord_error_m : 2 * bent_m_) + (has_following_ ? options_.ground_error_m : 0);
   const auto home = home_position();
   if (home && known_home_z()) located_.home = Vec3(home->x(), home->y(), *known_home_z());
   using internal::core::count_text;

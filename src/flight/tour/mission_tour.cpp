@@ -20,6 +20,9 @@ namespace {
 
 namespace tour = internal::flight::tour;
 
+/// Plans round positions, and are put into the frame again: what only just keeps a limit must keep it then, too.
+constexpr double kPlanRoundingM = 0.01;
+
 /// Of all corners.
 Vec3 middle_of(const Target& target) {
   Vec3 sum = Vec3::Zero();
@@ -62,7 +65,7 @@ Vec3 above(const Vec3& home, const Mission& mission, const PreparedScene& scene,
   const std::string& where = mission.as_written.places.tour;
   for (double height = 0; height <= kHighest; height += kStep) {
     Vec3 at = home + Vec3(0, 0, height);
-    if (!airspace.allows({at, at}, 0)) continue;
+    if (!airspace.allows({at, at}, kPlanRoundingM)) continue;
     LegDistanceOptions options;
     options.without_ground = true;
     const LegDistance nearest = LegDistances(scene, options).nearest({home, at});
@@ -141,7 +144,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 
   TourRequest request;
   request.settings = result.settings;
-  request.airspace = make_airspace(scene, result.settings.clearance_m, mission.navigation);
+  request.airspace = make_airspace(scene, result.settings.clearance_m + kPlanRoundingM, mission.navigation);
   if (mission.home) request.home = above(*mission.home, mission, scene, *request.airspace);
   for (const MissionTourTarget& target : result.targets) {
     request.targets.push_back({target.name, target.volume, target.centre});
