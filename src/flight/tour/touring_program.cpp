@@ -16,9 +16,9 @@ constexpr double kDirectionUnit = 0x1p-30;
 constexpr double kRounding = 0x1p-53;
 
 // ---- of the barriers, in parts of the size of the program -----------------------------------------------------------
-constexpr double kFlat = 1e-6;  // a hull that is thinner in a direction is made so thick: barriers need an inside
-constexpr double kFirstBarrier = 0.3;   // the gap of the first step, of the length
-constexpr double kAgainBarrier = 3e-3;  // and of the first one after half-spaces were added
+constexpr double kFlat = 0.5 * kOutsideOfSize;  // a hull that is thinner in a direction is made so thick
+constexpr double kFirstBarrier = 0.3;           // the gap of the first step, of the length
+constexpr double kAgainBarrier = 3e-3;          // and of the first one after half-spaces were added
 constexpr double kLessBarrier = 0.1;
 constexpr double kFirstKept = 1e-3;   // from here on the vectors are looked at
 constexpr double kOfPoints = 1e-11;   // where there is nothing to choose; of the size
@@ -289,7 +289,7 @@ class Solver {
   /// Where a point lies outside of its hull; false if none does. Those inside stay, the others go inside.
   bool add_half_spaces() {
     const double tolerance =
-        std::max(options_.in_hull * std::max(touring_length(program_, points_), 1e-3 * size_), 2 * kFlat * size_);
+        std::max(options_.in_hull * std::max(touring_length(program_, points_), 1e-3 * size_), kOutsideOfSize * size_);
     bool any = false;
     for (std::size_t k = 0; k < points_.size(); ++k) {
       Stop& stop = stops_[k];

@@ -47,9 +47,14 @@ struct TouringSolution {
   std::vector<std::pair<std::size_t, HalfSpace>> half_spaces;
 };
 
+/// Of the size of all hulls together (the diagonal of their box): however small TouringOptions::in_hull is, points may
+/// lie so far outside of the hulls. Barriers need an inside, so that flat hulls are made half as thick: a point of one
+/// may lie a quarter of this off it.
+constexpr double kOutsideOfSize = 2e-6;
+
 struct TouringOptions {
   double gap = 1e-6;      ///< of the length; where the search for points stops
-  double in_hull = 1e-4;  ///< points may lie so far outside of the hulls, of the length
+  double in_hull = 1e-4;  ///< points may lie so far outside of the hulls, of the length, or kOutsideOfSize
   int most_rounds = 8;    ///< of adding half-spaces
   double enough_m = std::numeric_limits<double>::infinity();  ///< stops as soon as the bound is so large
 };
