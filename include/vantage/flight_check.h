@@ -9,11 +9,18 @@
 
 #include "vantage/export.h"
 #include "vantage/flight.h"
+#include "vantage/flight_plan.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
+#include "vantage/scene.h"
 
 namespace vantage {
+
+/// A plan in the frame of the mission's scene: locate_flight with what the mission knows where `options` leave it open:
+/// the place of its scene, its ground and its sea level, and the home of its tour where the plan has none. Throws as
+/// locate_flight does.
+VANTAGE_API LocatedPlan locate_flight(const Mission& mission, const FlightPlan& plan, LocateOptions options = {});
 
 /// What a flight must keep besides the limits of the mission, and how it is flown.
 struct FlightCheckOptions {
@@ -29,6 +36,8 @@ struct FlightCheckOptions {
   /// How fast the camera may have to turn to keep a target's centre while it is seen for the longest time. Without it
   /// that of the mission's tour; nothing: as fast as it takes.
   std::optional<double> gimbal_rate_deg_s = std::nullopt;
+  /// The mission's scene, where it is prepared already. Without it that is done anew.
+  std::optional<PreparedScene> prepared = {};
 };
 
 /// A stretch of a flight.

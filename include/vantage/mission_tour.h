@@ -14,9 +14,13 @@
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
+#include "vantage/scene.h"
 #include "vantage/tour.h"
 
 namespace vantage {
+
+/// What proves a bound: for write_tour_certificate.
+struct TourProof;
 
 /// What no tour can be shorter than.
 struct TourLowerBound {
@@ -24,6 +28,7 @@ struct TourLowerBound {
   double gap = 1;                    ///< (length - bound) / length of the tour that was found
   std::string kind = {};             ///< "insertion", "pairs": docs/theory.md, "Tours"
   std::vector<std::string> ignored;  ///< what makes tours longer, and the bound does not know
+  std::shared_ptr<const TourProof> proof = {};
 };
 
 /// A target of a tour.
@@ -51,6 +56,7 @@ struct MissionTourOptions {
   int threads = 0;                         ///< at most; 0: as many as the machine has
   bool with_bound = true;                  ///< it takes outer volumes, which take longer than the volumes
   std::filesystem::path certificate = {};  ///< of the bound, and the meshes it is of beside it; empty: none is written
+  std::optional<PreparedScene> prepared = {};  ///< the mission's scene, where it is prepared already
 };
 
 /// Computes a volume of each target of the mission, and plans the tour that MissionFile::tour asks for (TourSettings()
@@ -71,6 +77,14 @@ VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionT
 /// Heights are above the home, where there is one. Of a scene without a place on the earth it is x, y and z of the
 /// scene frame, which a table (CSV) alone can state.
 VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission);
+/// The same as a format can state it: KML, GPX and GeoJSON have no heights above the home, and get those they know.
+/// Throws Error(not_georeferenced) where the format needs a place on the earth, and the scene has none.
+VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission, PlanFormat format);
+
+/// Writes what proves the bound of a tour, for tools/check_tour.py, and the meshes that it is of beside it: FILE's stem
+/// with .region0.ply and so on. All are written whole, or none. Throws Error(input) for a tour without a bound;
+/// Error(output).
+VANTAGE_API void write_tour_certificate(const MissionTour& tour, const std::filesystem::path& file);
 
 /// JSON (UTF-8, indented, a newline at the end). Lengths in metres, the scene frame.
 VANTAGE_API std::string json_text(const MissionTour& tour);

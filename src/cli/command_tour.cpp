@@ -99,30 +99,14 @@ void check_outputs(const TourArguments& options, const MissionFile& mission) {
   }
 }
 
-/// KML, GPX and GeoJSON know no heights above the home.
-FlightOut plan_in(const MissionTour& tour, const Mission& mission, const std::string& file) {
-  FlightOut plan = plan_of_tour(tour, mission);
-  const PlanFormat format = plan_format_of(file);
-  const bool is_of_home = plan.heights == HeightDatum::home;
-  if (is_of_home && (format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson)) {
-    plan.heights.reset();
-  }
-  return plan;
-}
-
 /// Before anything is computed: whether the format can state a flight of this mission. A flight of one point shows it.
 void check_can_state(const Mission& mission, const std::string& file) {
   if (file.empty()) return;
-  if (mission.scene().georeference || plan_format_of(file) == PlanFormat::csv) {
-    MissionTour tour;
-    tour.settings = mission.as_written.tour.value_or(TourSettings());
-    tour.home = mission.home;
-    tour.tour.flight.points.push_back({mission.home.value_or(Vec3::Zero())});
-    flight_plan_bytes(plan_in(tour, mission, file), plan_format_of(file));
-    return;
-  }
-  throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and the plan has to",
-              file, "write it as .csv, or give a scene with a place: a map, or a mesh with 'crs'");
+  MissionTour tour;
+  tour.settings = mission.as_written.tour.value_or(TourSettings());
+  tour.home = mission.home;
+  tour.tour.flight.points.push_back({mission.home.value_or(Vec3::Zero())});
+  flight_plan_bytes(plan_of_tour(tour, mission, plan_format_of(file)), plan_format_of(file));
 }
 
 int run_tour(const TourArguments& options) {
@@ -142,7 +126,7 @@ int run_tour(const TourArguments& options) {
     for (const std::string& text : tour.notes) note(text);
   }
   if (!options.output_file.empty() && !tour.tour.order.empty())
-    write_flight_plan(plan_in(tour, mission, options.output_file), options.output_file);
+    write_flight_plan(plan_of_tour(tour, mission, plan_format_of(options.output_file)), options.output_file);
   if (options.json) {
     print(json_text(tour));
   } else if (!options.common.quiet) {

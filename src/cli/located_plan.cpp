@@ -7,10 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/scene_options.h"
-#include "vantage/error.h"
-#include "vantage/georeference.h"
-#include "vantage/ground.h"
-#include "vantage/input.h"
+#include "vantage/flight_check.h"
 
 namespace vantage::cli {
 namespace {
@@ -29,25 +26,10 @@ std::optional<HeightDatum> datum_of(const std::string& word) {
 }
 
 /// Longitude and latitude, or x and y for a plan in the scene frame.
-std::optional<Eigen::Vector2d> home_of(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
-  if (!arguments.home.empty()) {
-    const std::array<double, 2> at = place_option("--home", arguments.home);
-    return plan.is_in_scene_frame ? Eigen::Vector2d(at[0], at[1]) : Eigen::Vector2d(at[1], at[0]);
-  }
-  if (plan.home || !mission.home) return std::nullopt;
-  const Eigen::Vector2d at = mission.home->head<2>();
-  if (plan.is_in_scene_frame || !mission.scene().georeference) return at;
-  return positions_in_crs(*mission.scene().georeference, "EPSG:4326", std::array{at}).front();
-}
-
-/// Nothing where the scene does not say what of it is ground: locating says when it is needed.
-std::optional<Ground> ground_if_known(const Mission& mission) {
-  try {
-    return ground_of(mission);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::ground_missing) throw;
-    return std::nullopt;
-  }
+std::optional<Eigen::Vector2d> home_if_given(const PlanArguments& arguments, const FlightPlan& plan) {
+  if (arguments.home.empty()) return std::nullopt;
+  const std::array<double, 2> at = place_option("--home", arguments.home);
+  return plan.is_in_scene_frame ? Eigen::Vector2d(at[0], at[1]) : Eigen::Vector2d(at[1], at[0]);
 }
 
 }  // namespace
@@ -91,20 +73,16 @@ FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& pr
 }
 
 LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
-  const std::optional<Ground> ground = ground_if_known(mission);
   LocateOptions options;
-  options.georeference = mission.scene().georeference;
-  options.levels.sea_level_z_m = sea_level_m(mission);
   options.levels.undulation_m = arguments.undulation;
-  options.ground = ground ? &*ground : nullptr;
-  options.home = home_of(arguments, plan, mission);
+  options.home = home_if_given(arguments, plan);
   options.home_z_m = length_if_given("--home-z", arguments.home_z);
   options.unknown_heights = datum_of(arguments.heights);
   options.missing_height_m = length_if_given("--height", arguments.height);
   options.return_height_m = length_if_given("--return-height", arguments.return_height);
   options.loiter_radius_m = length_if_given("--loiter-radius", arguments.loiter_radius);
   options.with_ground_legs = arguments.with_ground_legs;
-  return locate_flight(plan, options);
+  return locate_flight(mission, plan, options);
 }
 
 }  // namespace vantage::cli

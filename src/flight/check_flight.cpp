@@ -365,7 +365,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   check.point_at_m = along.point_at_m();
   check.arrival_s = along.arrival_s();
 
-  const PreparedScene scene(mission.scene(), progress);
+  const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
   std::vector<JudgedTarget> targets;
   for (std::size_t i = 0; i < volume_count(mission); ++i) targets.emplace_back(one_volume(mission, i), scene);
   const std::vector<Leg> legs = legs_of(flight);

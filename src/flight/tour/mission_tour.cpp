@@ -16,6 +16,11 @@
 #include "vantage/outer.h"
 
 namespace vantage {
+
+struct TourProof {
+  internal::flight::tour::TourBound bound;
+};
+
 namespace {
 
 namespace tour = internal::flight::tour;
@@ -99,11 +104,12 @@ tour::Incumbent incumbent_of(const Tour& found) {
   return incumbent;
 }
 
-TourLowerBound bound_of(const Mission& mission, const MissionTour& of, const std::optional<Vec3>& start,
-                        const MissionTourOptions& options, const Progress& progress) {
+TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, const MissionTour& of,
+                        const std::optional<Vec3>& start, const MissionTourOptions& options, const Progress& progress) {
   tour::BoundProblem problem;
   RunOptions run;
   run.threads = options.threads;
+  run.prepared = scene;
   std::vector<std::size_t> visited = of.tour.order;
   std::sort(visited.begin(), visited.end());
   for (const std::size_t target : visited) {
@@ -121,9 +127,11 @@ TourLowerBound bound_of(const Mission& mission, const MissionTour& of, const std
   bounds.gap = settings.gap;
   bounds.time_limit_s = settings.time_limit_s;
   bounds.threads = options.threads;
-  const tour::TourBound found = tour::bound_tour(problem, incumbent_of(of.tour), bounds, progress);
+  auto proof =
+      std::make_shared<const TourProof>(TourProof{tour::bound_tour(problem, incumbent_of(of.tour), bounds, progress)});
+  const tour::TourBound& found = proof->bound;
   if (!options.certificate.empty()) tour::write_tour_certificate(found, options.certificate);
-  TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored};
+  TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored, proof};
   if (settings.margin_m > 0) bound.ignored.emplace_back("the margin inside the volumes");
   return bound;
 }
@@ -139,7 +147,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   MissionTour result;
   result.settings = mission.as_written.tour.value_or(TourSettings());
   result.home = mission.home;
-  const PreparedScene scene(mission.scene(), progress);
+  const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
   result.targets = volumes_of(mission, scene, options.threads, progress);
 
   TourRequest request;
@@ -152,7 +160,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   result.tour = plan_tour(request, progress);
   if (!options.with_bound || result.tour.order.empty() || result.tour.end == Tour::End::cancelled) return result;
   try {
-    result.bound = bound_of(mission, result, request.home, options, progress);
+    result.bound = bound_of(mission, scene, result, request.home, options, progress);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::cancelled) throw;
     result.notes.emplace_back("the bound was stopped: the tour is known, and not how much shorter one could be");
@@ -188,6 +196,25 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   if (of.home && mission.scene().georeference) out.heights = HeightDatum::home;
   for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
   return out;
+}
+
+FlightOut plan_of_tour(const MissionTour& of, const Mission& mission, PlanFormat format) {
+  if (!mission.scene().georeference && format != PlanFormat::csv) {
+    throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and the plan has to",
+                name_of(format), "write it as .csv, or give a scene with a place: a map, or a mesh with 'crs'");
+  }
+  FlightOut plan = plan_of_tour(of, mission);
+  const bool has_no_home = format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson;
+  if (plan.heights == HeightDatum::home && has_no_home) plan.heights.reset();
+  return plan;
+}
+
+void write_tour_certificate(const MissionTour& of, const std::filesystem::path& file) {
+  if (!of.bound || !of.bound->proof) {
+    throw Error(ErrorCode::nothing_given, "the tour has no bound that a certificate could prove", file.string(),
+                "plan it with its bound");
+  }
+  tour::write_tour_certificate(of.bound->proof->bound, file);
 }
 
 std::string json_text(const MissionTour& of) {
