@@ -20,6 +20,9 @@ void bind_outer(nb::module_& module);
 void bind_areas(nb::module_& module);
 void bind_sections(nb::module_& module);
 void bind_tiles(nb::module_& module);
+void bind_flights(nb::module_& module);
+void bind_views(nb::module_& module);
+void bind_tours(nb::module_& module);
 void bind_program(nb::module_& module);
 
 }  // namespace vantage::python

@@ -86,7 +86,8 @@ PyMission read(const std::filesystem::path& path, nb::object progress) {
 }
 
 PyMission one(const PyMission& mission, std::size_t index) {
-  return {mission.scene, std::make_shared<const Mission>(one_volume(*mission, index))};
+  const bool is_part = mission.is_part || volume_count(*mission) > 1;
+  return {mission.scene, std::make_shared<const Mission>(one_volume(*mission, index)), is_part};
 }
 
 std::vector<PyResult> run(const PyMission& mission, int threads, nb::object progress) {

@@ -12,6 +12,7 @@ struct PyMission {
   std::shared_ptr<const PyScene>
       scene;  ///< that it was resolved in; not the mission's own, where its ground was extended
   std::shared_ptr<const Mission> mission;
+  bool is_part = false;  ///< one of the volumes of a mission that has several: it still names all targets
 
   bool is_in_scene() const { return mission->loaded == scene->loaded(); }
   /// What is known of the scene already, for a run.

@@ -35,5 +35,8 @@ NB_MODULE(_core, module) {
   bind_areas(module);
   bind_sections(module);
   bind_tiles(module);
+  bind_flights(module);
+  bind_views(module);
+  bind_tours(module);
   bind_program(module);
 }

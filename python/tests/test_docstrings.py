@@ -21,7 +21,8 @@ def test_examples(name):
 
 
 def test_all_that_can_be_called_is_explained():
-    returned = ("Positions", "Area", "Face", "Tile", "Tiles")
+    returned = ("Positions", "Area", "Face", "Tile", "Tiles", "FlightCheck", "Tour", "View", "Standpoint", "Standpoints", "Orbit",
+                "Orbits", "Found", "PositionView")
     for name in vt.__all__:
         what = getattr(vt, name)
         if not callable(what):
@@ -33,7 +34,7 @@ def test_all_that_can_be_called_is_explained():
 
 
 def test_members_are_explained():
-    for of in (vt.Scene, vt.Volume, vt.Mission, vt.Result):
+    for of in (vt.Scene, vt.Volume, vt.Mission, vt.Result, vt.Flight, vt.FlightCheck, vt.Tour):
         for name, member in inspect.getmembers(of):
             if not name.startswith("_") and (callable(member) or isinstance(member, property)):
                 assert inspect.getdoc(member), f"{of.__name__}.{name}"

@@ -42,6 +42,7 @@ def squares(folder):
 # What the blocks of a document need: modules, files of the real inputs by the name in the document, files that are made.
 NEEDS = {
     "README.md": (["pyvista"], {}, None),
+    "docs/flight.md": (["matplotlib"], {}, None),
     "docs/python.md": ([], {}, None),
     "docs/python-areas.md": ([], {"city.osm.pbf": "osm/manhattan-midtown.osm.pbf"}, None),
     "docs/python-batch.md": (["pyarrow", "geopandas"], {"city.osm.pbf": "osm/empire-state-600m.osm.pbf"}, squares),

@@ -23,26 +23,33 @@ if _refusal := getattr(_core, "refusal", None):  # in a subinterpreter
 
 from . import _arrays, _checks
 from ._areas import Area, Face, areas
+from ._check import BrokenLimit, FlightCheck, GimbalUse, NearestPass, NotSeen, Span, TargetCheck, check
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
 from ._field import fraction_field
+from ._flight import Flight
 from ._mesh import Cause, Note
 from ._place import Georeference
-from ._positions import Positions, fewest_positions
+from ._positions import Positions, PositionView, fewest_positions
 from ._progress import Progress
-from ._requests import Navigation, Sensor, Target, Vector
+from ._requests import Navigation, Sensor, Target, TourSettings, Vector
 from ._many import Results, compute_many
 from ._result import Answers, Mission, Result, compute
 from ._scene import Scene, SceneObject, checked_scene
 from ._slice import Slice
 from ._tiles import Tile, Tiles, tiles
+from ._tour import LeftOut, Tour, TourBound, Visit, tour
+from ._views import Found, Orbit, Orbits, Standpoint, Standpoints, View, orbits, standpoints
 from ._volume import Volume, intersect, unite
 
 __all__ = [
-    "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
-    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Results", "Scene", "SceneObject", "Sensor", "Slice",
-    "Target", "Tile", "Tiles", "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices",
-    "error_codes", "fewest_positions", "fraction_field", "intersect", "tiles", "unite", "visibility_sphere",
+    "Answers", "Area", "BrokenLimit", "CancelledError", "Cause", "Error", "Face", "Flight", "FlightCheck", "Found",
+    "Georeference", "GimbalUse", "InputError", "InternalError", "LeftOut", "Mission", "Navigation", "NearestPass",
+    "Note", "NotSeen", "Orbit", "Orbits", "OutputError", "Positions", "PositionView", "Result", "Results", "Scene",
+    "SceneObject", "Sensor", "Slice", "Span", "Standpoint", "Standpoints", "Target", "TargetCheck", "Tile", "Tiles",
+    "Tour", "TourBound", "TourSettings", "View", "Visit", "Volume", "__version__", "areas", "cameras", "check",
+    "compute", "compute_many", "devices", "error_codes", "fewest_positions", "fraction_field", "intersect",
+    "orbits", "standpoints", "tiles", "tour", "unite", "visibility_sphere",
 ]
 
 if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along

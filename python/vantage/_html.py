@@ -12,12 +12,14 @@ import numpy as np
 
 if TYPE_CHECKING:
     from ._areas import Area, Face
+    from ._check import FlightCheck
     from ._many import Results
     from ._mesh import Note, Solid
     from ._positions import Positions
     from ._result import Answers, Mission, Result
     from ._scene import Scene
     from ._slice import Slice
+    from ._tour import Tour
     from ._volume import Volume
 
 Rows = list[tuple[str, str]]
@@ -136,6 +138,27 @@ def of_positions(found: Positions) -> str:
             for number, (place, sees, depth) in enumerate(zip(found.positions, found.sees, found.depth_m))]
     more = [("", f"and {len(rows) - _MOST_ROWS} more")] if len(rows) > _MOST_ROWS else []
     return table(str(found), [*rows[:_MOST_ROWS], *more, *(("note", note) for note in found.notes)])
+
+
+def of_check(check: FlightCheck) -> str:
+    """A row for each target, and what fails."""
+    rows = [(target.name, ("seen whole " + _listed(f"{span.begin_m:,.1f} to {span.end_m:,.1f} m" for span in target.seen)
+                           if target.seen else "nowhere seen whole")) for target in check.targets]
+    more = [("", f"and {len(rows) - _MOST_ROWS:,} more")] if len(rows) > _MOST_ROWS else []
+    near = check.nearest
+    ends = [("nearest", f"{near.distance_m:,.2f} m: {near.object or 'the scene'}")] if near is not None else []
+    return table(repr(check)[len("<vantage.FlightCheck: "):-1],
+                 [*rows[:_MOST_ROWS], *more, *ends, *(("fails", failure) for failure in check.failures)])
+
+
+def of_tour(tour: Tour) -> str:
+    """A row for each visit, and what is left out."""
+    rows = [(visit.name, f"in view {visit.begin_m:,.1f} to {visit.end_m:,.1f} m along the flight, {visit.dwell_s:,.1f} s")
+            for visit in tour.visits]
+    more = [("", f"and {len(rows) - _MOST_ROWS:,} more")] if len(rows) > _MOST_ROWS else []
+    left = [("left out", one.name + (f"; in the way: {one.obstacle}" if one.obstacle else "")) for one in tour.left_out]
+    return table(repr(tour)[len("<vantage.Tour: "):-1],
+                 [("time", f"{tour.time_s:,.1f} s"), *rows[:_MOST_ROWS], *more, *left, *(("note", note) for note in tour.notes)])
 
 
 def of_results(results: Results) -> str:

@@ -15,15 +15,33 @@ from ._checks import thread_count
 from ._common_points import Numbers, deepest
 from ._cover import Clock, cp_model, least_cover, most_apart
 from ._errors import Error, input_error
+from ._extras import require
+from ._flight import table_of
 from ._position_search import PositionSearch, Region, Told
 from ._progress import Progress, listener
-from ._result import Result
+from ._result import Mission, Result
+from ._views import View, described, names_of_view
 from ._volume import Volume
 
 Cost = Union[npt.ArrayLike, Callable[[_arrays.Points], npt.ArrayLike]]
 
 _COSTS = 1e6
 """The solver counts in whole numbers: the largest cost becomes this."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class PositionView(View):
+    """One target seen from one of the positions. Besides what a `View` has:
+
+    Attributes:
+        position: index of the position.
+        target: index of the target.
+        depth_m: how far the position lies from the boundary of the target's volume.
+    """
+
+    position: int
+    target: int
+    depth_m: float
 
 
 @dataclasses.dataclass(frozen=True, repr=False, eq=False)
@@ -43,6 +61,9 @@ class Positions:
         total_cost: of the positions, where there are costs; else their number.
         optimal: whether it is proved that no fewer do (with `cost`: none that cost less, among `candidates`).
         notes: what was cut short, and what bounds do not take into account.
+        views: for each position, and each target that is seen from it, where the position lies on the earth, how to aim, and how
+            well the target is seen: a `PositionView`. Of a mere `Volume` only x, y, z and the depth are known.
+        crs: of x and y: the scene's frame in PROJ's words; None where its place is not known.
     """
 
     positions: _arrays.Points
@@ -56,6 +77,24 @@ class Positions:
     total_cost: float
     optimal: bool
     notes: list[str]
+    views: list[PositionView] = dataclasses.field(default_factory=list)
+    crs: str | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer in plain lists and numbers, with the `views` by their names."""
+        return {"positions": self.positions.tolist(), "sees": self.sees, "assigned": self.assigned.tolist(),
+                "depth_m": self.depth_m.tolist(), "lower_bound": self.lower_bound, "necessary": self.necessary,
+                "greatest_depth": self.greatest_depth, "unseen": self.unseen, "total_cost": self.total_cost,
+                "optimal": self.optimal, "notes": self.notes, "views": [_row(view) for view in self.views]}
+
+    def to_geodataframe(self) -> Any:
+        """A row for each of `views`, for geopandas: points with z in the scene's frame, its CRS where its place is known, and
+        position, target, x, y, z, longitude_deg, latitude_deg, above_ground_m, above_sea_m, yaw_deg, pitch_deg, is_centred,
+        distance_m, pixel_m, incidence_deg, obstacle_distance_m, obstacle, depth_m."""
+        rows = [{name: float("nan") if value is None and name not in ("obstacle", "is_centred") else value
+                 for name, value in _row(view).items()} for view in self.views]
+        points = [require("shapely", "geo").Point(view.x, view.y, view.z) for view in self.views]
+        return table_of(rows, points, self.crs, _COLUMNS)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -85,6 +124,13 @@ class Positions:
 
     def _seen_count(self) -> int:
         return len(self.assigned) - len(self.unseen)
+
+
+_COLUMNS = ("position", "target", *names_of_view(), "depth_m")
+
+
+def _row(view: PositionView) -> dict[str, Any]:
+    return {name: getattr(view, name) for name in _COLUMNS}
 
 
 def _plural(word: str, count: int) -> str:
@@ -298,4 +344,30 @@ def _answer(search: PositionSearch, points: list[Numbers], numbers: list[int], c
             depth_m[assigned[number]] = min(depth_m[assigned[number]], depths[row][assigned[number]])
     sees = [[numbers[row] for row in np.flatnonzero(held[:, k])] for k in range(len(positions))]
     return Positions(positions, sees, assigned, depth_m, 0, [], 0, np.flatnonzero(assigned < 0).tolist(),
-                     float(len(positions)), False, [])
+                     float(len(positions)), False, [], _views(search, positions, held, depths, numbers),
+                     _crs(search))
+
+
+def _views(search: PositionSearch, positions: _arrays.Points, held: Any, depths: Numbers,
+           numbers: list[int]) -> list[PositionView]:
+    """Of each position the targets that it sees. Of a mere volume nothing is known but where the position lies."""
+    missions: list[Mission] = []
+    places: list[_arrays.Points] = []
+    for row, region in enumerate(search.regions):
+        if region.mission is not None and held[row].any():
+            missions.append(region.mission)
+            places.append(np.ascontiguousarray(positions[held[row]]))
+    left = iter(described(missions, places, search.told))
+    views = []
+    for row, region in enumerate(search.regions):
+        for k in np.flatnonzero(held[row]).tolist():
+            known = next(left).to_dict() if region.mission is not None else dict.fromkeys(names_of_view())
+            known.update(zip("xyz", positions[k].tolist()))
+            views.append(PositionView(position=k, target=numbers[row], depth_m=float(depths[row, k]), **known))
+    return sorted(views, key=lambda view: (view.position, view.target))
+
+
+def _crs(search: PositionSearch) -> str | None:
+    """Of all regions; None where they are of different places."""
+    known = {region.crs for region in search.regions}
+    return known.pop() if len(known) == 1 else None

@@ -191,4 +191,35 @@ class Navigation(_Request):
     meshes: Sequence[Any] | None = None
 
 
+@dataclasses.dataclass(repr=False, kw_only=True)
+class TourSettings(_Request):
+    """What a flight that sees every target is asked for: the keys of `tour` in a mission file.
+
+    Attributes:
+        vehicle: {"kind": "multirotor", "speed": 8, "acceleration": 2}, or {"kind": "fixed_wing", "speed": , "turn_radius": ,
+            "climb": (-15, 20)}; m/s, m/s2, metres, degrees.
+        home: (latitude, longitude) of a place on the ground, or (x, y, z). Default: the flight begins anywhere.
+        closed: whether it ends where it began. Default: True.
+        view: {"dwell": 2, "margin": 1, "simultaneous": False}: for so many seconds each target is in view without a break, from
+            so many metres inside its volume; whether several may be viewed at once.
+        gimbal: {"rate": 30}: the camera turns at most so fast, degrees per second.
+        clearance: metres of the whole flight from the scene, but for its ground. Default: 5.
+        gap: the search ends when (length - bound) / length is no larger. Default: 0.01.
+        time_limit: or after so many seconds. Default: 60.
+
+    Example:
+        >>> TourSettings(home=(48.137, 11.575), clearance=8)
+        TourSettings(home=(48.137, 11.575), clearance=8)
+    """
+
+    vehicle: Mapping[str, Any] | None = None
+    home: Vector | None = None
+    closed: bool | None = None
+    view: Mapping[str, Any] | None = None
+    gimbal: Mapping[str, Any] | None = None
+    clearance: float | None = None
+    gap: float | None = None
+    time_limit: float | None = None
+
+
 given = _given

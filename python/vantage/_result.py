@@ -16,7 +16,7 @@ from ._checks import (choice, flag, instance, not_called, path as checked_path, 
 from ._errors import Error, input_error, not_pickled
 from ._mesh import Note, Solid
 from ._progress import Progress
-from ._requests import Navigation, Path, Sensor, Target, given, keys_of
+from ._requests import Navigation, Path, Sensor, Target, TourSettings, given, keys_of
 from ._scene import Scene, checked_scene
 from ._shapes import AnyTarget, is_several, targets_of
 from ._text import NAME, Text
@@ -81,15 +81,15 @@ class Mission:
            sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
            combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
            spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
-           progress: Progress = None) -> Mission:
-        """Of the arguments that `compute` takes."""
+           tour: TourSettings | Mapping[str, Any] | None = None, progress: Progress = None) -> Mission:
+        """Of the arguments that `compute` takes, and `tour`: a `TourSettings`, or a dictionary of its keys, for flights."""
         checked_scene(scene)
         is_one = not is_several(target)
         targets = targets_of(target, scene, crs)
         names = ["target"] if is_one else [f"target[{number}]" for number in range(len(targets))]
         return resolved(scene, targets, names, is_one=is_one, max_range=max_range, sensor=sensor, navigation=navigation,
                         combine=combine, crs=crs, method=method, tolerance=tolerance, spheres=spheres, work_limit=work_limit,
-                        progress=progress)
+                        tour=tour, progress=progress)
 
     @property
     def scene(self) -> Scene:
@@ -380,7 +380,8 @@ def resolved(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, i
 def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_one: bool, max_range: float | None = None,
           sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
           combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-          spheres: Mapping[str, Any] | None = None, work_limit: float | None = None) -> tuple[Text, Meshes]:
+          spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
+          tour: TourSettings | Mapping[str, Any] | None = None) -> tuple[Text, Meshes]:
     """The text of a mission without its scene, and the meshes to stay in that are in memory."""
     checked_text(combine, "combine"), checked_text(method, "method")
     text = Text()
@@ -411,6 +412,8 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
         text.add("spheres", instance(spheres, Mapping, "spheres", "pass a dictionary"))  # type: ignore[type-abstract]
     if work_limit is not None:
         text.add("work_limit", work_limit)
+    if tour is not None:
+        text.add("tour", keys_of(tour, TourSettings, "tour"))
     return text, meshes
 
 
