@@ -57,6 +57,9 @@ struct MissionTourOptions {
   bool with_bound = true;                  ///< it takes outer volumes, which take longer than the volumes
   std::filesystem::path certificate = {};  ///< of the bound, and the meshes it is of beside it; empty: none is written
   std::optional<PreparedScene> prepared = {};  ///< the mission's scene, where it is prepared already
+  /// Of each target the position that it is viewed from, scene frame: within 1 cm of it, so it lies at least so deep in
+  /// the target's volume. TourSettings::margin_m is not looked at. Empty: the tour finds positions itself.
+  std::vector<Vec3> positions = {};
 };
 
 /// Computes a volume of each target of the mission, and plans the tour that MissionFile::tour asks for (TourSettings()
@@ -67,7 +70,8 @@ struct MissionTourOptions {
 ///
 /// The time limit is that of the search for the tour, and once more that of the bound; volumes come on top.
 ///
-/// Throws Error(input) as run_missions and plan_tour do; for a target that cannot be seen from anywhere, with its name;
+/// Throws Error(input) as run_missions and plan_tour do; for positions that are not as many as the targets, or not in
+/// their volumes; for a target that cannot be seen from anywhere, with its name;
 /// for a home from which nothing can be reached straight up, with what stands there. Error(cancelled) before there is a
 /// tour; later the tour is returned without a bound.
 VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options = {},

@@ -42,12 +42,16 @@ using ProblemRow = std::tuple<std::size_t, std::string, std::optional<std::size_
 /// length_m, gap, kind, ignored.
 using BoundRow = std::tuple<double, double, std::string, std::vector<std::string>>;
 
-PyTour plan(const PyMission& mission, bool with_bound, int threads, nb::object progress) {
+PyTour plan(const PyMission& mission, bool with_bound, const std::optional<PointArray>& positions, int threads,
+            nb::object progress) {
+  std::vector<Vec3> views;
+  if (positions) views = points_of(*positions);
   MissionTour made = computed(std::move(progress), threads, [&](const Progress& told) {
     MissionTourOptions options;
     options.threads = threads;
     options.with_bound = with_bound;
     options.prepared = mission.prepared(told);
+    options.positions = views;
     return plan_mission_tour(*mission, options, told);
   });
   return {mission, std::make_shared<const MissionTour>(std::move(made))};
@@ -134,7 +138,8 @@ void bind_tours(nb::module_& module) {
       .def("json", [](const PyTour& t) { return json_text(*t.tour); })
       .def("write", &write, "file"_a, "undulation_m"_a)
       .def("write_certificate", &write_certificate, "file"_a);
-  module.def("plan_tour", &plan, "mission"_a, "with_bound"_a, "threads"_a = 0, "progress"_a = nb::none());
+  module.def("plan_tour", &plan, "mission"_a, "with_bound"_a, "positions"_a.noconvert().none(), "threads"_a = 0,
+             "progress"_a = nb::none());
 }
 
 }  // namespace vantage::python

@@ -99,6 +99,28 @@ def test_one_of_many_is_toured_alone(mission):
     assert alone.targets == [results[2].mission.target_name] and alone.order == [0]
 
 
+def test_a_tour_through_the_fewest_positions():
+    """What a cover found becomes a flight, which sees what the cover says from where it says."""
+    pytest.importorskip("ortools")
+    squares = [[[x, y, 0], [x + 4, y, 0], [x + 4, y + 4, 0], [x, y + 4, 0]] for x, y in ((-60, 0), (-50, 0), (-10, -60))]
+    mission = vt.Mission.of(placed(), squares, max_range=25, combine="each", navigation={"altitude": (5, 30)})
+    answer = vt.fewest_positions(mission.run_each())
+    assert len(answer) == 2 and answer.assigned[0] == answer.assigned[1]
+    tour = vt.tour(mission, {"gap": 0.5, "time_limit": 5}, positions=answer)
+    assert tour.is_complete and 0 < tour.bound.length_m <= tour.length_m and "the positions that are given" in tour.bound.ignored
+    for visit in tour.visits:
+        place = answer.positions[answer.assigned[visit.target]]
+        views = tour.positions[visit.first_point:visit.last_point + 1]
+        assert np.linalg.norm(views - place, axis=1).max() < 0.01 and visit.dwell_s >= 2
+    assert all(target.longest.duration_s >= 2 for target in tour.check().targets)
+    own = vt.tour(mission, {"gap": 0.5, "time_limit": 5}, bound=False)
+    assert own.length_m < tour.length_m
+    assert refused(lambda: vt.tour(mission, positions=answer.positions)).code == "array-sizes-differ"
+    error = refused(lambda: vt.tour(mission, positions=[[0, 0, 90]] * 3))
+    assert error.code == "value-out-of-range" and error.where == "positions[0]"
+    assert refused(lambda: vt.tour(mission, positions=[[0, 0, float("nan")]] * 3)).code == "coordinate-not-finite"
+
+
 def test_what_cannot_be_reached_is_left_out():
     """All from which the second square is seen lies nearer to the tower than the clearance."""
     squares = [[[x, y, 0], [x + 2, y, 0], [x + 2, y + 2, 0], [x, y + 2, 0]] for x, y in ((-60, 0), (17, 0))]

@@ -7,11 +7,14 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _arrays, _core
 from ._check import FlightCheck, check
 from ._checks import flag, path as checked_path, thread_count
-from ._flight import AnyMission, Flight, Numbers, mission_of, line_of, table_of
+from ._errors import input_error
+from ._flight import AnyMission, Flight, Numbers, line_of, mission_of, table_of
+from ._positions import Positions
 from ._progress import Progress
 from ._requests import Path, TourSettings, keys_of
 from ._result import Mission
@@ -165,8 +168,21 @@ class Tour:
         return of_tour(self)
 
 
-def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None = None, *, bound: bool = True,
-         threads: int = 0, progress: Progress = None) -> Tour:
+def _given(positions: Positions | npt.ArrayLike | None) -> _arrays.Points | None:
+    """Of each target the position that it is viewed from."""
+    if positions is None:
+        return None
+    if not isinstance(positions, Positions):
+        return _arrays.points(positions, "positions")
+    if positions.unseen:
+        raise input_error("not-applicable", f"no position sees the targets {', '.join(map(str, positions.unseen))}", "positions",
+                          "leave them out of the mission")
+    return np.ascontiguousarray(positions.positions[positions.assigned])
+
+
+def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None = None, *,
+         positions: Positions | npt.ArrayLike | None = None, bound: bool = True, threads: int = 0,
+         progress: Progress = None) -> Tour:
     """The shortest flight that is found through the volumes of all targets, and a bound: no flight that sees them is shorter.
 
     Every leg keeps the clearance and the limits of navigation, and every visit is checked against the volume itself. The bound
@@ -175,6 +191,9 @@ def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None 
     Args:
         mission: a mission, a result, or the path of a mission file. Each of its targets is visited, whatever `combine` says.
         settings: a `TourSettings`, or a dictionary of its keys, instead of what the mission says itself.
+        positions: from where each target is viewed: what `fewest_positions` found for the same targets in the same order, or
+            (n, 3), metres, one for each. They lie in the volumes by 1 cm at least, and visits within 1 cm of them; the margin of
+            the settings is not looked at. Default: the tour finds them itself, and is shorter.
         bound: whether to compute the bound, which takes longer than the tour.
         threads: 0: as many as there are.
         progress: called with stage and fraction; False stops.
@@ -195,7 +214,7 @@ def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None 
         >>> sorted(flight.order), flight.left_out, flight.bound.length_m <= flight.length_m
         ([0, 1, 2], [], True)
     """
-    count, with_bound = thread_count(threads), flag(bound, "bound")
+    count, with_bound, views = thread_count(threads), flag(bound, "bound"), _given(positions)
     of = mission_of(mission, progress)
     text = Text()
     text.add("target", {"point": [0, 0, 0]})  # a mission's text has these, too
@@ -206,7 +225,7 @@ def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None 
 
     def work() -> tuple[_core.Mission, _core.Tour]:
         each = _core.for_flights(of._core, given, NAME, progress)
-        return each, _core.plan_tour(each, with_bound, count, progress)
+        return each, _core.plan_tour(each, with_bound, views, count, progress)
 
     each, core = of._told(work) if settings is None else text.told(work)
     return Tour(core, Mission(each, of._scene, of._text))

@@ -14,6 +14,7 @@
 #include "vantage/error.h"
 #include "vantage/leg_query.h"
 #include "vantage/outer.h"
+#include "vantage/solid_index.h"
 
 namespace vantage {
 
@@ -23,6 +24,7 @@ struct TourProof {
 
 namespace {
 
+namespace core = internal::core;
 namespace tour = internal::flight::tour;
 
 /// Plans round positions, and are put into the frame again: what only just keeps a limit must keep it then, too.
@@ -62,6 +64,42 @@ std::vector<MissionTourTarget> volumes_of(const Mission& mission, const Prepared
     targets.push_back({one.target.name, middle_of(one.target), std::move(volume.mesh)});
   }
   return targets;
+}
+
+/// Closed, outward oriented.
+Mesh cube_about(const Vec3& middle, double half_m) {
+  Mesh mesh;
+  for (const double x : {-half_m, half_m}) {
+    for (const double y : {-half_m, half_m}) {
+      for (const double z : {-half_m, half_m}) mesh.vertices.push_back(middle + Vec3(x, y, z));
+    }
+  }
+  mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                    {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  return mesh;
+}
+
+/// Targets are viewed from these positions alone: from small cubes about them, which lie in the volumes.
+void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
+  constexpr double kDepth = 0.01, kHalf = 0.005;  // metres; the corners of the cube are 8.7 mm away
+  if (positions.size() != request.targets.size()) {
+    throw Error(ErrorCode::array_sizes_differ,
+                core::format("there are {} positions for {} targets", positions.size(), request.targets.size()),
+                "positions", "give one for each target");
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    TourTarget& target = request.targets[i];
+    const double depth_m = SolidIndex(target.volume).depths_m({&positions[i], 1}).front();
+    if (!(depth_m >= kDepth)) {
+      throw Error(ErrorCode::value_out_of_range,
+                  core::format("the position that '{}' is to be viewed from lies {} m inside its volume, and {} m are "
+                               "needed",
+                               target.name, core::number_text(depth_m), core::number_text(kDepth)),
+                  core::format("positions[{}]", i), "move it into the volume");
+    }
+    target.volume = cube_about(positions[i], kHalf);
+  }
+  request.settings.margin_m = 0;
 }
 
 /// Straight above the home, the lowest place where flying is allowed.
@@ -132,7 +170,11 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   const tour::TourBound& found = proof->bound;
   if (!options.certificate.empty()) tour::write_tour_certificate(found, options.certificate);
   TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored, proof};
-  if (settings.margin_m > 0) bound.ignored.emplace_back("the margin inside the volumes");
+  if (!options.positions.empty()) {
+    bound.ignored.emplace_back("the positions that are given");
+  } else if (settings.margin_m > 0) {
+    bound.ignored.emplace_back("the margin inside the volumes");
+  }
   return bound;
 }
 
@@ -157,6 +199,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   for (const MissionTourTarget& target : result.targets) {
     request.targets.push_back({target.name, target.volume, target.centre});
   }
+  if (!options.positions.empty()) view_from(options.positions, request);
   result.tour = plan_tour(request, progress);
   if (!options.with_bound || result.tour.order.empty() || result.tour.end == Tour::End::cancelled) return result;
   try {
