@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -132,6 +133,12 @@ def test_files_of_a_check(found, tmp_path):
     with pytest.raises(vt.OutputError):
         found.save(tmp_path / "check.txt")
     assert "seen whole" in found._repr_html_()
+
+
+def test_what_is_not_pickled_says_what_to_pickle(found):
+    for one in (found, found.flight):
+        with pytest.raises(vt.Error, match="cannot be pickled"):
+            pickle.dumps(one)
 
 
 def test_tables_of_a_check(found):

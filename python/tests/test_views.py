@@ -57,6 +57,16 @@ def test_of_several_targets_each_has_its_answer(placed):
         assert [len(row["standpoints"]) > 0 for row in found.to_dict()["targets"]] == [True, False, True]
 
 
+def test_targets_of_one_name(placed):
+    """Of two results without names each has its own standpoints."""
+    results = [vt.compute(placed, square, max_range=60) for square in (SQUARE, [[60, 0, 0], [70, 0, 0], [70, 10, 0], [60, 10, 0]])]
+    found = vt.standpoints(results)
+    assert [search.target for search in found.searches] == ["target", "target"]
+    first, second = found.to_dict()["targets"]
+    assert len(first["standpoints"]) == first["count"] == 4 and len(second["standpoints"]) == 4
+    assert np.mean([one["x"] for one in first["standpoints"]]) < 40 < np.mean([one["x"] for one in second["standpoints"]])
+
+
 def test_orbits_are_inside(placed):
     result = vt.compute(placed, SQUARE, max_range=60)
     found = vt.orbits(result, least_radius_m=15, clockwise=False)

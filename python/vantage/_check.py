@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._checks import path as checked_path, thread_count
-from ._errors import make
+from ._errors import make, not_pickled
 from ._flight import AnyFlight, AnyMission, Flight, Numbers, flight_of, line_of, mission_of, table_of
 from ._progress import Progress
 from ._requests import Path
@@ -213,6 +213,9 @@ class FlightCheck:
         from ._profile import plot
 
         return plot(self, path, size=size)
+
+    def __reduce__(self) -> Any:
+        raise not_pickled("a check", "pickle what to_dict returns")
 
     def __repr__(self) -> str:
         seen = sum(bool(target.seen) for target in self.targets)

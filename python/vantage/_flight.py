@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._checks import choice, flag, not_called, path as checked_path, shown, text
-from ._errors import input_error
+from ._errors import input_error, not_pickled
 from ._extras import require
 from ._mesh import Note
 from ._progress import Progress
@@ -162,6 +162,9 @@ class Flight:
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    def __reduce__(self) -> Any:
+        raise not_pickled("a flight", "pickle its positions, hold_s and speed_m_s, and make it again with vt.Flight.of")
 
     def __repr__(self) -> str:
         count = len(self)

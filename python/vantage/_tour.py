@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._check import FlightCheck, check
 from ._checks import flag, path as checked_path, thread_count
-from ._errors import input_error
+from ._errors import input_error, not_pickled
 from ._flight import AnyMission, Flight, Numbers, line_of, mission_of, table_of
 from ._positions import Positions
 from ._progress import Progress
@@ -155,6 +155,9 @@ class Tour:
             rows.append({"leg": i, "begin_m": along[i], "end_m": along[i + 1], "hold_s": holds[i + 1], "sees": ", ".join(sees)})
             lines.append(line_of(self.positions[i:i + 2]))
         return table_of(rows, lines, self.flight.crs, ("leg", "begin_m", "end_m", "hold_s", "sees"))
+
+    def __reduce__(self) -> Any:
+        raise not_pickled("a tour", "pickle what to_dict returns, or write a plan")
 
     def __repr__(self) -> str:
         text = f"{len(self.order)} of {len(self.targets)} targets, {self.length_m:,.1f} m"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import json
 from collections.abc import Sequence
 from typing import Any, Union
@@ -152,12 +153,14 @@ class Found:
 
     Attributes:
         target: its name.
-        margin_m: that all that was found keep.
+        count: how many were found; they follow those of the searches before.
+        margin_m: that all of them keep.
         reason: why there is nothing; else empty.
         notes: of kinds without an answer, and of searches that were cut short.
     """
 
     target: str
+    count: int
     margin_m: float | None
     reason: str
     notes: list[str]
@@ -241,13 +244,10 @@ def _counted(found: Sequence[Any], searches: Sequence[Found]) -> str:
 
 
 def _as_dict(found: Sequence[Any], searches: Sequence[Found], name: str) -> dict[str, Any]:
-    """As --json of the program has it. Names of targets are not enough: two may have the same one, and follow each other."""
-    rows, left = [], list(found)
-    for search in searches:
-        count = next((i for i, one in enumerate(left) if one.target != search.target), len(left)) if not search.reason else 0
-        rows.append({**dataclasses.asdict(search), name: [one.to_dict() for one in left[:count]]})
-        left = left[count:]
-    return {"targets": rows}
+    """As --json of the program has it."""
+    left = iter(found)
+    return {"targets": [{**dataclasses.asdict(search), name: [one.to_dict() for one in itertools.islice(left, search.count)]}
+                        for search in searches]}
 
 
 def _volumes(wanted: Any, threads: int, progress: Progress) -> tuple[list[Result | Error], list[str]]:
@@ -310,8 +310,9 @@ def standpoints(mission: Wanted, *, margin_m: float | None = None, tolerance_m: 
                                              *options, count, progress))["targets"]
     found, searches = [], []
     for row in _searched(results, names, told):
-        searches.append(Found(row["target"], row["margin_m"], row["reason"], row["notes"]))
-        for one in row.get("standpoints", ()):
+        rows = row.get("standpoints", [])
+        searches.append(Found(row["target"], len(rows), row["margin_m"], row["reason"], row["notes"]))
+        for one in rows:
             x, y, z = one.pop("position")
             found.append(Standpoint(target=row["target"], x=x, y=y, z=z, **one))
     return Standpoints(found, searches, _crs_of(good))
@@ -364,8 +365,9 @@ def orbits(mission: Wanted, *, least_radius_m: float = 40.0, most_radius_m: floa
     left, crs = iter(cores), _crs_of(good)
     found, searches = [], []
     for row in _searched(results, names, json.loads(text)["targets"]):
-        searches.append(Found(row["target"], row["margin_m"], row["reason"], row["notes"]))
-        for one in row.get("orbits", ()):
+        rows = row.get("orbits", [])
+        searches.append(Found(row["target"], len(rows), row["margin_m"], row["reason"], row["notes"]))
+        for one in rows:
             place = np.array(one.pop("centre"))
             found.append(Orbit(target=row["target"], centre=place, _core=next(left), _crs=crs, **one))
     return Orbits(found, searches, crs)
