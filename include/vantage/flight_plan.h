@@ -192,8 +192,8 @@ struct LocatedPlan {
 /// is cut until its parts lie within `chord_error_m` of it. Circles and cut corners are chords within that error. Legs
 /// that follow the ground are cut where the ground bends, so that their height is within `ground_error_m` of what is
 /// asked everywhere, with `ground` taken as exact and its highest piece where several lie over each other.
-/// Flight::chord_error_m is a bound of what the legs miss: of circles and cut corners, and of legs that follow the ground,
-/// what was allowed. Positions are exact to 15 nm (scene_position).
+/// Flight::chord_error_m is a bound of what the legs miss: of circles and cut corners, and of legs that follow the
+/// ground, what was allowed. Positions are exact to 15 nm (scene_position).
 ///
 /// A loiter is entered at the point of the circle that is nearest, and left where its turns end.
 ///
