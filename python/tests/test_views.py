@@ -1,5 +1,10 @@
 """Standpoints, orbits, and what the positions of a cover are worth."""
 
+import json
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -147,7 +152,26 @@ def test_places_of_several_grounds(placed):
     assert [view.obstacle for view in views] == ["tower"] * 4
 
 
-def test_the_plaza_as_the_program_says():
-    found = vt.standpoints(PROJECT / "examples" / "plaza" / "mission.yaml", margin_m=2)
-    assert [one.target for one in found] == ["market square"] * len(found) and found.crs is None
-    assert all(one.longitude_deg is None and one.margin_m >= 2 for one in found)
+def program(*arguments):
+    """What the program prints as JSON."""
+    ran = subprocess.run([sys.executable, "-m", "vantage", *map(str, arguments), "--json"], capture_output=True, text=True,
+                         env={**os.environ, "PYTHONPATH": ":".join(sys.path)})
+    return json.loads(ran.stdout)
+
+
+def test_the_program_says_the_same(tmp_path):
+    plaza = PROJECT / "examples" / "plaza" / "mission.yaml"
+    told, = program("stand", plaza, "--margin", "2")["targets"]
+    found = vt.standpoints(plaza, margin_m=2)
+    assert [search.target for search in found.searches] == [told["target"]] and found.searches[0].notes == told["notes"]
+    for one, row in zip(found, told["standpoints"], strict=True):
+        x, y, z = row.pop("position")
+        assert {**row, "x": x, "y": y, "z": z, "target": told["target"]} == one.to_dict()
+    told, = program("orbit", plaza, "--radius", "20")["targets"]
+    for one, row in zip(vt.orbits(plaza, least_radius_m=20), told["orbits"], strict=True):
+        assert {**row, "target": told["target"]} == one.to_dict()
+    plan = tmp_path / "flight.csv"
+    plan.write_text("x,y,z\n-40,-30,45\n40,-30,45\n")
+    told = program("check", plaza, plan, "--heights", "scene", "--speed", "5", "--tube", "1")
+    assert vt.check(plaza, plan, heights="scene", speed_m_s=5, tube_m=1).to_dict() == told
+    assert vt.tour(plaza).to_dict() == program("tour", plaza)
