@@ -89,7 +89,7 @@ RULES = [
            "only src/maps/city/clipping.cpp sees Clipper"),
     OnlyIn(r"Highs", r"src/flight/tour/linear_program_highs\.cpp", "only linear_program_highs.cpp sees HiGHS"),
     OnlyIn(r"(oneapi/)?tbb[/.]", r"src/core/threads_tbb\.cpp", "only src/core/threads_tbb.cpp sees oneTBB"),
-    OnlyIn(r"CLI/", r"src/cli/|bench/(gap|limits)/", "only programs see CLI11"),
+    OnlyIn(r"CLI/", r"src/cli/|bench/(gap|limits|tours)/", "only programs see CLI11"),
     OnlyIn(r"yaml-cpp/", r"src/app/", "only src/app sees yaml-cpp"),
     OnlyIn(r"zlib\.h", r"src/io/|src/live/report_page\.cpp|src/maps/osm/xml_input\.cpp",
            "only src/io, report_page.cpp and xml_input.cpp see zlib"),

@@ -66,15 +66,16 @@ def main():
             inner, outer = pathlib.Path(scratch) / "inner", pathlib.Path(scratch) / "outer"
             write(inner, instances.meshes(path, False, TIMES))
             write(outer, instances.meshes(path, True, TIMES))
-            command = [str(options.program), str(inner), str(outer), str(options.seconds), str(options.gap)]
+            command = [str(options.program), str(inner), str(outer), "--seconds", str(options.seconds),
+                       "--gap", str(options.gap)]
             if options.certificates:
-                command.append(str(options.certificates / f"{path.stem}.cert"))
+                command += ["--certificate", str(options.certificates / f"{path.stem}.cert")]
             run = subprocess.run(command, text=True, capture_output=True, check=False)
         if run.returncode:
             print(f"{path.stem:16}{run.stderr.strip()}")
             wrong += 1
             continue
-        length, ours, kind, seconds = (t if t.isalpha() else float(t) for t in run.stdout.split())
+        length, ours, kind, seconds = (t if t.isalpha() else float(t) for t in run.stdout.split()[:4])
         bound, best = published_of(path.stem, rows)
         gaps.append(100 * (1 - ours / length))
         above = best is not None and ours > best
