@@ -23,7 +23,7 @@ namespace {
 namespace tour = vantage::internal::flight::tour;
 
 struct Asked {
-  std::string inner, outer, certificate;
+  std::string inner, outer, certificate, only;
   double seconds = 60, gap = 0.001;
   double share_of_tour = 0.4;  // of the time, at most
   int threads = 1;
@@ -65,6 +65,8 @@ void run(const Asked& asked) {
   tour::BoundOptions options;
   options.gap = asked.gap;
   options.threads = asked.threads;
+  options.by_insertion = asked.only != "pairs";
+  options.by_pairs = asked.only != "insertion";
   options.time_limit_s = std::max(1.0, asked.seconds - planned_s);
   const tour::TourBound bound = tour::bound_tour(problem, incumbent, options);
   std::cout.precision(12);
@@ -88,6 +90,7 @@ int main(int count, char** words) {
   app.add_option("--radius", asked.vehicle.turn_radius_m, "m, of a fixed wing")->capture_default_str();
   app.add_option("--descent", asked.vehicle.min_climb_deg, "degrees, negative")->capture_default_str();
   app.add_option("--climb", asked.vehicle.max_climb_deg, "degrees")->capture_default_str();
+  app.add_option("--only", asked.only, "one of the two bounds")->check(CLI::IsMember({"insertion", "pairs"}));
   app.add_option("--certificate", asked.certificate, "to be written");
   CLI11_PARSE(app, count, words);
   try {

@@ -15,8 +15,7 @@ namespace vantage::internal::flight::tour {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kAtOnce = 4;    // programs that are solved at once
-constexpr std::size_t kLookedAt = 6;  // regions of which all places are bounded before one is chosen
+constexpr std::size_t kAtOnce = 4;  // programs that are solved at once
 constexpr std::size_t kMostOrders = 20;
 constexpr double kPrecision = 0.01;  // of a program, in parts of the gap that is asked for
 constexpr double kTouches = 1e-6;    // of the size: a region so near to the polyline is met
@@ -83,6 +82,12 @@ class InsertionSearch {
   }
 
  private:
+  /// What is below a solved node.
+  struct Growth {
+    std::vector<Node> children;  // of an insertion; none where its polyline meets all regions
+    std::size_t stop = kNone;    // then: the one whose point is farthest from its region, if one is off it
+    Vec3 at = Vec3::Zero();
+  };
   using Entry = std::tuple<double, std::size_t, std::uint32_t>;  // -bound, length, -number: largest first
 
   double dwell_m(std::size_t region) const { return space_.dwell_m.empty() ? 0 : space_.dwell_m[region]; }
@@ -169,43 +174,57 @@ class InsertionSearch {
     heap_.emplace(-node.best, depth, ~number);
   }
 
-  /// Solves what is on top, or goes on from it.
+  /// What comes of a node: its solution, or if it has one what is below it.
+  struct Outcome {
+    std::vector<std::uint32_t> sequence;
+    TouringSolution solution;
+    Growth growth;
+  };
+
+  /// Some nodes from the top, as many on any machine.
   void step() {
     std::vector<std::uint32_t> batch;
     while (!heap_.empty() && batch.size() < kAtOnce) {
       const std::uint32_t number = ~std::get<2>(heap_.top());
       if (nodes_[number].best >= options_.enough_m) break;
-      if (nodes_[number].solved) {
-        if (!batch.empty()) break;
-        heap_.pop();
-        expand(number);
-        return;
-      }
       heap_.pop();
       batch.push_back(number);
     }
-    std::vector<TouringSolution> solutions(batch.size());
-    std::vector<std::vector<std::uint32_t>> sequences(batch.size());
+    std::vector<Outcome> outcomes(batch.size());
     parallel::for_ranges(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        sequences[i] = sequence_of(nodes_[batch[i]]);
-        TouringOptions options;
-        options.gap = options.in_hull = precision_;
-        options.most_rounds = 6;
-        options.enough_m = options_.enough_m;
-        solutions[i] = solve_touring(program_of(sequences[i]), options);
+        if (nodes_[batch[i]].solved) {
+          outcomes[i].growth = grown(batch[i]);
+        } else {
+          outcomes[i] = solved(nodes_[batch[i]]);
+        }
       }
     });
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      std::vector<std::uint32_t> cell_of;
-      for (const std::uint32_t cell : sequences[i]) cell_of.insert(cell_of.end(), points_of(cell), cell);
-      for (const auto& [hull, half_space] : solutions[i].half_spaces) cells_.learn(cell_of[hull], half_space);
+      if (nodes_[batch[i]].solved) {
+        grow(batch[i], std::move(outcomes[i].growth));
+      } else {
+        take(batch[i], std::move(outcomes[i].sequence), std::move(outcomes[i].solution));
+      }
     }
-    for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], std::move(sequences[i]), std::move(solutions[i]));
+  }
+
+  Outcome solved(const Node& node) const {
+    Outcome outcome;
+    outcome.sequence = sequence_of(node);
+    TouringOptions options;
+    options.gap = options.in_hull = precision_;
+    options.most_rounds = 6;
+    options.enough_m = options_.enough_m;
+    outcome.solution = solve_touring(program_of(outcome.sequence), options);
+    return outcome;
   }
 
   void take(std::uint32_t number, std::vector<std::uint32_t> sequence, TouringSolution solution) {
     ++result_.solved;
+    std::vector<std::uint32_t> cell_of;
+    for (const std::uint32_t cell : sequence) cell_of.insert(cell_of.end(), points_of(cell), cell);
+    for (const auto& [hull, half_space] : solution.half_spaces) cells_.learn(cell_of[hull], half_space);
     Node& node = nodes_[number];
     std::vector<Direction> before = directions_of(node);
     if (node.origin == Origin::root || solution.bound_m >= node.own) {
@@ -303,69 +322,118 @@ class InsertionSearch {
     return touring_bound(program, directions_of(child));
   }
 
-  Node inserted(std::uint32_t parent, const Place& place, std::size_t region) const {
+  /// What the points of a node give to its bound. Empty where the bound of a child is computed as a whole.
+  struct Parts {
+    std::vector<double> of_points;
+    double reach_m = 0, moved_m = 0;
+  };
+
+  Parts parts_of(const Node& node) const {
+    Parts parts;
+    const std::size_t count = node.points.size();
+    if (count < 2 || !space_.dwell_m.empty()) return parts;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Hull& hull = *cells_[node.sequence[k]].hull;
+      parts.of_points.push_back(touring_part(hull, before(node, k), behind(node, k)));
+      parts.reach_m += hull.reach_m();
+      parts.moved_m += hull.moved_m();
+    }
+    return parts;
+  }
+
+  const Direction* before(const Node& node, std::size_t point) const {
+    if (point == 0 && !space_.closed) return nullptr;
+    return &node.directions[(point + node.points.size() - 1) % node.points.size()];
+  }
+  static const Direction* behind(const Node& node, std::size_t point) {
+    return point < node.directions.size() ? &node.directions[point] : nullptr;
+  }
+
+  double bound_of(const Node& child, const Parts& parts) const {
+    if (parts.of_points.empty()) return bound_of(child);
+    const Node& node = nodes_[child.parent];
+    const std::size_t leg = child.place, next = (leg + 1) % node.points.size();
+    const Hull& hull = *cells_[child.cell].hull;
+    const Direction* second = child.local.size() > 1 ? &child.local[1] : nullptr;
+    std::vector<double> changed = parts.of_points;
+    changed[leg] = touring_part(*cells_[node.sequence[leg]].hull, before(node, leg), child.local.data());
+    if (second) changed[next] = touring_part(*cells_[node.sequence[next]].hull, second, behind(node, next));
+    changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(leg) + 1,
+                   touring_part(hull, child.local.data(), second));
+    return touring_bound_of(changed, parts.reach_m + hull.reach_m(), parts.moved_m + hull.moved_m());
+  }
+
+  Node inserted(std::uint32_t parent, const Parts& parts, const Place& place, std::size_t region) const {
     Node child;
     child.parent = parent;
     child.origin = Origin::inserted;
     child.place = static_cast<std::uint32_t>(place.stop);
     child.cell = static_cast<std::uint32_t>(region);
     child.local = local_directions(nodes_[parent], place, region);
-    child.own = bound_of(child);
+    child.own = bound_of(child, parts);
     child.best = std::max(child.own, nodes_[parent].best);
     return child;
   }
 
-  std::vector<Node> insert_everywhere(std::uint32_t parent, const std::vector<Place>& places,
+  /// Where a region is far from a leg, vectors to its middle are often good enough, and quickly had.
+  std::vector<Node> insert_everywhere(std::uint32_t parent, const Parts& parts, const std::vector<Place>& places,
                                       std::size_t region) const {
+    const Node& node = nodes_[parent];
+    const Hull& hull = *cells_[region].hull;
     std::vector<Node> children;
     for (Place place : places) {
-      measure(nodes_[parent], *cells_[region].hull, place);
-      children.push_back(inserted(parent, place, region));
+      const Vec3 &from = from_of(node, place), &to = to_of(node, place);
+      if (distance_to_leg(hull.middle(), from, to) > hull.extent_m()) {
+        place.point = hull.middle();
+        place.detour = size_;
+        Node child = inserted(parent, parts, place, region);
+        if (child.own >= options_.enough_m) {
+          children.push_back(std::move(child));
+          continue;
+        }
+      }
+      measure(node, hull, place);
+      children.push_back(inserted(parent, parts, place, region));
     }
     return children;
   }
 
-  void expand(std::uint32_t number) {
-    const Node& node = nodes_[number];
-    const std::vector<Place> places = places_of(node);
+  std::vector<bool> regions_of(const Node& node) const {
     std::vector<bool> has(cells_.region_count(), false);
     for (const std::uint32_t cell : node.sequence) has[cells_[cell].region] = true;
-    std::vector<std::pair<double, std::size_t>> missing;  // -detour, region
+    return has;
+  }
+
+  /// The region that is farthest from the polyline is inserted. To look at the bounds of the children of several
+  /// regions first, and to choose by these, takes longer and was worse: it prefers regions that gain little,
+  /// everywhere.
+  Growth grown(std::uint32_t number) const {
+    const Node& node = nodes_[number];
+    const std::vector<Place> places = places_of(node);
+    const std::vector<bool> has = regions_of(node);
+    std::size_t farthest = kNone;
+    double most = -1;
     for (std::size_t r = 0; r < has.size(); ++r) {
       if (has[r]) continue;
       const double detour = nearest_place(node, places, *cells_[r].hull).detour;
-      if (detour > kTouches * size_ || dwell_m(r) > 0) missing.emplace_back(-detour, r);
+      if (detour <= most || (detour <= kTouches * size_ && dwell_m(r) <= 0)) continue;
+      most = detour;
+      farthest = r;
     }
-    if (missing.empty()) {
-      const std::size_t hidden = missed_by_mesh(node, places, has);
-      if (hidden != kNone) missing.emplace_back(0.0, hidden);
-    }
-    if (missing.empty()) {
-      note_order(node, places, has);
-      cut_one(number);
+    if (farthest == kNone) farthest = missed_by_mesh(node, places, has);
+    if (farthest == kNone) return farthest_off(node);
+    Growth growth;
+    growth.children = insert_everywhere(number, parts_of(node), places, farthest);
+    return growth;
+  }
+
+  void grow(std::uint32_t number, Growth growth) {
+    if (!growth.children.empty()) {
+      add_children(number, std::move(growth.children));
       return;
     }
-    std::sort(missing.begin(), missing.end());
-    std::size_t chosen = missing.front().second;
-    std::vector<Node> children;
-    double best = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < std::min(kLookedAt, missing.size()); ++i) {
-      std::vector<Node> some = insert_everywhere(number, places, missing[i].second);
-      // The least child counts, then how many are left.
-      double least = std::numeric_limits<double>::infinity(), open = 0;
-      for (const Node& child : some) {
-        least = std::min(least, child.best);
-        if (child.best < options_.enough_m) open += 1;
-      }
-      const double score = open == 0 ? std::numeric_limits<double>::max() : least - 1e-3 * size_ * open / has.size();
-      if (score > best) {
-        best = score;
-        chosen = missing[i].second;
-        children = std::move(some);
-      }
-    }
-    (void)chosen;
-    add_children(number, std::move(children));
+    note_order(nodes_[number]);
+    cut_one(number, growth);
   }
 
   void add_children(std::uint32_t number, std::vector<Node> children) {
@@ -409,21 +477,26 @@ class InsertionSearch {
   }
 
   /// The stop whose point is farthest from its region.
-  void cut_one(std::uint32_t number) {
-    const Node& node = nodes_[number];
-    std::size_t stop = kNone, point = 0;
+  Growth farthest_off(const Node& node) const {
+    Growth growth;
     double most = kTouches * size_;
-    Vec3 at = Vec3::Zero();
+    std::size_t point = 0;
     for (std::size_t s = 0; s < node.sequence.size(); ++s) {
       for (std::size_t k = 0; k < points_of(node.sequence[s]); ++k, ++point) {
         const double off = cells_.distance_m(cells_[node.sequence[s]].region, node.points[point]);
-        if (off > most) {
-          most = off;
-          stop = s;
-          at = node.points[point];
-        }
+        if (off <= most) continue;
+        most = off;
+        growth.stop = s;
+        growth.at = node.points[point];
       }
     }
+    return growth;
+  }
+
+  void cut_one(std::uint32_t number, const Growth& growth) {
+    const Node& node = nodes_[number];
+    const std::size_t stop = growth.stop;
+    const Vec3& at = growth.at;
     const std::uint32_t cell = stop == kNone ? 0 : node.sequence[stop];
     const std::array<std::size_t, 2> halves =
         stop == kNone ? std::array<std::size_t, 2>{0, 0} : cells_.halves(cell, at);
@@ -449,8 +522,10 @@ class InsertionSearch {
   }
 
   /// The order in which the polyline of a node meets all regions.
-  void note_order(const Node& node, const std::vector<Place>& places, const std::vector<bool>& has) {
+  void note_order(const Node& node) {
     if (result_.orders.size() >= kMostOrders) return;
+    const std::vector<Place> places = places_of(node);
+    const std::vector<bool> has = regions_of(node);
     std::vector<std::vector<std::size_t>> behind(node.sequence.size());
     for (std::size_t r = 0; r < has.size(); ++r) {
       if (!has[r]) behind[nearest_place(node, places, *cells_[r].hull).stop].push_back(r);

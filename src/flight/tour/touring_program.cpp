@@ -351,15 +351,30 @@ TouringSolution solve_touring(const TouringProgram& program, const TouringOption
   return Solver(program, options).solve();
 }
 
+double touring_part(const Hull& hull, const Direction* before, const Direction* behind) {
+  Vec3 direction = Vec3::Zero();  // exact: whole numbers up to 2^31 times 2^-30
+  if (before) direction += vector_of(*before);
+  if (behind) direction -= vector_of(*behind);
+  return direction.dot(hull.lowest(direction));
+}
+
+double touring_bound_of(std::span<const double> parts, double reach_m, double moved_m) {
+  double sum = 0;
+  for (const double part : parts) sum += part;
+  // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest()
+  // may overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
+  const double m = static_cast<double>(parts.size());
+  return sum - (4 * m + 40) * kRounding * reach_m - 2.001 * moved_m;
+}
+
 double touring_bound(const TouringProgram& program, std::span<const Direction> directions) {
   if (directions.empty()) return 0;
   const std::size_t count = program.hulls.size();
-  double sum = 0, reach = 0, moved = 0;
+  std::vector<double> parts;
+  double reach = 0, moved = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    Vec3 direction = Vec3::Zero();  // exact: whole numbers up to 2^31 times 2^-30
-    if (k > 0 || program.closed) direction += vector_of(directions[(k + count - 1) % count]);
-    if (k < directions.size()) direction -= vector_of(directions[k]);
-    sum += direction.dot(program.hulls[k]->lowest(direction));
+    const Direction* before = k > 0 || program.closed ? &directions[(k + count - 1) % count] : nullptr;
+    parts.push_back(touring_part(*program.hulls[k], before, k < directions.size() ? &directions[k] : nullptr));
     reach += program.hulls[k]->reach_m();
     moved += program.hulls[k]->moved_m();
   }
@@ -370,10 +385,7 @@ double touring_bound(const TouringProgram& program, std::span<const Direction> d
     const double norm = std::ceil((1 + 4 * kRounding) * vector_of(directions[leg]).norm() / kDirectionUnit);
     if (at_least > 0) added += at_least * std::max(0.0, 1 - norm * kDirectionUnit);
   }
-  // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest()
-  // may overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
-  const double m = static_cast<double>(count);
-  return sum + added * (1 - 8 * kRounding) - (4 * m + 40) * kRounding * (reach + added) - 2.001 * moved;
+  return touring_bound_of(parts, reach + added, moved) + added * (1 - 8 * kRounding);
 }
 
 double touring_length(const TouringProgram& program, std::span<const Vec3> points) {

@@ -68,6 +68,12 @@ TouringSolution solve_touring(const TouringProgram& program, const TouringOption
 /// size R and m points less than (4 m + 40) 2^-53 times the sum of R over the points; and 2 Hull::moved_m() of each.
 double touring_bound(const TouringProgram& program, std::span<const Direction> directions);
 
+/// The same of a program whose legs count as they are, put together of what each point gives to it: where a stop is
+/// inserted, that changes at three points alone. `before`, `behind`: of the legs at the point; null: none.
+double touring_part(const Hull& hull, const Direction* before, const Direction* behind);
+/// `reach_m`, `moved_m`: sums of those of the hulls.
+double touring_bound_of(std::span<const double> parts, double reach_m, double moved_m);
+
 /// Of a polyline through these points.
 double touring_length(const TouringProgram& program, std::span<const Vec3> points);
 
