@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "support/random.h"
@@ -110,6 +111,33 @@ TEST(OuterVolume, HoldsAllPositionsWithinLimits) {
   const Box box = bounding_box(outer_volume(mission).volume.mesh);
   EXPECT_NEAR(box.min.z(), 3.99, 1e-6);
   EXPECT_NEAR(box.max.z(), 50.01, 1e-6);
+}
+
+TEST(OuterVolume, HoldsAllPositionsWithinAnIncidence) {
+  Random random(25);
+  Mission mission = mission_in(random_city(random, 30, 12), {}, 80);
+  mission.target = random_target(random, 5, 6, Vec3(0, 0, 2), Vec3(0.2, -0.1, 1));
+  mission.sensor.incidence_deg = 60;
+  expect_holds_all(mission, random);
+  const OuterVolume outer = outer_volume(mission);
+  EXPECT_TRUE(outer.ignored.empty());
+  // It is cut to little more than the cones.
+  const TargetFrame frame = prepare_target(mission, PreparedScene(mission.scene())).frame();
+  const Box box = bounding_box(outer.volume.mesh);
+  std::vector<Vec3> places;
+  for (int i = 0; i < 1500; ++i) places.push_back(random.in_box(box));
+  const std::vector<double> depths = SolidIndex(outer.volume.mesh).depths_m(places);
+  int inside = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (depths[i] < 0) continue;
+    ++inside;
+    const Vec3 local = frame.to_local(places[i]);
+    for (const Eigen::Vector2d& corner : frame.polygon) {
+      const double aside = (local.head<2>() - corner).norm();
+      EXPECT_LE(aside, 1.002 * std::tan(60 * std::numbers::pi / 180) * (local.z() + 0.02));
+    }
+  }
+  EXPECT_GT(inside, 100);
 }
 
 TEST(OuterVolume, HoldsAllPositionsOfALargeTarget) {

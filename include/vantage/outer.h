@@ -33,9 +33,10 @@ struct OuterVolume {
 /// method that computes volumes. The union or the intersection for several targets is as the mission says.
 ///
 /// It is cut to altitude, heights above the ground and boxes (to stay in without zones, to stay out of), all made wider
-/// by limit_margin_m, which is far above the rounding of booleans and of cleaning. Other limits of navigation and of
-/// the sensor, besides the range, only make the true volume smaller: they are ignored, and named. With a VisibleShare
-/// (sensor.visible) all that is in range and in front of the target is taken.
+/// by limit_margin_m, which is far above the rounding of booleans and of cleaning. An incidence of up to 85 degrees
+/// cuts it to pyramids round the cones at up to eight corners of the target, as much wider. Other limits of navigation
+/// and of the sensor, besides the range, only make the true volume smaller: they are ignored, and named. With a
+/// VisibleShare (sensor.visible) all that is in range and in front of the target is taken.
 ///
 /// Left out, as in docs/proof.md, "Maximal": positions lower over the target's plane than a millionth of their distance
 /// from its centre, and those that see the target only past triangles without width. A target that is a point is taken

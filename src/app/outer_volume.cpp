@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "app/components/solid.h"
 #include "app/places.h"
 #include "core/parallel.h"
+#include "core/portable_math.h"
 #include "core/triangle_distance.h"
 #include "vantage/error.h"
 #include "vantage/outer.h"
@@ -30,6 +32,10 @@ constexpr double kOutward[] = {2, 8, 64};
 constexpr double kBeyondRange = 1e-6;
 
 constexpr double kPartOfRange = 1e-3;  ///< the default tolerance
+
+/// The cone of an incidence is stood for by a pyramid round it. Of wider cones the pyramid would be too large.
+constexpr std::size_t kSidesOfCone = 64;
+constexpr double kWidestConeDeg = 85;
 
 /// A star-shaped mesh about `centre`, on the way out.
 struct StarMesh {
@@ -120,6 +126,45 @@ Volume range_of_part(const PreparedTarget& part, const Work& work) {
   throw Error(ErrorCode::internal_defect, "no mesh holds what is in range of the target", part.target().name, "");
 }
 
+bool cuts_incidence(const Sensor& sensor) { return sensor.incidence_deg && *sensor.incidence_deg <= kWidestConeDeg; }
+
+/// Holds the cone about the normal at a corner, up to a height, and all that is so near to it.
+Mesh round_cone(const TargetFrame& frame, const Eigen::Vector2d& corner, double angle_rad, double height_m,
+                double margin_m) {
+  namespace portable = internal::portable;
+  const double sine = portable::sin(angle_rad), part = std::numbers::pi / static_cast<double>(kSidesOfCone);
+  const double below = margin_m / sine;
+  const double radius = (height_m + below) * sine / (portable::cos(angle_rad) * portable::cos(part));
+  Mesh mesh;
+  mesh.vertices.push_back(frame.to_scene({corner.x(), corner.y(), -below}));
+  for (std::size_t i = 0; i < kSidesOfCone; ++i) {
+    const double turn = 2 * part * static_cast<double>(i);
+    mesh.vertices.push_back(frame.to_scene(
+        {corner.x() + radius * portable::cos(turn), corner.y() + radius * portable::sin(turn), height_m}));
+  }
+  constexpr auto kLast = static_cast<std::uint32_t>(kSidesOfCone);
+  for (std::uint32_t i = 1; i <= kLast; ++i) mesh.triangles.push_back({0, i % kLast + 1, i});
+  for (std::uint32_t i = 2; i < kLast; ++i) mesh.triangles.push_back({1, i, i + 1});
+  return mesh;
+}
+
+/// A viewpoint sees each corner within its cone: so it lies in the cones of some of them.
+Volume within_incidence(const Volume& volume, const PreparedTarget& part, const Work& work) {
+  constexpr std::size_t kMostCones = 8;
+  const TargetFrame& frame = part.frame();
+  if (volume.empty() || frame.all_sides) return volume;
+  Navigation cones;
+  const std::size_t count = frame.polygon.size(), taken = std::min(count, kMostCones);
+  const double margin = work.options.limit_margin_m;
+  for (std::size_t i = 0; i < taken; ++i) {
+    cones.meshes.push_back({round_cone(frame, frame.polygon[i * count / taken],
+                                       *work.mission.sensor.incidence_deg * std::numbers::pi / 180,
+                                       (1 + kPartOfRange) * work.range_m + margin, margin),
+                            "incidence"});
+  }
+  return internal::app::within_limits(volume, part, cones, work.progress, work.mission.as_written.exact.work_limit);
+}
+
 Volume around_target(const Target& target, const Work& work) {
   Sensor range_only;
   range_only.max_range_m = work.range_m;
@@ -129,7 +174,8 @@ Volume around_target(const Target& target, const Work& work) {
     const PreparedTarget part = prepared.part(i);
     std::optional<Volume> volume;
     if (!work.mission.sensor.visible) volume = around_part(part, work.mission.scene(), work);
-    parts.push_back(volume ? *std::move(volume) : range_of_part(part, work));
+    if (!volume) volume = range_of_part(part, work);
+    parts.push_back(cuts_incidence(work.mission.sensor) ? within_incidence(*volume, part, work) : *std::move(volume));
   }
   return internal::app::joined(std::move(parts), work.progress, work.mission.as_written.exact.work_limit);
 }
@@ -165,7 +211,7 @@ Navigation widened(const Navigation& given, double margin_m, std::vector<std::st
 
 void name_ignored(const Sensor& sensor, std::vector<std::string>& ignored) {
   if (sensor.min_range_m > 0) ignored.emplace_back("min_range");
-  if (sensor.incidence_deg) ignored.emplace_back("incidence");
+  if (sensor.incidence_deg && !cuts_incidence(sensor)) ignored.emplace_back("incidence");
   if (sensor.camera) ignored.emplace_back("camera");
   if (sensor.pixel) ignored.emplace_back("pixel");
   if (sensor.sun) ignored.emplace_back("sun");

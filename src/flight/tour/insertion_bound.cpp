@@ -68,7 +68,7 @@ class InsertionSearch {
     double first = -1;
     while (!heap_.empty()) {
       const double low = std::get<0>(heap_.top()) * -1;
-      if (low >= options_.enough_m) break;
+      if (low >= most()) break;
       if (first < 0 && nodes_.size() > 1) first = low;
       progress_.report(first < 0 ? 0 : std::clamp((low - first) / std::max(options_.enough_m - first, 1e-9), 0.0, 1.0));
       if (watch_.seconds() > options_.time_limit_s || result_.solved >= options_.most_nodes) {
@@ -90,6 +90,8 @@ class InsertionSearch {
   };
   using Entry = std::tuple<double, std::size_t, std::uint32_t>;  // -bound, length, -number: largest first
 
+  /// What is asked for, or can be had: below a node that ended no bound is larger.
+  double most() const { return std::min(options_.enough_m, ended_); }
   double dwell_m(std::size_t region) const { return space_.dwell_m.empty() ? 0 : space_.dwell_m[region]; }
   std::size_t points_of(std::uint32_t cell) const { return dwell_m(cells_[cell].region) > 0 ? 2 : 1; }
 
@@ -186,7 +188,7 @@ class InsertionSearch {
     std::vector<std::uint32_t> batch;
     while (!heap_.empty() && batch.size() < kAtOnce) {
       const std::uint32_t number = ~std::get<2>(heap_.top());
-      if (nodes_[number].best >= options_.enough_m) break;
+      if (nodes_[number].best >= most()) break;
       heap_.pop();
       batch.push_back(number);
     }
@@ -445,7 +447,7 @@ class InsertionSearch {
       nodes_.push_back(std::move(child));
       if (!cells_[nodes_[added].cell].hull) {  // nothing is on this side
         nodes_[added].best = nodes_[added].own = std::numeric_limits<double>::infinity();
-      } else if (nodes_[added].best < options_.enough_m) {
+      } else if (nodes_[added].best < most()) {
         push(added);
       }
     }
