@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tours and bounds in real cities: how long, how much shorter none can be, how fast.
+"""Tours and bounds in real cities: how long, how much shorter one could be at most, how fast.
 
     cities.py charlotte [--authors FOLDER] [--data FOLDER] [--seconds 60] [--seeds 10]
     cities.py munich [--counts 10 20 50 100] [--seed 1] [--data FOLDER] [--seconds 60] [--keep FOLDER]
@@ -12,7 +12,7 @@ shortest tour of one pose of each volume, which is found exactly. The volumes ar
 the same targets, range and lowest heights: those are somewhat larger, as theirs are of few facets.
 munich: squares of 10 m on open ground, drawn with a seed. Tours lead through computed volumes, bounds are over outer
 volumes; obstacles between volumes are not looked at.
-manhattan: roofs and squares by name, a camera, heights above the ground, a clearance: `vantage tour`, as anyone runs it.
+manhattan: roofs and squares by name, a camera, heights above the ground, a clearance: `vantage tour`.
 
 --data has the files of shared/data. Where one is missing the part is skipped, and says so. `cpu` are seconds of both
 threads together. Exit code 1 where a bound is above a tour, or a program failed."""
@@ -35,7 +35,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RANGE_M, ABOVE_M = 300, 150  # of their volumes: a ball, and how far above the target they begin
 ROOFS = ["FDNY Engine 65", "Algonquin Hotel", "The Penn Club", "Belasco Theatre", "Shubert Theatre",
          "Nederlander Theatre", "New Victory Theater", "St. James Theatre", "Booth Theatre", "The Kitano New York",
-         "Library Hotel", "Dylan Hotel", "Bryant Park Place", "Gorham Building", "Archer Hotel", "The Chatwal",
+         "Library Hotel", "Dylan Hotel", "Bryant Park Place", "Gorham Building", "Archer Hotel", "Hotel Wolcott",
          "Collectors Club"]
 SQUARES = ["Verizon Plaza", "Fifth Avenue Tower Urban Plaza", "Marsh & McLennan Public Space"]
 
@@ -59,8 +59,8 @@ def tour(options, inner, outer, *more):
                 options.seconds, "--gap", options.gap, *more).split()
     kind = words.pop(2)
     length, bound, seconds, planned, cpu = map(float, words)
-    print(f"{length:10.2f}{bound:10.2f}{100 * (1 - bound / length):8.2f}{kind:>11}{seconds:8.1f}{planned:8.1f}{cpu:8.1f}",
-          flush=True)
+    print(f"{length:10.2f}{bound:10.2f}{100 * (1 - bound / length):8.2f}{kind:>11}"
+          f"{seconds:8.1f}{planned:8.1f}{cpu:8.1f}", flush=True)
     return bound <= length
 
 
@@ -221,7 +221,7 @@ def manhattan(options, scratch):
     mission = scratch / "manhattan.yaml"
     lines = [f'  - {{osm: "{name}"{part}}}\n' for names, part in ((ROOFS, ", part: roof"), (SQUARES, ""))
              for name in names]
-    mission.write_text(f"scene: {{osm: {data}, center: [40.7527, -73.9830], radius: 1100, without: [trees]}}\n"
+    mission.write_text(f"scene: {{osm: {data}, center: [40.7527, -73.9830], radius: 1100, without: [trees, walls]}}\n"
                        f"targets:\n{''.join(lines)}combine: each\n"
                        "sensor: {camera: {model: dji_mavic_3e_wide}, pixel: {size: 0.02}}\n"
                        "navigation: {altitude: {agl: [30, 120]}, clearance: 5}\nexact: {tolerance: 0.05}\n"
