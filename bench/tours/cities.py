@@ -9,7 +9,7 @@ charlotte: the experiment of the seed paper's group, 5 and 10 targets, a fixed w
 by -15 to 20 degrees. Beside it their sampling: 8 places on the faces of each volume, 4 headings at each, and the
 shortest tour of one pose of each volume, which is found exactly. The volumes are those of their repository
 (robotics-uncc/VisualTour3DDubins), data/viewRegions in a clone of it: --authors. Without it they are computed here, of
-the same targets, range and lowest heights: those are somewhat larger, as theirs are of few facets.
+the same targets, range and lowest heights: tours through these differ by a few per cent.
 munich: squares of 10 m on open ground, drawn with a seed. Tours lead through computed volumes, bounds are over outer
 volumes; obstacles between volumes are not looked at.
 manhattan: roofs and squares by name, a camera, heights above the ground, a clearance: `vantage tour`.
