@@ -1,6 +1,7 @@
 // Pictures of a scene, its target and its volume: drawn by OpenGL off screen, annotated, ready for a paper.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -41,20 +42,31 @@ struct MarkedFacets {
   std::vector<std::uint32_t> facets;  ///< by number; with none there is no entry in the legend
 };
 
+/// A line through the scene, as of a flight: drawn over everything, and paler behind the volume and the scene.
+struct PicturePath {
+  std::string label;                      ///< for the legend
+  std::vector<Vec3> points;               ///< from each to the next; scene frame
+  std::vector<std::vector<Vec3>> marked;  ///< stretches in a colour of their own, as where a target is seen
+  std::string marked_label;               ///< for the legend; empty: they have no entry
+};
+
 /// What to draw, and how.
 struct PictureRequest {
-  const Target* target = nullptr;        ///< drawn where it is given, `offset_m` applied
-  const Volume* volume = nullptr;        ///< its mesh, `cause_of` and `causes`; without causes it has one colour
-  const Mesh* solid = nullptr;           ///< instead of a volume: any mesh, in one colour
+  const Target* target = nullptr;          ///< drawn where it is given, `offset_m` applied
+  std::vector<const Target*> others = {};  ///< more targets, drawn as `target` is
+  const Volume* volume = nullptr;          ///< its mesh, `cause_of` and `causes`; without causes it has one colour
+  const Mesh* solid = nullptr;             ///< instead of a volume: any mesh, in one colour
+  std::vector<const Mesh*> solids = {};  ///< more of them, paler and each in a colour of its own, as of several volumes
   std::vector<MarkedFacets> marks = {};  ///< with any, causes do not count: all else of the volume has one colour
-  Navigation navigation;                 ///< its boxes and zones are drawn as thin lines
+  std::vector<PicturePath> paths = {};
+  Navigation navigation;  ///< its boxes and zones are drawn as thin lines
   PictureView view;
   int width = 1600, height = 1200;  ///< pixels, kSmallestPicture to kLargestPicture
   bool draw_scene = true;
   bool annotate = true;            ///< title, legend, scale bar, north arrow
   std::string title, subtitle;     ///< UTF-8
   std::vector<std::string> notes;  ///< what to know before relying on it, as Volume::notes: written under the subtitle
-  std::vector<Vec3> frame;         ///< what the picture must hold. Empty: volume or solid, target and boxes
+  std::vector<Vec3> frame;         ///< what the picture must hold. Empty: volume, solids, targets, paths, boxes
 };
 
 /// Rows from the top, four bytes a pixel: red, green, blue (sRGB), and opacity, which is 255 everywhere.
@@ -81,6 +93,31 @@ struct PicturePanel {
 /// size of the first; Error(input) otherwise, or when there is none.
 VANTAGE_API Picture arrange_sheet(const std::vector<PicturePanel>& panels, int columns, const std::string& title,
                                   const std::string& subtitle);
+
+/// A row under a profile.
+struct ProfileStrip {
+  std::string label;                           ///< UTF-8
+  std::vector<std::array<double, 2>> spans_m;  ///< along the flight, from and to: filled
+};
+
+/// The profile of a flight: its height, and the scene below it, over the way along it.
+struct ProfileRequest {
+  std::vector<Vec3> points;          ///< of the flight, from each to the next; scene frame, at least two
+  std::vector<ProfileStrip> strips;  ///< as when each target is seen
+  int width = 1600;                  ///< pixels, kSmallestPicture to kLargestPicture; the height follows
+  double height_zero_m = 0;          ///< z of the scene frame that is called 0
+  std::string height_label = "height, m";
+  std::string title, subtitle;  ///< UTF-8
+};
+
+/// Drawn without OpenGL. Under the flight the highest surface of the scene is shown, looked up once a pixel. Strips
+/// that have no room (more than about a hundred) are left out, and a line says how many. Throws Error(input) for fewer
+/// than two points, one that is not finite, spans that are not finite, and a width out of range; Error(cancelled).
+VANTAGE_API Picture render_profile(const Scene& scene, const ProfileRequest& request, const Progress& progress = {});
+
+/// One picture over another, in the middle of what the wider one takes. Throws Error(input) where together they are
+/// higher than kLargestPicture.
+VANTAGE_API Picture stack_pictures(const Picture& upper, const Picture& lower);
 
 /// PNG, 8 bits a channel. Written whole or not at all; throws Error(output), Error(input) as AtomicFile does, and
 /// Error(cancelled) when told to stop.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,7 +9,9 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/flight_picture.h"
 #include "cli/located_plan.h"
+#include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
@@ -42,11 +45,11 @@ constexpr const char* kCheckExamples =
     "  vantage check mission.yaml flight.plan\n"
     "  vantage check mission.yaml flight.plan --tube 3 --clearance 8\n"
     "  vantage check mission.yaml track.gpx --undulation 46.5 --json | jq '.targets[].longest'\n"
-    "  vantage check mission.yaml flight.kml --speed 8 --dwell 5 -o check.csv\n";
+    "  vantage check mission.yaml flight.kml --speed 8 --dwell 5 -o check.csv --picture check.png\n";
 
 struct CheckArguments : PlanArguments {
   CommonOptions common;
-  std::string mission_file, output_file;
+  std::string mission_file, output_file, picture_file;
   std::string tube = "0";
   std::optional<double> speed, dwell, gimbal;
   std::string clearance;  // as typed
@@ -134,9 +137,18 @@ FlightCheckOptions check_options(const CheckArguments& options) {
   return result;
 }
 
+std::string plan_name(const CheckArguments& options) {
+  return options.plan_file == "-" ? "flight" : std::filesystem::path(options.plan_file).filename().string();
+}
+
 bool is_json_file(const std::string& file) { return file.ends_with(".json"); }
 
 void check_output(const CheckArguments& options, const MissionFile& mission) {
+  if (!options.picture_file.empty()) {
+    check_picture_file(options.picture_file);
+    check_not_an_input(options.picture_file, input_files(mission));
+    check_not_an_input(options.picture_file, {options.plan_file});
+  }
   if (options.output_file.empty()) return;
   if (!is_json_file(options.output_file) && !options.output_file.ends_with(".csv")) {
     throw Error(ErrorCode::output_format_unknown, "a check is written as .json or .csv", options.output_file,
@@ -168,6 +180,11 @@ int run_check(const CheckArguments& options) {
     written.write(is_json_file(options.output_file) ? json_text(check, georeference) : csv_text(check));
     written.commit();
   }
+  if (!options.picture_file.empty()) {
+    const std::string verdict = check.passes() ? "keeps what is asked" : "does not keep what is asked";
+    const FlightPicture picture{&mission, &located.flight, &check, {}, plan_name(options), verdict};
+    write_flight_picture(picture, options.picture_file, progress.callback());
+  }
   if (options.json) {
     print(json_text(check, georeference));
   } else if (!options.common.quiet) {
@@ -197,6 +214,10 @@ void add_check(CLI::App& app, Command& chosen) {
   command->add_option("--gimbal-rate", options->gimbal, "The camera turns at most so fast, degrees per second")
       ->option_text("DEG/S");
   command->add_option("-o,--output", options->output_file, "Write what was found as .json or .csv")
+      ->option_text("FILE");
+  command
+      ->add_option("--picture", options->picture_file,
+                   "Draw the flight in the scene, its profile, and when which target is seen: .png")
       ->option_text("FILE");
   command->add_flag("--json", options->json, "Print what was found as JSON");
   finish<CheckArguments>(*command, options, kCheckExamples, chosen, run_check);

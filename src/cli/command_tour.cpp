@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -6,10 +7,13 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/flight_picture.h"
+#include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
 #include "vantage/error.h"
+#include "vantage/flight_check.h"
 #include "vantage/flight_plan.h"
 #include "vantage/input.h"
 #include "vantage/mission.h"
@@ -33,13 +37,13 @@ constexpr const char* kTourExamples =
     "\n"
     "EXAMPLES\n"
     "  vantage tour mission.yaml\n"
-    "  vantage tour mission.yaml -o tour.plan\n"
+    "  vantage tour mission.yaml -o tour.plan --picture tour.png\n"
     "  vantage tour mission.yaml -o tour.kml --no-bound\n"
     "  vantage tour mission.yaml -o tour.csv --certificate tour.cert --json > tour.json\n";
 
 struct TourArguments {
   CommonOptions common;
-  std::string mission_file, output_file, certificate_file;
+  std::string mission_file, output_file, certificate_file, picture_file;
   bool no_bound = false, json = false;
 };
 
@@ -83,15 +87,17 @@ std::string table_text(const MissionTour& tour) {
 
 void check_outputs(const TourArguments& options, const MissionFile& mission) {
   std::vector<std::string> outputs;
-  for (const std::string& file : {options.output_file, options.certificate_file}) {
+  for (const std::string& file : {options.output_file, options.certificate_file, options.picture_file}) {
     if (file.empty()) continue;
     check_can_write(file);
     check_not_an_input(file, input_files(mission));
-    outputs.push_back(std::filesystem::weakly_canonical(file).string());
+    const std::string place = std::filesystem::weakly_canonical(file).string();
+    if (std::find(outputs.begin(), outputs.end(), place) != outputs.end()) {
+      throw Error(ErrorCode::output_named_twice, "an output is named twice", file, "give each a name");
+    }
+    outputs.push_back(place);
   }
-  if (outputs.size() == 2 && outputs[0] == outputs[1]) {
-    throw Error(ErrorCode::output_named_twice, "an output is named twice", options.output_file, "give each a name");
-  }
+  if (!options.picture_file.empty()) check_picture_file(options.picture_file);
   if (!options.output_file.empty()) plan_format_of(options.output_file);
   if (options.no_bound && !options.certificate_file.empty()) {
     throw Error(ErrorCode::conflicting_keys, "a certificate is of the bound, and --no-bound asks for none",
@@ -109,6 +115,17 @@ void check_can_state(const Mission& mission, const std::string& file) {
   flight_plan_bytes(plan_of_tour(tour, mission, plan_format_of(file)), plan_format_of(file));
 }
 
+/// The flight in the scene, with the volumes of all targets, and its profile: what is seen is as `check` finds it.
+void draw_tour(const MissionTour& tour, const Mission& mission, const std::string& file, const Progress& progress) {
+  const FlightCheck check = check_flight(mission, tour.tour.flight, {}, progress);
+  FlightPicture picture{
+      &mission, &tour.tour.flight, &check, {}, "tour of " + count(tour.tour.order.size()) + " targets", ""};
+  for (const MissionTourTarget& target : tour.targets) picture.volumes.push_back(&target.volume);
+  picture.subtitle = fixed(tour.tour.length_m, 0) + " m, " + fixed(tour.tour.time_s, 0) + " s";
+  if (tour.bound) picture.subtitle += "; no tour is shorter than " + fixed(tour.bound->length_m, 0) + " m";
+  write_flight_picture(picture, file, progress);
+}
+
 int run_tour(const TourArguments& options) {
   MissionFile file = read_mission_argument(options.mission_file);
   check_outputs(options, file);
@@ -116,6 +133,7 @@ int run_tour(const TourArguments& options) {
   ProgressLine progress(options.common);
   const Mission mission = resolve_mission(file, progress.callback());
   check_can_state(mission, options.output_file);
+  if (!options.picture_file.empty()) check_flight(mission, {{{mission.home.value_or(Vec3::Zero())}}, 0});  // or refuses
   MissionTourOptions asked;
   asked.threads = options.common.threads;
   asked.with_bound = !options.no_bound;
@@ -127,6 +145,9 @@ int run_tour(const TourArguments& options) {
   }
   if (!options.output_file.empty() && !tour.tour.order.empty())
     write_flight_plan(plan_of_tour(tour, mission, plan_format_of(options.output_file)), options.output_file);
+  if (!options.picture_file.empty() && !tour.tour.order.empty()) {
+    draw_tour(tour, mission, options.picture_file, progress.callback());
+  }
   if (options.json) {
     print(json_text(tour));
   } else if (!options.common.quiet) {
@@ -152,6 +173,10 @@ void add_tour(CLI::App& app, Command& chosen) {
   command
       ->add_option("--certificate", options->certificate_file,
                    "Write what proves the bound, for tools/check_tour.py, and the outer volumes beside it")
+      ->option_text("FILE");
+  command
+      ->add_option("--picture", options->picture_file,
+                   "Draw the volumes, the flight through them, its profile, and when which target is seen: .png")
       ->option_text("FILE");
   command->add_flag("--json", options->json, "Print the tour as JSON");
   finish<TourArguments>(*command, options, kTourExamples, chosen, run_tour);

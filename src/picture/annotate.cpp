@@ -224,7 +224,14 @@ void show_credit(Canvas& canvas, const std::string& credit, double baseline, dou
 std::vector<LegendEntry> legend_of(const PictureRequest& request) {
   using Mark = LegendEntry::Mark;
   std::vector<LegendEntry> legend;
-  if (request.target != nullptr) legend.push_back({Mark::solid, kTarget, "target", ""});
+  const std::size_t targets = request.others.size() + (request.target != nullptr ? 1 : 0);
+  if (targets > 0) legend.push_back({Mark::solid, kTarget, targets > 1 ? "targets" : "target", ""});
+  for (const PicturePath& path : request.paths) {
+    legend.push_back({Mark::solid, kPath, path.label, ""});
+    if (!path.marked.empty() && !path.marked_label.empty()) {
+      legend.push_back({Mark::solid, kMarkedPath, path.marked_label, ""});
+    }
+  }
   const bool is_drawn = (request.volume != nullptr && !request.volume->mesh.triangles.empty()) ||
                         (request.solid != nullptr && !request.solid->triangles.empty());
   if (is_drawn && !request.marks.empty()) {
@@ -249,6 +256,9 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
     if (total <= 0) legend.push_back({Mark::film, kPlainVolume, "volume", ""});
   } else if (is_drawn) {
     legend.push_back({Mark::film, kPlainVolume, "volume", ""});
+  }
+  if (!request.solids.empty()) {
+    legend.push_back({Mark::film, kSolids[0], request.solids.size() > 1 ? "volumes" : "volume", ""});
   }
   const Navigation& limits = request.navigation;
   if (!limits.keep_in.empty() || !limits.keep_in_zones.empty()) {

@@ -20,12 +20,14 @@ constexpr double kFullRadius = 1.08, kFadeRadius = 1.55;  // of the disc of grou
 constexpr double kPartFull = 0.95, kPartFade = 1.3;       // nearest point of a building
 constexpr double kTerrainSize = 3;                        // of what is not a building
 constexpr double kGlass = 0.3;                            // opacity of a building that hides the target
+constexpr double kPale = 0.45;                            // opacity of one of several volumes
 constexpr double kGroundBand = 0.5;                       // metres about the ground's height that count as ground
 constexpr double kGroundSink = 0.05;                      // metres: a ground of the scene's own lies over ours
 constexpr double kLargestBox = 3;                         // over the rest's size: larger boxes do not count in framing
 constexpr double kGroundMark = 0;                         // opacity that tells ground to the shaders
 constexpr double kLeastOpacity = 0.01;                    // of a building that is drawn
 constexpr double kSameCorner = 1e-3;                      // metres between corners of parts that are one
+constexpr double kPlumbSpacing = 0.03;                    // of a path's length, between its plumb lines
 constexpr int kGridCells = 9;                             // or so, across the disc
 
 using Outline = std::vector<Vec3>;
@@ -38,11 +40,14 @@ Outline outline_of(const Target& target, std::size_t part) {
   return points;
 }
 
-/// A polygon or a point for each part of the target.
+/// A polygon or a point for each part of the targets.
 std::vector<Outline> target_outlines(const PictureRequest& request) {
+  std::vector<const Target*> targets = request.others;
+  if (request.target != nullptr) targets.push_back(request.target);
   std::vector<Outline> outlines;
-  if (request.target == nullptr) return outlines;
-  for (std::size_t i = 0; i < request.target->parts.size(); ++i) outlines.push_back(outline_of(*request.target, i));
+  for (const Target* target : targets) {
+    for (std::size_t i = 0; i < target->parts.size(); ++i) outlines.push_back(outline_of(*target, i));
+  }
   return outlines;
 }
 
@@ -80,10 +85,13 @@ std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& reques
                                 const core::ProgressReporter& progress) {
   if (!request.frame.empty()) return request.frame;
   std::vector<Vec3> points = corners_of(target_outlines(request));
-  if (const Mesh* solid = solid_of(request)) {
-    for (const Triangle& t : solid->triangles) {
+  for (const PicturePath& path : request.paths) points.insert(points.end(), path.points.begin(), path.points.end());
+  std::vector<const Mesh*> meshes = request.solids;
+  if (const Mesh* solid = solid_of(request)) meshes.push_back(solid);
+  for (const Mesh* mesh : meshes) {
+    for (const Triangle& t : mesh->triangles) {
       progress.tick();
-      for (const std::uint32_t v : t) points.push_back(solid->vertices[v]);
+      for (const std::uint32_t v : t) points.push_back(mesh->vertices[v]);
     }
   }
   Box bounds;
@@ -227,7 +235,9 @@ class Builder {
     }
     light_ball(middle);
     volume();
+    for (std::size_t i = 0; i < request_.solids.size(); ++i) solid(*request_.solids[i], kSolids[i % kSolids.size()]);
     target();
+    for (const PicturePath& one : request_.paths) path(one);
     for (const Box& box : request_.navigation.keep_in) wire(box, kBox);
     for (const Box& box : request_.navigation.keep_out) wire(box, kKeepOut);
     for (const Zone& zone : request_.navigation.keep_in_zones) wire(zone, kBox);
@@ -357,11 +367,23 @@ class Builder {
       triangle(list_.volume, solid->vertices[corners[0]], solid->vertices[corners[1]], solid->vertices[corners[2]],
                packed(colour));
     }
-    const std::vector<Crease> creases =
-        find_creases(*solid, kinds, view_.eye, view_.back, view_.perspective, progress_);
+    creases(*solid, kinds, 1);
+  }
+
+  /// One of several.
+  void solid(const Mesh& mesh, Colour colour) {
+    for (const Triangle& t : mesh.triangles) {
+      progress_.tick();
+      triangle(list_.volume, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], packed(colour, kPale));
+    }
+    creases(mesh, {}, kPale);
+  }
+
+  void creases(const Mesh& mesh, const std::vector<std::uint8_t>& kinds, double opacity) {
+    const std::vector<Crease> creases = find_creases(mesh, kinds, view_.eye, view_.back, view_.perspective, progress_);
     for (const Crease& crease : thin_out(creases, view_, unit_, progress_)) {
-      line(list_.creases, crease.a, crease.b, kCrease, crease_opacity(crease.strength), crease_width(crease.strength),
-           0.35, 0);
+      line(list_.creases, crease.a, crease.b, kCrease, opacity * crease_opacity(crease.strength),
+           crease_width(crease.strength), 0.35, 0);
     }
   }
 
@@ -398,6 +420,29 @@ class Builder {
         const Vec3 &from = points[i], &to = points[(i + 1) % points.size()];
         if (!is_shared(outlines, from, to)) line(list_.lines, from, to, kTargetOutline, 1, 3, 1, 0.35);
       }
+    }
+  }
+
+  /// On paper, so that it stands out; with plumb lines to the ground, so that its height can be read.
+  void path(const PicturePath& path) {
+    double length = 0;
+    for (std::size_t i = 1; i < path.points.size(); ++i) length += (path.points[i] - path.points[i - 1]).norm();
+    double since = 0;
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+      const Vec3& point = path.points[i];
+      if (i > 0) since += (point - path.points[i - 1]).norm();
+      if (i > 0 && i + 1 < path.points.size() && since < kPlumbSpacing * length) continue;
+      since = 0;
+      line(list_.lines, point, {point.x(), point.y(), extent_.ground_z}, kPath, 0.45, 1.2, 0.6, 0.15);
+    }
+    polyline(path.points, kPaper, 7, 0.7);
+    polyline(path.points, kPath, 3.5, 1);
+    for (const std::vector<Vec3>& points : path.marked) polyline(points, kMarkedPath, 5, 1);
+  }
+
+  void polyline(const std::vector<Vec3>& points, Colour colour, double width, double opacity) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      line(list_.lines, points[i - 1], points[i], colour, opacity, width, 0.8, 0.3);
     }
   }
 

@@ -140,6 +140,7 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (gl_FragCoord.z <= texelFetch(depths, at, 0).x || gl_FragCoord.z >= texelFetch(before, at, 0).x) discard;
   vec4 film = film_of(v_position, v_normal, v_colour.rgb);
+  film.a *= v_colour.a;
   result = vec4(film.rgb, 1) * film.a;
 }
 )";
@@ -157,6 +158,7 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (gl_FragCoord.z <= texelFetch(depths, at, 0).x || gl_FragCoord.z >= texelFetch(before, at, 0).x) discard;
   vec4 film = film_of(v_position, v_normal, v_colour.rgb);
+  film.a *= v_colour.a;
   result = vec4(film.rgb * -log(1 - film.a), film.a);
 }
 )";

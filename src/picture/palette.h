@@ -26,6 +26,12 @@ inline constexpr Colour kCrease{24, 38, 66};
 inline constexpr Colour kBox{0, 110, 80};
 inline constexpr Colour kKeepOut{120, 60, 20};
 inline constexpr Colour kPlainVolume{0, 114, 178};
+inline constexpr Colour kPath{32, 36, 44};
+inline constexpr Colour kMarkedPath{240, 160, 0};
+
+/// Of PictureRequest::solids, in turn.
+inline constexpr std::array<Colour, 4> kSolids{Colour{0, 114, 178}, Colour{0, 158, 115}, Colour{204, 121, 167},
+                                               Colour{86, 180, 233}};
 
 /// Of PictureRequest::marks, in turn.
 inline constexpr std::array<Colour, 2> kMarks{Colour{232, 0, 0}, Colour{240, 200, 0}};

@@ -80,6 +80,18 @@ void check_marks(const PictureRequest& request) {
   }
 }
 
+void check_paths(const PictureRequest& request) {
+  const auto check_points = [](const PicturePath& path, const std::vector<Vec3>& points) {
+    if (std::all_of(points.begin(), points.end(), [](const Vec3& point) { return point.allFinite(); })) return;
+    throw Error(ErrorCode::coordinate_not_finite, "a point of the line '" + path.label + "' is not finite", "paths",
+                "pass finite coordinates");
+  };
+  for (const PicturePath& path : request.paths) {
+    check_points(path, path.points);
+    for (const std::vector<Vec3>& stretch : path.marked) check_points(path, stretch);
+  }
+}
+
 /// Draws on the first device that is able to, graphics processors first.
 std::vector<std::uint8_t> draw(const DrawList& list, const View& view,
                                const internal::core::ProgressReporter& progress) {
@@ -113,7 +125,9 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   check_objects(scene);
   if (request.volume != nullptr) check_volume(*request.volume);
   check_marks(request);
+  check_paths(request);
   if (request.solid != nullptr) check_indices(*request.solid, "solid");
+  for (const Mesh* solid : request.solids) check_indices(*solid, "solid");
 
   Annotation annotation{
       request.title, request.subtitle,     legend_of(request), 0, request.view.kind == PictureView::Kind::from,
