@@ -33,8 +33,8 @@ struct FlightCheckOptions {
   std::optional<double> dwell_s = std::nullopt;
   /// The smallest distance from the scene, but for its ground. Without it that of the mission's tour; 0: none.
   std::optional<double> clearance_m = std::nullopt;
-  /// How fast the camera may have to turn to keep a target's centre while it is seen for the longest time. Without it
-  /// that of the mission's tour; nothing: as fast as it takes.
+  /// So fast the camera can turn: for the dwell without a break, a target must be seen while the line of sight to its
+  /// centre turns no faster. Without it that of the mission's tour; nothing: as fast as it takes.
   std::optional<double> gimbal_rate_deg_s = std::nullopt;
   /// The mission's scene, where it is prepared already. Without it that is done anew.
   std::optional<PreparedScene> prepared = {};
@@ -84,6 +84,8 @@ struct TargetCheck {
   std::optional<std::size_t> longest;  ///< of `seen`: the longest in time, or in length where times are not known
   std::vector<NotSeen> not_seen;       ///< the longest first
   std::optional<GimbalUse> gimbal;     ///< along the longest stretch
+  std::optional<FlightSpan> followed;  ///< where a rate of the gimbal is asked: the longest stretch in time on which
+                                       ///< all is seen and the line of sight to the centre turns no faster
 };
 
 /// A limit of navigation that the flight breaks.
@@ -127,7 +129,7 @@ struct FlightCheck {
 /// With a tube of radius R, what is said holds for every position within R of the flight.
 ///
 /// Threads: those of the caller's arena. Throws Error(input) as check_flight_points, prepare_views and LegViews do, for
-/// an option that is negative or not finite, and where a dwell in seconds is asked of a flight without speeds;
+/// an option that is negative or not finite, and where a dwell or a rate is asked of a flight without speeds;
 /// Error(cancelled). Cost: for each leg and target what of the scene lies between them.
 VANTAGE_API FlightCheck check_flight(const Mission& mission, const Flight& flight,
                                      const FlightCheckOptions& options = {}, const Progress& progress = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vantage::internal::flight {
 
@@ -87,6 +88,17 @@ std::vector<LegInterval> united(std::vector<LegInterval> intervals) {
     }
   }
   return result;
+}
+
+std::vector<LegInterval> in_both(std::span<const LegInterval> a, std::span<const LegInterval> b) {
+  std::vector<LegInterval> result;
+  for (const LegInterval& one : a) {
+    for (const LegInterval& other : b) {
+      const LegInterval both{std::max(one.begin, other.begin), std::min(one.end, other.end)};
+      if (both.begin <= both.end) result.push_back(both);
+    }
+  }
+  return united(std::move(result));
 }
 
 std::vector<LegInterval> without(std::span<const LegInterval> intervals, std::span<const LegInterval> removed) {

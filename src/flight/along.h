@@ -50,6 +50,9 @@ std::vector<FlightSpan> spans_of(const Along& along, const std::vector<Stretch>&
 /// What is left of sorted, disjoint intervals. What only touches `removed` at an end stays.
 std::vector<LegInterval> without(std::span<const LegInterval> intervals, std::span<const LegInterval> removed);
 
+/// What is in both; both sorted and disjoint. Single shares that are in both stay.
+std::vector<LegInterval> in_both(std::span<const LegInterval> a, std::span<const LegInterval> b);
+
 /// What all are in: sorted and disjoint again.
 std::vector<LegInterval> united(std::vector<LegInterval> intervals);
 

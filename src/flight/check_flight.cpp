@@ -196,9 +196,31 @@ GimbalUse gimbal_along(const Along& along, const Stretch& stretch, const Vec3& c
   return use;
 }
 
+/// The longest stretch in time on which the target is seen and the camera need not turn faster than it can.
+std::optional<FlightSpan> followed(const std::vector<OnLeg>& legs, std::size_t index, const Flight& path,
+                                   const Along& along, const Vec3& centre, double rate_deg_s) {
+  std::vector<Stretch> stretches;
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    Intervals slow = whole();
+    if (along.has_legs()) {
+      slow = flight::slow_turns(path.leg(leg), centre, along.speed_m_s(leg), rate_deg_s);
+      // Where it stays nothing turns, however fast it comes and goes.
+      if (path.points[leg].hold_s > 0) slow.push_back({0, 0});
+      if (path.points[leg + 1].hold_s > 0) slow.push_back({1, 1});
+      slow = flight::united(std::move(slow));
+    }
+    flight::append(stretches, leg, flight::in_both(legs[leg].targets[index].seen, slow));
+  }
+  std::optional<FlightSpan> longest;
+  for (const FlightSpan& span : flight::spans_of(along, stretches)) {
+    if (!longest || span.duration_s() > longest->duration_s()) longest = span;
+  }
+  return longest;
+}
+
 /// One target, all legs.
 TargetCheck check_target(const JudgedTarget& target, std::size_t index, const std::vector<OnLeg>& legs,
-                         const Along& along) {
+                         const Flight& path, const Along& along, const FlightCheckOptions& options) {
   TargetCheck check;
   check.name = target.name();
   check.centre = target.centre();
@@ -216,6 +238,9 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
     if (!check.longest || measure(check.seen[i]) > measure(check.seen[*check.longest])) check.longest = i;
   }
   if (check.longest) check.gimbal = gimbal_along(along, seen[*check.longest], check.centre);
+  if (options.gimbal_rate_deg_s) {
+    check.followed = followed(legs, index, path, along, check.centre, *options.gimbal_rate_deg_s);
+  }
   for (const auto& [reason, stretches] : reasons) {
     check.not_seen.push_back({reason.first, reason.second, flight::spans_of(along, stretches)});
   }
@@ -293,15 +318,16 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
       failures.push_back(target.name + " is nowhere seen whole");
       continue;
     }
-    const FlightSpan& longest = target.seen[*target.longest];
-    if (dwell > 0 && !(longest.duration_s() >= dwell)) {
+    const double longest_s = target.seen[*target.longest].duration_s();
+    if (dwell > 0 && !(longest_s >= dwell)) {
       failures.push_back(format("{} is seen whole for {} s without a break, and {} s are asked for", target.name,
-                                number_text(longest.duration_s()), number_text(dwell)));
-    }
-    if (options.gimbal_rate_deg_s && target.gimbal->rate_deg_s > *options.gimbal_rate_deg_s) {
-      failures.push_back(format("the camera would have to turn by {} degrees per second to keep {}, and can by {}",
-                                number_text(target.gimbal->rate_deg_s), target.name,
-                                number_text(*options.gimbal_rate_deg_s)));
+                                number_text(longest_s), number_text(dwell)));
+    } else if (options.gimbal_rate_deg_s && !(target.followed && target.followed->duration_s() >= dwell)) {
+      const double followed_s = target.followed ? target.followed->duration_s() : 0;
+      failures.push_back(
+          format("{} is seen whole for {} s without a break while the camera turns by at most {} degrees "
+                 "per second, and {} s are asked for",
+                 target.name, number_text(followed_s), number_text(*options.gimbal_rate_deg_s), number_text(dwell)));
     }
   }
   for (const BrokenLimit& limit : check.broken) {
@@ -354,9 +380,10 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   check_flight_points(flight);
   const FlightCheckOptions options = filled(mission, given);
   const Along along(flight, options.speed_m_s.value_or(std::numeric_limits<double>::quiet_NaN()));
-  if (options.dwell_s.value_or(0) > 0 && std::isnan(along.duration_s())) {
-    throw Error(ErrorCode::missing_key, "a dwell is asked for, and the plan does not say how fast it is flown",
-                "flight", "give the speed, or ask for no dwell");
+  if ((options.dwell_s.value_or(0) > 0 || options.gimbal_rate_deg_s) && std::isnan(along.duration_s())) {
+    const std::string what = options.dwell_s.value_or(0) > 0 ? "a dwell" : "a rate of the gimbal";
+    throw Error(ErrorCode::missing_key, what + " is asked for, and the plan does not say how fast it is flown",
+                "flight", "give the speed, or ask for none");
   }
   FlightCheck check;
   check.length_m = along.length_m();
@@ -375,7 +402,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
       judge_legs(legs, targets, LegLimits(mission.navigation), check.tube_radius_m, reporter);
   reporter.finish();
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    check.targets.push_back(check_target(targets[i], i, found, along));
+    check.targets.push_back(check_target(targets[i], i, found, flight, along, options));
   }
   check.broken = broken_limits(found, along);
   check.nearest =

@@ -55,6 +55,7 @@ Json target_json(const TargetCheck& target, const PositionJson& position) {
   json["name"] = target.name;
   json["seen"] = spans_json(target.seen, position);
   json["longest"] = target.longest ? span_json(target.seen[*target.longest], position) : Json(nullptr);
+  json["followed"] = target.followed ? span_json(*target.followed, position) : Json(nullptr);
   json["gimbal"] = nullptr;
   if (target.gimbal) {
     json["gimbal"] = {{"min_pitch_deg", target.gimbal->min_pitch_deg},

@@ -51,4 +51,21 @@ double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s) {
   return speed_m_s * e.cross(d).norm() / (length * nearest2) * kDegreesPerRadian;
 }
 
+std::vector<LegInterval> slow_turns(const Leg& piece, const Vec3& to, double speed_m_s, double rate_deg_s) {
+  const Vec3 e = piece.to - piece.from, d = to - piece.from;
+  const double length = e.norm();
+  if (!(length > 0)) return {{0, 1}};
+  // At `s` metres from the foot of the point on the line, whose distance is h, the rate is speed h / (h^2 + s^2).
+  const double foot = d.dot(e) / length, h = e.cross(d).norm() / length;
+  const double squared = speed_m_s * h / (rate_deg_s / kDegreesPerRadian) - h * h;
+  if (squared < 0 && h > 0) return {{0, 1}};
+  constexpr double kRounding = 1e-9;  // of all lengths that play a part; through the point itself the turn is a jump
+  const double half = std::sqrt(std::max(0.0, squared)) * (1 + kRounding) + kRounding * (length + d.norm());
+  std::vector<LegInterval> slow;
+  const double begin = (foot - half) / length, end = (foot + half) / length;
+  if (begin >= 0) slow.push_back({0, std::min(begin, 1.0)});
+  if (end <= 1 && begin < 1) slow.push_back({std::max(end, 0.0), 1});
+  return slow;
+}
+
 }  // namespace vantage::internal::flight

@@ -1,10 +1,11 @@
 // How a camera must look from a flight to keep a point in its centre.
 #pragma once
 
-#include <limits>
+#include <vector>
 
 #include "vantage/flight.h"
 #include "vantage/geometry.h"
+#include "vantage/leg_query.h"
 
 namespace vantage::internal::flight {
 
@@ -24,5 +25,9 @@ PitchRange pitch_range(const Leg& piece, const Vec3& to);
 /// The fastest turn of the line of sight along a straight piece that is flown at this speed; infinite where it passes
 /// through the point.
 double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s);
+
+/// Where along the piece, flown at this speed, the line of sight turns no faster than `rate_deg_s`: sorted, apart;
+/// never too long.
+std::vector<LegInterval> slow_turns(const Leg& piece, const Vec3& to, double speed_m_s, double rate_deg_s);
 
 }  // namespace vantage::internal::flight
