@@ -370,17 +370,27 @@ TEST(FlightGimbal, KnowsWhereItNeedNotTurnFast) {
 TEST(FlightCheck, TheCameraNeedsToFollowForTheDwellAlone) {
   const Mission mission = behind_a_wall();
   Flight flight = flight_along({{-30, -20, 20}, {0, -5, 10}, {30, -20, 20}}, 10);
-  const FlightCheck passing = check_flight(mission, flight, {.dwell_s = 3, .gimbal_rate_deg_s = 30});
+  const FlightCheck passing = check_flight(mission, flight, {.dwell_s = 3, .gimbal_rate_deg_s = 10});
   ASSERT_EQ(passing.failures.size(), 1U);
-  EXPECT_NE(passing.failures[0].find("turns by at most 30 degrees"), std::string::npos) << passing.failures[0];
+  EXPECT_NE(passing.failures[0].find("turns by at most 10 degrees"), std::string::npos) << passing.failures[0];
   flight.points[1].hold_s = 3;
-  const FlightCheck hovering = check_flight(mission, flight, {.dwell_s = 3, .gimbal_rate_deg_s = 30});
+  const FlightCheck hovering = check_flight(mission, flight, {.dwell_s = 3, .gimbal_rate_deg_s = 10});
   EXPECT_TRUE(hovering.passes()) << hovering.failures.front();
   ASSERT_TRUE(hovering.targets[0].followed);
   EXPECT_GE(hovering.targets[0].followed->duration_s(), 3);
-  EXPECT_GT(hovering.targets[0].gimbal->rate_deg_s, 30);
-  EXPECT_FALSE(check_flight(mission, flight, {.dwell_s = 6, .gimbal_rate_deg_s = 30}).passes());
-  EXPECT_THROW(check_flight(mission, flight_along({{-30, -20, 20}, {30, -20, 20}}), {.gimbal_rate_deg_s = 30}), Error);
+  EXPECT_GT(hovering.targets[0].gimbal->rate_deg_s, 10);
+  EXPECT_FALSE(check_flight(mission, flight, {.dwell_s = 6, .gimbal_rate_deg_s = 10}).passes());
+  EXPECT_THROW(check_flight(mission, flight_along({{-30, -20, 20}, {30, -20, 20}}), {.gimbal_rate_deg_s = 10}), Error);
+}
+
+TEST(FlightCheck, WithoutASpeedTellsThePitchOfAllLegs) {
+  const Flight flight = flight_along({{-30, -20, 20}, {-10, -20, 20}, {0, -6, 20}});
+  const FlightCheck check = check_flight(behind_a_wall(), flight);
+  ASSERT_EQ(check.targets[0].seen.size(), 1U);
+  ASSERT_TRUE(check.targets[0].gimbal);
+  const double steepest = internal::flight::aim_at({0, -6, 20}, check.targets[0].centre).pitch_deg;
+  EXPECT_NEAR(check.targets[0].gimbal->min_pitch_deg, steepest, 1e-9);
+  EXPECT_TRUE(std::isnan(check.targets[0].gimbal->rate_deg_s));
 }
 
 TEST(FlightAlong, TakesWhatIsInBoth) {

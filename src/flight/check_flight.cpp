@@ -190,8 +190,7 @@ GimbalUse gimbal_along(const Along& along, const Stretch& stretch, const Vec3& c
     use.max_pitch_deg = std::max(use.max_pitch_deg, pitch.max_deg);
     if (!along.has_legs()) continue;
     const double rate = flight::fastest_turn_deg_s(piece, centre, along.speed_m_s(leg));
-    if (!(rate <= use.rate_deg_s)) use.rate_deg_s = rate;  // NaN stays
-    if (std::isnan(use.rate_deg_s)) break;
+    if (!std::isnan(use.rate_deg_s) && !(rate <= use.rate_deg_s)) use.rate_deg_s = rate;  // NaN stays
   }
   return use;
 }
