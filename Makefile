@@ -20,15 +20,20 @@ help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 18
 
 .PHONY: demo
-demo: build  ## build, then compute the volume of an example and say how to open it
+demo: build  ## build, then a volume, a flight with its bound, and a picture of it, of an invented town
 	@mkdir -p build/demo
-	build/bin/vantage compute examples/plaza/mission.yaml -o build/demo/volume.ply
+	build/bin/vantage scene examples/town/town.osm --center 48,11 --radius 120 -o build/demo/town.glb
+	build/bin/vantage compute examples/town/mission.yaml -o build/demo/volume.ply
+	build/bin/vantage tour examples/town/tour.yaml -o build/demo/tour.plan --certificate build/demo/tour.cert \
+	  --picture build/demo/tour.png
+	python3 tools/check_tour.py build/demo/tour.cert
+	build/bin/vantage check examples/town/tour.yaml build/demo/tour.plan -o build/demo/check.json
 	@echo
-	@echo "The volume:   $(CURDIR)/build/demo/volume.ply"
-	@echo "Its numbers:  $(CURDIR)/build/demo/volume.report.json"
-	@echo "Its scene:    $(CURDIR)/examples/plaza/plaza.obj"
-	@echo "Open the volume and the scene together in MeshLab; or in Blender, File > Import > Stanford PLY, and"
-	@echo "File > Import > Wavefront with Forward Y and Up Z."
+	@echo "A volume:     $(CURDIR)/build/demo/volume.ply (with town.glb beside it in Blender: File > Import)"
+	@echo "A flight:     $(CURDIR)/build/demo/tour.plan (QGroundControl: Plan > File > Open)"
+	@echo "Its bound:    $(CURDIR)/build/demo/tour.cert (no flight that sees all targets is shorter)"
+	@echo "When is what seen: $(CURDIR)/build/demo/check.json"
+	@echo "A picture:    $(CURDIR)/build/demo/tour.png"
 
 .PHONY: build
 build: prepare  ## the program, at build/bin/vantage

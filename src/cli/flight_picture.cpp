@@ -8,7 +8,7 @@
 namespace vantage::cli {
 namespace {
 
-constexpr int kWidth = 1600, kSceneHeight = 1100;
+constexpr int kWidth = 1200, kSceneHeight = 850;
 
 std::vector<Vec3> positions(const Flight& flight) {
   std::vector<Vec3> points;
