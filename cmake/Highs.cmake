@@ -44,6 +44,7 @@ function(vantage_add_highs source_dir)
   # No fused multiply-add, so that no answer depends on the compiler.
   target_compile_options(vantage_highs PRIVATE -w -ffp-contract=off)
   target_link_libraries(vantage_highs PRIVATE Threads::Threads)
+  vantage_join_sources(vantage_highs 12)  # a third of the time to compile
   set_target_properties(vantage_highs PROPERTIES
     CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
 endfunction()
