@@ -220,7 +220,7 @@ Picture render_profile(const Scene& scene, const ProfileRequest& request, const 
   const double head = (request.title.empty() ? 0.6 : request.subtitle.empty() ? 2.4 : 3.8) * font;
   const double chart = kChart * request.width;
   const double fixed_room = head + chart + (kAxisRoom + kEdgeRoom) * font;
-  const auto most = static_cast<std::size_t>(std::max(0.0, (kLargestPicture / 2 - fixed_room) / (kStripRow * font)));
+  const auto most = static_cast<std::size_t>(std::max(0.0, (0.5 * kLargestPicture - fixed_room) / (kStripRow * font)));
   const std::size_t count = std::min(most, request.strips.size());
   const std::size_t left_out = request.strips.size() - count;
   const double rows = static_cast<double>(count + (left_out > 0 ? 1 : 0)) * kStripRow * font;
@@ -267,8 +267,9 @@ Picture stack_pictures(const Picture& upper, const Picture& lower) {
                 "take pictures that are " + std::to_string(kLargestPicture) + " high together at most");
   }
   Canvas canvas(width, height);
-  canvas.place(upper, (width - upper.width) / 2, 0);
-  canvas.place(lower, (width - lower.width) / 2, upper.height);
+  const auto left_of = [width](const Picture& picture) { return std::floor(0.5 * (width - picture.width)); };
+  canvas.place(upper, left_of(upper), 0);
+  canvas.place(lower, left_of(lower), upper.height);
   return canvas.picture();
 }
 
