@@ -120,7 +120,7 @@ TEST(FlightCheck, SaysWhatIsAskedForAndDoesNotHold) {
   EXPECT_NEAR((check.broken[0].worst_at - Vec3(0, 30, 12)).norm(), 0, 1e-6);
   EXPECT_EQ(check.broken[0].spans.size(), 1U);
   ASSERT_EQ(check.failures.size(), 3U);
-  EXPECT_NE(check.failures[0].find("6 s are asked for"), std::string::npos) << check.failures[0];
+  EXPECT_NE(check.failures[0].find("6 s are"), std::string::npos) << check.failures[0];
   EXPECT_NE(check.failures[1].find("altitude min is broken by 3 m"), std::string::npos) << check.failures[1];
   EXPECT_NE(check.failures[2].find("wall is"), std::string::npos) << check.failures[2];
   const FlightCheck nowhere = check_flight(mission, flight_along({{0, 30, -0.2}, {0, 40, -0.2}}, 1));
@@ -372,7 +372,7 @@ TEST(FlightCheck, TheCameraNeedsToFollowForTheDwellAlone) {
   Flight flight = flight_along({{-30, -20, 20}, {0, -5, 10}, {30, -20, 20}}, 10);
   const FlightCheck passing = check_flight(mission, flight, {.dwell_s = 3, .gimbal_rate_deg_s = 10});
   ASSERT_EQ(passing.failures.size(), 1U);
-  EXPECT_NE(passing.failures[0].find("turns by at most 10 degrees"), std::string::npos) << passing.failures[0];
+  EXPECT_NE(passing.failures[0].find("at most 10 deg"), std::string::npos) << passing.failures[0];
   flight.points[1].hold_s = 3;
   const FlightCheck hovering = check_flight(mission, flight, {.dwell_s = 3, .gimbal_rate_deg_s = 10});
   EXPECT_TRUE(hovering.passes()) << hovering.failures.front();
