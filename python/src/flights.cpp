@@ -164,9 +164,9 @@ using SpanRows = std::vector<SpanRow>;
 using NotSeenRow = std::tuple<std::string, std::string, SpanRows>;
 /// min_pitch_deg, max_pitch_deg, begin_yaw_deg, end_yaw_deg, rate_deg_s.
 using GimbalRow = std::tuple<double, double, double, double, double>;
-/// Name, centre, seen, which of them is the longest, not_seen, gimbal.
+/// Name, centre, seen, which of them is the longest, not_seen, gimbal, followed (one span or none).
 using TargetRow = std::tuple<std::string, std::vector<double>, SpanRows, std::optional<std::size_t>,
-                             std::vector<NotSeenRow>, std::optional<GimbalRow>>;
+                             std::vector<NotSeenRow>, std::optional<GimbalRow>, SpanRows>;
 /// Name, spans, worst, unit, worst_at_m, worst_at.
 using BrokenRow = std::tuple<std::string, SpanRows, double, std::string, double, std::vector<double>>;
 /// distance_m, at_m, position, point, object.
@@ -192,7 +192,7 @@ std::vector<TargetRow> target_rows(const PyFlightCheck& of) {
       gimbal = {use->min_pitch_deg, use->max_pitch_deg, use->begin_yaw_deg, use->end_yaw_deg, use->rate_deg_s};
     }
     rows.emplace_back(target.name, list_of(target.centre), rows_of(target.seen), target.longest, std::move(not_seen),
-                      gimbal);
+                      gimbal, target.followed ? rows_of({*target.followed}) : SpanRows());
   }
   return rows;
 }

@@ -86,6 +86,9 @@ class TargetCheck(NamedTuple):
     """the longest first"""
     gimbal: GimbalUse | None
     """along the longest stretch"""
+    followed: Span | None
+    """where a rate of the gimbal is asked: the longest stretch in time on which all is seen and the line of sight to the centre
+    turns no faster"""
 
     @property
     def seen_m(self) -> Numbers:
@@ -233,11 +236,11 @@ def _spans(rows: Any) -> list[Span]:
 
 
 def _target(row: Any) -> TargetCheck:
-    name, centre, seen, longest, not_seen, gimbal = row
+    name, centre, seen, longest, not_seen, gimbal, followed = row
     spans = _spans(seen)
     return TargetCheck(name, np.array(centre), spans, None if longest is None else spans[longest],
                        [NotSeen(kind, what, _spans(where)) for kind, what, where in not_seen],
-                       None if gimbal is None else GimbalUse(*gimbal))
+                       None if gimbal is None else GimbalUse(*gimbal), next(iter(_spans(followed)), None))
 
 
 def check(mission: AnyMission, plan: AnyFlight, *, tube_m: float = 0.0, speed_m_s: float | None = None,
@@ -258,7 +261,7 @@ def check(mission: AnyMission, plan: AnyFlight, *, tube_m: float = 0.0, speed_m_
         speed_m_s: of legs for which the plan states none.
         dwell_s: each target must be seen for so long without a break.
         clearance_m: the smallest distance from the scene, but for its ground.
-        gimbal_rate_deg_s: the camera turns at most so fast.
+        gimbal_rate_deg_s: the camera turns at most so fast; it must be able to follow each target for the dwell.
         track, home, home_z_m, undulation_m, heights, height_m, return_height_m, loiter_radius_m, ground_legs: of the file of
             a plan: see `Flight.read`.
         threads: 0: as many as there are. The result does not depend on it.

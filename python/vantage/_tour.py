@@ -134,11 +134,7 @@ class Tour:
         self._core.write_certificate(checked_path(path))
 
     def check(self, *, tube_m: float = 0.0, threads: int = 0, progress: Progress = None) -> FlightCheck:
-        """What `vt.check` says of the flight, by what the settings of the tour ask for.
-
-        How fast the camera turns is judged along the longest stretch from which a target is seen, which may be longer than the
-        visit: a target that the flight passes closely can fail there.
-        """
+        """What `vt.check` says of the flight, by what the settings of the tour ask for."""
         return check(self.mission, self.flight, tube_m=tube_m, threads=threads, progress=progress)
 
     def to_dict(self) -> dict[str, Any]:
