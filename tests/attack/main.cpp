@@ -12,6 +12,7 @@
 
 #include "draw.h"
 #include "findings_text.h"
+#include "flights.h"
 #include "isolated.h"
 #include "mesh_attack.h"
 #include "mesh_self_test.h"
@@ -30,7 +31,7 @@ struct Options {
   unsigned seconds = 60;
   std::filesystem::path out, mission;
   std::size_t meshes = 0;
-  bool self_test = false, told = false, only = false, missions = false;
+  bool self_test = false, told = false, only = false, missions = false, flights = false;
 };
 
 constexpr const char* kUsage =
@@ -38,9 +39,10 @@ constexpr const char* kUsage =
   --scenes N     how many scenes to draw (2000)
   --meshes N     draw so many meshes instead, and judge what the proof says of them
   --missions N   draw N missions instead, of every kind of target, side, combination and limit
-  --first I      the number of the first scene, mesh or mission (0)
+  --flights N    draw N flights instead, and judge what check_flight says of them
+  --first I      the number of the first scene, mesh, mission or flight (0)
   --seed S       of all draws (1)
-  --only I       that scene, mesh or mission alone, and all that is found in it
+  --only I       that scene, mesh, mission or flight alone, and all that is found in it
   --mission FILE a mission of a mesh scene instead of draws
   --out DIR      write what fails there, made small: scene.obj, mission.yaml
   --minimised N  how many of each class are made small and written (3)
@@ -77,6 +79,9 @@ Options parse(int count, char** words) {
       options.meshes = number();
     } else if (word == "--missions") {
       options.missions = true;
+      options.scenes = number();
+    } else if (word == "--flights") {
+      options.flights = true;
       options.scenes = number();
     } else if (word == "--first") {
       options.first = number();
@@ -211,6 +216,17 @@ int main(int count, char** words) {
                                        .jobs = options.jobs,
                                        .seconds = options.seconds,
                                        .out = options.out.string()})
+               ? 0
+               : 1;
+  }
+  if (options.flights) {
+    return attack::run_drawn_flights({.seed = options.seed,
+                                      .first = options.first,
+                                      .count = options.scenes,
+                                      .jobs = options.jobs,
+                                      .seconds = options.seconds,
+                                      .out = options.out.string(),
+                                      .written = options.minimised})
                ? 0
                : 1;
   }

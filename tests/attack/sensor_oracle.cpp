@@ -55,8 +55,9 @@ double distance_to_target(const SeenTarget& target, const Vec3& point) {
   return least;
 }
 
-/// By how much the target reaches into the cone about the direction to the sun: a concave function of its points, for
-/// angles up to 90 degrees.
+}  // namespace
+
+// A concave function of the target's points, for angles up to 90 degrees.
 double depth_in_sun(const vantage::SunLimit& sun, const SeenTarget& target, const Vec3& point) {
   const Vec3 to_sun = sun.direction.normalized();
   const double cosine = sun.exclude_deg < 90 ? std::cos(sun.exclude_deg * kDegree) : 0;
@@ -66,8 +67,6 @@ double depth_in_sun(const vantage::SunLimit& sun, const SeenTarget& target, cons
   for (std::size_t i = 0; i < target.fan(); ++i) most = std::max(most, greatest_on(target.fan_triangle(i), depth));
   return most;
 }
-
-}  // namespace
 
 std::string sensor_limit_broken(const vantage::Sensor& sensor, const SeenTarget& target, const Vec3& point) {
   if (distance_to_target(target, point) < sensor.min_range_m) return "min_range";

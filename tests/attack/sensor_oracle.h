@@ -12,6 +12,10 @@ namespace attack {
 /// Which of the least range, the incidence and the sun a viewpoint breaks; empty: none. Oracle's coordinates.
 std::string sensor_limit_broken(const vantage::Sensor& sensor, const SeenTarget& target, const Vec3& point);
 
+/// By how much the target reaches into the cone about the direction to the sun: metres, above 0 where it does. It
+/// changes by at most twice what the viewpoint moves.
+double depth_in_sun(const vantage::SunLimit& sun, const SeenTarget& target, const Vec3& point);
+
 /// A triangle that enters the zone of a link between an antenna and a vehicle.
 std::optional<std::size_t> entering_zone(const vantage::RadioLink& link, const Blockers& blockers, const Vec3& antenna,
                                          const Vec3& vehicle);

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <sstream>
+
+#include "flights.h"
+#include "isolated.h"
+#include "vantage/error.h"
+
+namespace attack {
+namespace {
+
+FlightJudgement judge_number(std::uint64_t seed, std::size_t index) {
+  try {
+    return judge_flight(draw_flight(seed, index), ask_check_flight);
+  } catch (const vantage::Error& error) {
+    FlightJudgement refused;
+    refused.words.push_back(std::string("flight, refused: ") + name_of(error.code()));
+    if (error.kind() != vantage::ErrorKind::input) refused.add_wrong(std::string("error: ") + error.what());
+    return refused;
+  }
+}
+
+std::string on_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+std::string to_text(const FlightJudgement& judgement) {
+  std::ostringstream text;
+  for (const std::string& word : judgement.words) text << "+" << on_one_line(word) << "\n";
+  for (const std::string& wrong : judgement.wrong) text << "-" << on_one_line(wrong) << "\n";
+  for (const auto& [what, count] : judgement.counts) text << "#" << count << " " << what << "\n";
+  return text.str();
+}
+
+class FlightAttack {
+ public:
+  explicit FlightAttack(const FlightRun& run) : run_(run) {}
+
+  bool run() {
+    std::printf("seed %llu, flights %zu to %zu; one of them: vantage_attack --flights 1 --seed %llu --only NUMBER\n",
+                static_cast<unsigned long long>(run_.seed), run_.first, run_.first + run_.count - 1,
+                static_cast<unsigned long long>(run_.seed));
+    Processes processes(run_.jobs, run_.seconds);
+    for (std::size_t i = 0; i < run_.count || !processes.idle();) {
+      if (i < run_.count && !processes.full()) {
+        const std::size_t index = run_.first + i++;
+        processes.start(index, [this, index] { return to_text(judge_number(run_.seed, index)); });
+        continue;
+      }
+      const auto [index, exit] = processes.next();
+      note(index, exit);
+    }
+    for (const auto& [word, count] : words_) std::printf("%12zu  %s\n", count, word.c_str());
+    for (const auto& [what, count] : counts_) std::printf("%12.0f  %s\n", count, what.c_str());
+    std::printf("%zu drawn: %zu wrong\n", run_.count, wrong_);
+    const bool are_enough = run_.count < 100 || 10 * words_["flight"] >= 5 * run_.count;
+    if (!are_enough) std::printf("WRONG too few are judged: the others are refused\n");
+    return wrong_ == 0 && are_enough;
+  }
+
+ private:
+  void note(std::size_t index, const Exit& exit) {
+    std::vector<std::string> wrong;
+    if (exit.crashed) wrong.push_back("crash: " + exit.how);
+    if (exit.hung) wrong.push_back("hang: " + exit.how);
+    std::istringstream lines(exit.crashed || exit.hung ? "" : exit.text);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("+")) ++words_[line.substr(1)];
+      if (line.starts_with("-")) wrong.push_back(line.substr(1));
+      if (!line.starts_with("#")) continue;
+      const std::size_t blank = line.find(' ');
+      counts_[line.substr(blank + 1)] += std::stod(line.substr(1, blank));
+    }
+    wrong_ += !wrong.empty();
+    for (const std::string& text : wrong) {
+      std::printf("WRONG flight %zu: %s\n", index, text.c_str());
+      write(index, text);
+    }
+    std::fflush(stdout);
+  }
+
+  void write(std::size_t index, const std::string& wrong) {
+    if (run_.out.empty()) return;
+    const std::string kind = wrong.substr(0, wrong.find(':'));
+    if (written_[kind]++ >= run_.written) return;
+    std::string name = kind;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    const std::string folder = run_.out + "/" + name + "-" + std::to_string(run_.seed) + "-" + std::to_string(index);
+    const DrawnFlight small = minimise_flight(draw_flight(run_.seed, index), wrong, ask_check_flight);
+    write_flight(small, wrong, folder);
+    std::printf("      %zu points, %zu triangles: %s\n", small.flight.points.size(),
+                small.mission.scene().mesh.triangles.size(), folder.c_str());
+  }
+
+  FlightRun run_;
+  std::map<std::string, std::size_t> words_;
+  std::map<std::string, double> counts_;
+  std::map<std::string, int> written_;
+  std::size_t wrong_ = 0;
+};
+
+}  // namespace
+
+bool run_drawn_flights(const FlightRun& run) { return FlightAttack(run).run(); }
+
+}  // namespace attack
