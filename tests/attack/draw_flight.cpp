@@ -109,7 +109,8 @@ class FlightDrawing {
     auto loaded = std::make_shared<vantage::LoadedScene>();
     loaded->scene = drawn.scene;
     std::string text = drawn.text;
-    if (const std::size_t at = text.find(", visible: "); at != std::string::npos) text.erase(at, text.find('}', at) - at);
+    if (const std::size_t at = text.find(", visible: "); at != std::string::npos)
+      text.erase(at, text.find('}', at) - at);
     drawn_.mission = resolve_mission(vantage::read_mission_text(text, "drawn.yaml", {}), loaded);
     drawn_.mission.navigation.meshes = drawn.meshes;
   }
@@ -136,7 +137,8 @@ class FlightDrawing {
     for (const vantage::Box& box : navigation.keep_out) add_box(box);
     const auto add_zone = [&](const vantage::Zone& zone) {
       for (const Eigen::Vector2d& p : zone.outer) {
-        for (const double z : {zone.min_z_m, zone.max_z_m}) limits_.emplace_back(p.x(), p.y(), std::isfinite(z) ? z : middle_.z());
+        for (const double z : {zone.min_z_m, zone.max_z_m})
+          limits_.emplace_back(p.x(), p.y(), std::isfinite(z) ? z : middle_.z());
       }
     };
     for (const vantage::Zone& zone : navigation.keep_in_zones) add_zone(zone);
@@ -145,7 +147,8 @@ class FlightDrawing {
       limits_.insert(limits_.end(), mesh.mesh.vertices.begin(), mesh.mesh.vertices.end());
     }
     if (navigation.altitude) {
-      for (const double z : {navigation.altitude->min_m, navigation.altitude->max_m}) limits_.emplace_back(middle_.x(), middle_.y(), z);
+      for (const double z : {navigation.altitude->min_m, navigation.altitude->max_m})
+        limits_.emplace_back(middle_.x(), middle_.y(), z);
     }
   }
 
@@ -208,7 +211,8 @@ class FlightDrawing {
       }
       case 3: {
         kind = "touches an edge";
-        const Vec3 on = a + random_.uniform(0, 1) * (b - a), along = random_.direction() * size_ * random_.uniform(0.05, 1);
+        const Vec3 on = a + random_.uniform(0, 1) * (b - a),
+                   along = random_.direction() * size_ * random_.uniform(0.05, 1);
         return {on - along, on + along};
       }
       case 4:
@@ -239,7 +243,8 @@ class FlightDrawing {
       case 10: {
         kind = "along a line of sight";
         const Vec3 through = place();
-        return {target + random_.uniform(0, 1) * (through - target), target + random_.uniform(0.5, 3) * (through - target)};
+        return {target + random_.uniform(0, 1) * (through - target),
+                target + random_.uniform(0.5, 3) * (through - target)};
       }
       case 11: {
         kind = "on a limit";

@@ -71,8 +71,8 @@ Pieces pieces_at(const vantage::Ground& ground, const Plan& p) {
       pieces.beside = 0;
     } else {
       for (int k = 0; k < 3; ++k) {
-        pieces.beside = std::min(
-            pieces.beside, distance_to_side(Plan::Zero(), c[k].head<2>(), Plan(c[(k + 1) % 3].head<2>())));
+        pieces.beside =
+            std::min(pieces.beside, distance_to_side(Plan::Zero(), c[k].head<2>(), Plan(c[(k + 1) % 3].head<2>())));
       }
     }
   }
@@ -86,8 +86,8 @@ std::vector<Plan> near_places(const vantage::Ground& ground, const Vec3& p) {
   double size = p.head<2>().cwiseAbs().maxCoeff();
   for (const Vec3& v : ground.surface->vertices) size = std::max(size, (v - p).head<2>().norm());
   const double step = 1e-9 * size;
-  for (const Plan& aside : {Plan(step, 0.3 * step), Plan(-step, -0.3 * step), Plan(-0.3 * step, step),
-                            Plan(0.3 * step, -step)}) {
+  for (const Plan& aside :
+       {Plan(step, 0.3 * step), Plan(-step, -0.3 * step), Plan(-0.3 * step, step), Plan(0.3 * step, -step)}) {
     places.push_back(places[0] + aside);
   }
   return places;
@@ -173,12 +173,10 @@ std::vector<Room> NavigationRooms::at(const Vec3& p) const {
       add(rooms, limit, room.low, room.high);
     };
     add_between("ground edge", [](const Pieces& g) { return g.is_there() ? kInfinity : -g.beside; });
-    add_between("agl min", [&, low = low](const Pieces& g) {
-      return g.is_there() ? p.z() - g.highest - low : kInfinity;
-    });
-    add_between("agl max", [&, high = high](const Pieces& g) {
-      return g.is_there() ? g.lowest + high - p.z() : kInfinity;
-    });
+    add_between("agl min",
+                [&, low = low](const Pieces& g) { return g.is_there() ? p.z() - g.highest - low : kInfinity; });
+    add_between("agl max",
+                [&, high = high](const Pieces& g) { return g.is_there() ? g.lowest + high - p.z() : kInfinity; });
   }
   if (!navigation_.keep_in.empty() || !navigation_.keep_in_zones.empty()) {
     double low = -kInfinity, high = -kInfinity;
@@ -211,9 +209,9 @@ std::vector<Room> NavigationRooms::at(const Vec3& p) const {
     double nearest = kInfinity;
     const vantage::Mesh& obstacles = *navigation_.clearance->obstacles;
     for (const vantage::Triangle& t : obstacles.triangles) {
-      nearest = std::min(nearest, distance_to_triangle(Vec3::Zero(), {obstacles.vertices[t[0]] - p,
-                                                                      obstacles.vertices[t[1]] - p,
-                                                                      obstacles.vertices[t[2]] - p}));
+      nearest = std::min(nearest,
+                         distance_to_triangle(Vec3::Zero(), {obstacles.vertices[t[0]] - p, obstacles.vertices[t[1]] - p,
+                                                             obstacles.vertices[t[2]] - p}));
     }
     const double room = nearest - navigation_.clearance->distance_m;
     add(rooms, "clearance", room, room);
@@ -264,7 +262,7 @@ double SensorRooms::in_picture(const Vec3& p) const {
   double best = starts[0].value;
   for (std::size_t s = 0; s < std::min<std::size_t>(6, starts.size()); ++s) {
     Start at = starts[s];
-    double turn = 0;  // of the directions, so that a sharp ridge is met along it some time
+    double turn = 0;                          // of the directions, so that a sharp ridge is met along it some time
     for (double step = 0.1; step > 1e-12;) {  // a pattern search: the first of 16 directions that is better
       bool is_better = false;
       turn += 0.7548776662466927;
@@ -283,6 +281,89 @@ double SensorRooms::in_picture(const Vec3& p) const {
   return best;
 }
 
+namespace {
+
+/// One corner and one side of the picture, for a pitch: how deep the corner is in it is
+/// size cos(yaw - best) + height.
+struct YawWave {
+  double size, best, height;
+};
+
+/// Whether a yaw has all of them at least so deep. Where there is one, there is one at the beginning of an arc.
+bool has_yaw(const std::vector<YawWave>& waves, double depth, const std::optional<double>& fixed_yaw) {
+  constexpr double kTurn = 2 * std::numbers::pi, kSlack = 1e-12;
+  struct Arc {
+    double middle, half;
+  };
+  std::vector<Arc> arcs;
+  for (const YawWave& wave : waves) {
+    const double needed = depth - wave.height;
+    if (needed <= -wave.size) continue;
+    if (needed > wave.size) return false;
+    arcs.push_back({wave.best, std::acos(needed / wave.size) + kSlack});
+  }
+  const auto is_in_all = [&](double yaw) {
+    return std::all_of(arcs.begin(), arcs.end(), [&](const Arc& arc) {
+      return std::abs(std::remainder(yaw - arc.middle, kTurn)) <= arc.half + kSlack;
+    });
+  };
+  if (fixed_yaw) return is_in_all(*fixed_yaw);
+  return arcs.empty() ||
+         std::any_of(arcs.begin(), arcs.end(), [&](const Arc& arc) { return is_in_all(arc.middle - arc.half); });
+}
+
+}  // namespace
+
+// A change of the pitch turns the sides of the picture by as much, so that no depth changes by more than that times the
+// distance: where the middle of a part lacks more, no pitch of that part does.
+bool SensorRooms::may_be_in_picture(const Vec3& p, double depth, double farthest) const {
+  constexpr int kMostParts = 4000;
+  const vantage::Mount& mount = sensor_.mount;
+  const std::optional<double> yaw =
+      mount.yaw_deg ? std::optional(*mount.yaw_deg * kRadiansPerDegree) : std::optional<double>();
+  const auto has_orientation = [&](double pitch, double deep) {
+    std::vector<YawWave> waves;
+    for (const Vec3& side : picture_sides(*sensor_.camera, 0, pitch, mount.roll_deg * kRadiansPerDegree)) {
+      for (const SeenTarget& part : parts_) {
+        for (const Vec3& corner : part.corners) {
+          const Vec3 d = corner - p;
+          const double cosine = side.x() * d.x() + side.y() * d.y(), sine = side.y() * d.x() - side.x() * d.y();
+          waves.push_back({std::hypot(cosine, sine), std::atan2(sine, cosine), side.z() * d.z()});
+        }
+      }
+    }
+    return has_yaw(waves, deep - 1e-13 * farthest, yaw);
+  };
+  std::vector<std::pair<double, double>> open{
+      {mount.min_pitch_deg * kRadiansPerDegree, mount.max_pitch_deg * kRadiansPerDegree}};
+  for (int parts = 0; !open.empty(); ++parts) {
+    if (parts >= kMostParts) return true;  // it is not sure
+    const auto [low, high] = open.back();
+    open.pop_back();
+    const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    if (!has_orientation(middle, depth - half * farthest)) continue;
+    if (has_orientation(middle, depth) || !(half > 0)) return true;
+    open.emplace_back(low, middle);
+    open.emplace_back(middle, high);
+  }
+  return false;
+}
+
+Room SensorRooms::picture_room(const Vec3& p) const {
+  const double found = in_picture(p);
+  if (found >= 0 || sensor_.mount.is_fixed()) return {"frame", found, found};
+  double farthest = 0;
+  for (const SeenTarget& part : parts_) {
+    for (const Vec3& corner : part.corners) farthest = std::max(farthest, (corner - p).norm());
+  }
+  double most = 0;
+  for (double depth = -1e-10 * farthest; depth > -farthest; depth *= 4) {
+    if (may_be_in_picture(p, depth, farthest)) break;
+    most = depth;
+  }
+  return {"frame", found, std::max(found, most)};
+}
+
 std::vector<Room> SensorRooms::at(const Vec3& p) const {
   std::vector<Room> rooms;
   const double range = range_limit_m(sensor_);
@@ -299,8 +380,7 @@ std::vector<Room> SensorRooms::at(const Vec3& p) const {
       const double height = part.normal.dot(p - corner);
       if (sensor_.incidence_deg) {
         const double angle = *sensor_.incidence_deg * kRadiansPerDegree;
-        const double room =
-            height * std::sin(angle) - (p - corner - height * part.normal).norm() * std::cos(angle);
+        const double room = height * std::sin(angle) - (p - corner - height * part.normal).norm() * std::cos(angle);
         add(rooms, "incidence", room, room);
       }
       if (sensor_.pixel && sensor_.pixel->kind == vantage::PixelLimit::Kind::worst && !part.all_sides) {
@@ -315,8 +395,8 @@ std::vector<Room> SensorRooms::at(const Vec3& p) const {
     }
   }
   if (sensor_.camera) {
-    const double room = in_picture(p);
-    add(rooms, "frame", room, room);
+    const Room room = picture_room(p);
+    add(rooms, room.limit, room.low, room.high);
   }
   return rooms;
 }

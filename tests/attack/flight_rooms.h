@@ -46,8 +46,12 @@ class SensorRooms {
   std::vector<Room> at(const Vec3& position) const;
 
  private:
-  /// Of the best orientation of the camera.
+  /// Of the best orientation of the camera that a search finds.
   double in_picture(const Vec3& position) const;
+  /// `low`: that. `high`: no orientation has more.
+  Room picture_room(const Vec3& position) const;
+  /// False only where no orientation has all corners at least `depth` inside of the picture's sides.
+  bool may_be_in_picture(const Vec3& position, double depth, double farthest) const;
 
   vantage::Sensor sensor_;
   std::vector<SeenTarget> parts_;

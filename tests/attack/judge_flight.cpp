@@ -134,7 +134,8 @@ class FlightJudge {
     double at = 0;
     for (std::size_t i = 0; i < drawn_.flight.points.size(); ++i) {
       if (i > 0) at += length(i - 1);
-      if (!(std::abs(check_.point_at_m[i] - at) <= 1e-12 * (at + rounding_))) wrong("length", "of point " + std::to_string(i));
+      if (!(std::abs(check_.point_at_m[i] - at) <= 1e-12 * (at + rounding_)))
+        wrong("length", "of point " + std::to_string(i));
     }
     for (const auto& target : check_.targets) judge_spans(target.seen, target.name);
     for (const auto& limit : check_.broken) judge_spans(limit.spans, limit.name);
@@ -167,7 +168,8 @@ class FlightJudge {
       }
       if (i == 0) continue;
       const double from = std::max(span.begin_m, check_.point_at_m[i - 1]), to = std::min(span.end_m, at);
-      const double speed = std::isnan(points[i].speed_m_s) ? drawn_.options.speed_m_s.value_or(NAN) : points[i].speed_m_s;
+      const double speed =
+          std::isnan(points[i].speed_m_s) ? drawn_.options.speed_m_s.value_or(NAN) : points[i].speed_m_s;
       if (to > from) {
         least += (to - from) / speed;
         most += (to - from) / speed;
@@ -175,8 +177,8 @@ class FlightJudge {
     }
     const double slack = 1e-9 * (1 + check_.duration_s);
     if (!(span.duration_s() >= least - slack && span.duration_s() <= most + slack)) {
-      wrong("times", name + ", " + std::to_string(span.duration_s()) + " s, not from " + std::to_string(least) + " to " +
-                         std::to_string(most));
+      wrong("times", name + ", " + std::to_string(span.duration_s()) + " s, not from " + std::to_string(least) +
+                         " to " + std::to_string(most));
     }
   }
 
@@ -204,7 +206,8 @@ class FlightJudge {
     result_.count("positions that are claimed");
     const std::string reason = oracle.surely_not_seen(position, rounding_of(position));
     if (!reason.empty()) {
-      wrong("over-claim", std::string(where) + " " + place_text(position) + ", " + target.name + " is not seen: " + reason);
+      wrong("over-claim",
+            std::string(where) + " " + place_text(position) + ", " + target.name + " is not seen: " + reason);
     }
     if (!(radius_ > 0)) return;
     for (int i = 0; i < 4; ++i) {
@@ -212,7 +215,8 @@ class FlightJudge {
       result_.count("positions of tubes");
       const std::string why = oracle.surely_not_seen(beside, rounding_of(beside));
       if (why.empty()) continue;
-      wrong("over-claim of a tube", place_text(beside) + " about " + place_text(position) + ", " + target.name + ": " + why);
+      wrong("over-claim of a tube",
+            place_text(beside) + " about " + place_text(position) + ", " + target.name + ": " + why);
     }
   }
 
@@ -235,7 +239,8 @@ class FlightJudge {
       result_.count("not claimed, by less than a millionth of the distance");
       return;
     }
-    wrong("under-claim", place_text(at.position) + " of leg " + std::to_string(at.leg) + ", " + target.name + " is seen");
+    wrong("under-claim",
+          place_text(at.position) + " of leg " + std::to_string(at.leg) + ", " + target.name + " is seen");
   }
 
   /// Of a tube places are tried: what is found is told, no more.
@@ -287,9 +292,9 @@ class FlightJudge {
     const bool turns = target.sensor().camera && !target.sensor().mount.is_fixed();
     for (const Room& room : target.rooms(leg(0).from)) {
       const bool is_range = room.limit == "max_range", is_behind = room.limit == "behind";
-      const std::vector<std::string> names = is_range || is_behind     ? std::vector<std::string>{""}
-                                             : room.limit == "frame"   ? std::vector<std::string>{"frame", "gimbal"}
-                                                                       : std::vector<std::string>{room.limit};
+      const std::vector<std::string> names = is_range || is_behind   ? std::vector<std::string>{""}
+                                             : room.limit == "frame" ? std::vector<std::string>{"frame", "gimbal"}
+                                                                     : std::vector<std::string>{room.limit};
       const Kind kind = is_range ? Kind::out_of_range : is_behind ? Kind::behind : Kind::limit;
       const bool is_measured = room.limit != "sun" && !(room.limit == "frame" && (turns || radius_ > 0));
       judge_limit(room.limit, spans_of(check, kind, names), rooms, is_measured, turns && room.limit == "frame");
@@ -323,7 +328,8 @@ class FlightJudge {
         const double aside = 1.5e-6 * target.reach(at.position) + 2 * rounding_of(at.position);
         bool is_hidden = false;
         for (std::uint32_t object = 0; object < objects.size() && !is_hidden; ++object) {
-          is_hidden = display_name(objects[object]) == reason.name && target.may_be_hidden_by(at.position, object, aside);
+          is_hidden =
+              display_name(objects[object]) == reason.name && target.may_be_hidden_by(at.position, object, aside);
         }
         if (!is_hidden) wrong("blames", place_text(at.position) + " is not hidden by " + reason.name);
       }
@@ -348,17 +354,20 @@ class FlightJudge {
       if (!is_told) {
         const double least = is_measured ? radius_ : 0;
         if (room.high < least - rounding - 1e-9 * radius_) {
-          wrong("limit", limit + " is not told at " + place_text(at.position) + ", where " + std::to_string(room.high) + " m are left");
+          wrong("limit", limit + " is not told at " + place_text(at.position) + ", where " + std::to_string(room.high) +
+                             " m are left");
         }
         for (int i = 0; i < 2 && radius_ > 0; ++i) {
           const Vec3 beside = in_tube(at.position);
-          if (room_at(beside).high < -rounding) wrong("limit of a tube", limit + " is not told at " + place_text(beside));
+          if (room_at(beside).high < -rounding)
+            wrong("limit of a tube", limit + " is not told at " + place_text(beside));
         }
       } else if (!is_near_end(spans, at.at_m) && (is_measured || !(radius_ > 0))) {
         double slack = 4 * rounding + 1e-9 * radius_;
         if (is_searched) slack += 2.5 * std::min(1e-3, 1e-5 * length(at.leg)) + 1e-6 * drawn_.scale;
         if (room.low > radius_ + slack) {
-          wrong("limit without need", limit + " is told at " + place_text(at.position) + ", where " + std::to_string(room.low) + " m are left");
+          wrong("limit without need", limit + " is told at " + place_text(at.position) + ", where " +
+                                          std::to_string(room.low) + " m are left");
         }
       }
     }
@@ -375,8 +384,10 @@ class FlightJudge {
       const auto found = told.find(room.limit);
       const std::vector<FlightSpan> none;
       // Above ground, heights count, not distances.
-      const bool is_measured = room.limit.find("agl") == std::string::npos && room.limit != "ground edge" && !has_agl(room.limit);
-      judge_limit(room.limit, found == told.end() ? none : found->second->spans, rooms, is_measured || !(radius_ > 0), false);
+      const bool is_measured =
+          room.limit.find("agl") == std::string::npos && room.limit != "ground edge" && !has_agl(room.limit);
+      judge_limit(room.limit, found == told.end() ? none : found->second->spans, rooms, is_measured || !(radius_ > 0),
+                  false);
       if (found != told.end()) judge_worst(*found->second, rooms, is_measured);
       told.erase(room.limit);
     }
@@ -385,10 +396,12 @@ class FlightJudge {
 
   bool has_agl(const std::string& limit) const {
     const auto has = [](const std::vector<vantage::Zone>& zones) {
-      return std::any_of(zones.begin(), zones.end(), [](const vantage::Zone& zone) { return zone.above_ground.has_value(); });
+      return std::any_of(zones.begin(), zones.end(),
+                         [](const vantage::Zone& zone) { return zone.above_ground.has_value(); });
     };
     const vantage::Navigation& navigation = drawn_.mission.navigation;
-    return limit.starts_with("keep_out zone") ? has(navigation.keep_out_zones) : limit == "keep_in" && has(navigation.keep_in_zones);
+    return limit.starts_with("keep_out zone") ? has(navigation.keep_out_zones)
+                                              : limit == "keep_in" && has(navigation.keep_in_zones);
   }
 
   /// It is what the place says, and hardly less than elsewhere.
@@ -399,8 +412,8 @@ class FlightJudge {
       if (room.limit != limit.name) continue;
       const double there = std::max(0.0, radius_ - room.low);
       if (std::abs(limit.worst - there) > 1e-9 * drawn_.scale + 8 * rounding_of(limit.worst_at)) {
-        wrong("worst", limit.name + " " + std::to_string(limit.worst) + " at " + place_text(limit.worst_at) + ", where it is " +
-                           std::to_string(there));
+        wrong("worst", limit.name + " " + std::to_string(limit.worst) + " at " + place_text(limit.worst_at) +
+                           ", where it is " + std::to_string(there));
       }
     }
   }
@@ -419,7 +432,8 @@ class FlightJudge {
   void judge_nearest() {
     const vantage::Scene& scene = drawn_.mission.scene();
     const std::vector<std::uint32_t> ground = ground_objects();
-    const Blockers blockers(scene, {drawn_.mission.views.empty() ? drawn_.mission.target.part(0) : drawn_.mission.views[0][0].part(0)});
+    const Blockers blockers(
+        scene, {drawn_.mission.views.empty() ? drawn_.mission.target.part(0) : drawn_.mission.views[0][0].part(0)});
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < leg_count(); ++i) {
       const Leg local{leg(i).from - blockers.origin, leg(i).to - blockers.origin};
@@ -430,18 +444,23 @@ class FlightJudge {
     }
     result_.count("nearest distances");
     const double expected = std::max(0.0, least - radius_), told = check_.nearest.distance_m;
-    const double rounding = 2 * rounding_ + 1e-12 * (std::isfinite(least) ? least : 0) + 1.05 * blockers.merging;
+    // LegDistances: twice what rounding may do. Merging: blockers.merging is twice that of half the scene's size.
+    const double rounding = 4 * rounding_ + 1e-12 * (std::isfinite(least) ? least : 0) + 4 * blockers.merging;
     if (std::isinf(expected) && std::isinf(told)) return;
     if (told > expected + 1e-14 * expected + kRoundoff * rounding_) {
       // Merging may move corners, and triangles as narrow as rounding are dropped: within that either is right.
-      if (told > expected + rounding) wrong("nearest", std::to_string(told) + " m, and " + std::to_string(expected) + " m are right");
+      if (told > expected + rounding)
+        wrong("nearest", std::to_string(told) + " m, and " + std::to_string(expected) + " m are right");
       result_.count("nearest, above by rounding");
     }
-    if (told < expected - rounding) wrong("nearest, less", std::to_string((expected - told) * 1e12) + " pm, of " + std::to_string(rounding * 1e12) + " pm; " + std::to_string(expected) + " m are right");
+    if (told < expected - rounding)
+      wrong("nearest, less", std::to_string((expected - told) * 1e12) + " pm, of " + std::to_string(rounding * 1e12) +
+                                 " pm; " + std::to_string(expected) + " m are right");
   }
 
   void judge_gimbal(const vantage::TargetCheck& target) {
-    if (target.gimbal.has_value() != target.longest.has_value()) return wrong("gimbal", "is there where nothing is seen");
+    if (target.gimbal.has_value() != target.longest.has_value())
+      return wrong("gimbal", "is there where nothing is seen");
     if (!target.gimbal) return;
     const FlightSpan& span = target.seen[*target.longest];
     for (std::size_t i = 0; i < leg_count(); ++i) {
@@ -458,12 +477,51 @@ class FlightJudge {
                              std::to_string(target.gimbal->max_pitch_deg) + ", along " + std::to_string(span.begin_m) +
                              " to " + std::to_string(span.end_m) + " m, place " + std::to_string(at.at_m));
         }
-        const Vec3 along = leg(i).to - leg(i).from;
-        const double own = drawn_.flight.leg_count() > 0 ? drawn_.flight.points[i + 1].speed_m_s : NAN;
-        const double speed = std::isnan(own) ? drawn_.options.speed_m_s.value_or(NAN) : own;
-        const double rate = speed * along.normalized().cross(look).norm() / look.squaredNorm() * 180 / std::numbers::pi;
+        const double speed = speed_on(i), rate = turn_at(at, target.centre);
         if (rate > target.gimbal->rate_deg_s * (1 + 1e-6) + 1e-9 + 60 * speed * rounding_ / look.squaredNorm()) {
           wrong("rate", std::to_string(rate) + " at " + place_text(at.position));
+        }
+      }
+    }
+  }
+
+  double speed_on(std::size_t i) const {
+    const double own = drawn_.flight.leg_count() > 0 ? drawn_.flight.points[i + 1].speed_m_s : NAN;
+    return std::isnan(own) ? drawn_.options.speed_m_s.value_or(NAN) : own;
+  }
+  /// Degrees in a second by which the line of sight turns.
+  double turn_at(const FlightPlace& at, const Vec3& centre) const {
+    const Vec3 look = centre - at.position, along = leg(at.leg).to - leg(at.leg).from;
+    return speed_on(at.leg) * along.normalized().cross(look).norm() / look.squaredNorm() * 180 / std::numbers::pi;
+  }
+
+  /// It is seen there, the camera is as fast as that, and where it is so all along the longest stretch, it is no
+  /// shorter.
+  void judge_followed(const vantage::TargetCheck& target, const FlightSpan& longest) {
+    const double rate = *drawn_.options.gimbal_rate_deg_s;
+    if (!target.followed) {
+      if (target.gimbal->rate_deg_s < rate * (1 - 1e-6))
+        wrong("followed", "nowhere, and it turns no faster than it may");
+      return;
+    }
+    const FlightSpan& span = *target.followed;
+    judge_spans({span}, target.name);
+    if (!holds(target.seen, span.begin_m, slack_m()) || !holds(target.seen, span.end_m, slack_m())) {
+      wrong("followed", "where it is not seen");
+    }
+    if (target.gimbal->rate_deg_s < rate * (1 - 1e-6) &&
+        span.duration_s() < longest.duration_s() - 1e-6 * (1 + check_.duration_s)) {
+      wrong("followed", "for less time than it may be");
+    }
+    for (std::size_t i = 0; i < leg_count(); ++i) {
+      if (!(length(i) > 0)) continue;
+      for (int k = 0; k < 20; ++k) {
+        const FlightPlace at = place(i, random_.uniform(0, 1));
+        const double distance = (target.centre - at.position).norm();
+        if (!holds({span}, at.at_m, -slack_m()) || distance < 1e3 * rounding_) continue;
+        const double slack = 60 * speed_on(i) * rounding_ / (distance * distance);
+        if (turn_at(at, target.centre) > rate * (1 + 1e-6) + slack) {
+          wrong("followed", "too fast at " + place_text(at.position));
         }
       }
     }
@@ -483,8 +541,11 @@ class FlightJudge {
           wrong("longest", target.name);
         }
       }
-      fails = fails || longest.duration_s() < drawn_.options.dwell_s.value_or(0);
-      fails = fails || (drawn_.options.gimbal_rate_deg_s && target.gimbal->rate_deg_s > *drawn_.options.gimbal_rate_deg_s);
+      const double dwell = drawn_.options.dwell_s.value_or(0);
+      fails = fails || longest.duration_s() < dwell;
+      if (!drawn_.options.gimbal_rate_deg_s) continue;
+      fails = fails || !target.followed || target.followed->duration_s() < dwell;
+      judge_followed(target, longest);
     }
     fails = fails || check_.nearest.distance_m < drawn_.options.clearance_m.value_or(0);
     if (fails == check_.passes()) wrong("verdict", fails ? "it passes" : check_.failures[0]);
@@ -512,7 +573,8 @@ void FlightJudgement::count(const std::string& what, double more) {
 
 void FlightJudgement::add_wrong(const std::string& text) {
   const std::string kind = text.substr(0, text.find(':') + 1);
-  const bool is_known = std::any_of(wrong.begin(), wrong.end(), [&](const std::string& w) { return w.starts_with(kind); });
+  const bool is_known =
+      std::any_of(wrong.begin(), wrong.end(), [&](const std::string& w) { return w.starts_with(kind); });
   if (!is_known) wrong.push_back(text);
 }
 
@@ -532,7 +594,8 @@ FlightJudgement judge_flight(const DrawnFlight& drawn, const CheckFlight& ask) {
     if (check.tube_radius_m > 0) result.words.emplace_back("flight, with a tube");
     if (!check.broken.empty()) result.words.emplace_back("flight, limits are broken");
     if (!drawn.mission.navigation.empty()) result.words.emplace_back("flight, with limits of navigation");
-    if (drawn.mission.sensor.limits_view() || drawn.mission.sensor.link) result.words.emplace_back("flight, with limits of the sensor");
+    if (drawn.mission.sensor.limits_view() || drawn.mission.sensor.link)
+      result.words.emplace_back("flight, with limits of the sensor");
     if (drawn.mission.views.size() > 0) result.words.emplace_back("flight, several targets or both sides");
   } catch (const vantage::Error& error) {
     result.words.push_back(std::string("flight, refused: ") + name_of(error.code()));
