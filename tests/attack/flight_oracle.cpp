@@ -178,6 +178,7 @@ std::vector<HiddenPart> OneTarget::hidden_parts(const vantage::Leg& leg) const {
   for (const PartView& view : views_) {
     for (std::size_t i = 0; i < blockers_.triangles.size(); ++i) {
       const Blocker& blocker = blockers_.triangles[i];
+      if (blocker.repeat) continue;  // preparing drops it: the first one is told
       const std::vector<double> shares = changes(blocker.corners, view.exact.target().corners, from, to);
       HiddenPart part{2, -1, blocker.object};
       for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
