@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Tests of tools/check_tour.py: right certificates are accepted, and none that was tampered with.
 
+    check_tours.py [VANTAGE]      # with the program: 'vantage verify-tour' must come to the same verdicts
+
 The certificates are made here, by hand: weak ones, but right. test_tour_bound_certificate.cpp has those of vantage.
 """
 
@@ -21,6 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 import check_tour as checker  # noqa: E402
 
+VANTAGE = ""
 UNIT = 1 << 30
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
 BOXES = [((0, 0, 0), (2, 2, 2)), ((30, 0, 1), (33, 2, 4)), ((32, 28, 0), (35, 30, 3)), ((1, 31, 0), (4, 34, 2)),
@@ -185,7 +188,24 @@ class Tours(unittest.TestCase):
         self.write(self.certificate(regions, proof, **({"closed": False, "first": 5} if opened else {})))
 
     def accepted(self):
-        return checker.check(self.file, lambda line: None)
+        """The bound, where both judges accept; neither may accept what the other refuses."""
+        verdict = self.verdict_of_the_program()
+        try:
+            bound = checker.check(self.file, lambda line: None)
+        except (checker.Refused, checker.Unreadable):
+            self.assertIn(verdict, (None, 1, 2))
+            raise
+        self.assertIn(verdict, (None, 0))
+        return bound
+
+    def verdict_of_the_program(self):
+        if not VANTAGE:
+            return None
+        run = subprocess.run([VANTAGE, "verify-tour", str(self.file), "-q"], capture_output=True, text=True,
+                             timeout=60, check=False)
+        self.assertIn(run.returncode, (0, 1, 2), run.stderr)
+        self.assertEqual(run.returncode == 2, run.stderr.startswith("vantage: "), run.stderr)
+        return run.returncode
 
     def refused(self, change, why="", kind=checker.Refused):
         """After `change` of the certificate; afterwards all is as it was."""
@@ -480,4 +500,6 @@ class Tours(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        VANTAGE = sys.argv.pop(1)
     unittest.main()

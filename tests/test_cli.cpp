@@ -14,8 +14,9 @@ using CliBadMesh = Cli;
 using CliBadOutput = Cli;
 using CliSignals = Cli;
 
-constexpr std::array kCommands = {"scene",   "inspect", "compute", "query", "verify", "compare", "devices",
-                                  "cameras", "spheres", "render",  "stand", "orbit",  "check",   "tour"};
+constexpr std::array kCommands = {"scene",   "inspect", "compute", "query",   "verify",
+                                  "compare", "devices", "cameras", "spheres", "render",
+                                  "stand",   "orbit",   "check",   "tour",    "verify-tour"};
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);

@@ -41,7 +41,7 @@ class CliDocs : public Cli {
     for (const std::string& line : lines(output_of({"--help"}))) {
       is_listed_ |= line == "Subcommands:";
       if (is_listed_ && line.empty()) break;
-      for (const std::string& name : matches(line, "^  ([a-z]+) ")) commands_.push_back(name);
+      for (const std::string& name : matches(line, "^  ([a-z-]+) ")) commands_.push_back(name);
     }
     ASSERT_GE(commands_.size(), 11U);
   }
@@ -143,7 +143,7 @@ TEST_F(CliDocs, BashCompletes) {
   EXPECT_EQ(completions({"vantage", "compute", "--method", "="}), (Words{"exact", "spheres"}));
   EXPECT_EQ(completions({"vantage", "spheres", "--sphere", "c"}), (Words{"centers", "conservative"}));
   EXPECT_EQ(completions({"vantage", "devices", "--device", "g"}), (Words{"gpu"}));
-  EXPECT_EQ(completions({"vantage", "help", "ver"}), (Words{"verify", "version"}));
+  EXPECT_EQ(completions({"vantage", "help", "ver"}), (Words{"verify", "verify-tour", "version"}));
   EXPECT_EQ(completions({"vantage", "compute", "--stages", "vol"}), (Words{"volumes"}));
   EXPECT_EQ(completions({"vantage", "compute", "--threads", ""}), Words{});
   // Names of files come from bash itself, which knows how to quote them.

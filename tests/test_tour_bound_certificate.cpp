@@ -17,6 +17,7 @@
 #include "support/run_program.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
+#include "vantage/tour_certificate.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::flight::tour {
@@ -83,6 +84,24 @@ TEST(TourBoundCertificate, IsAcceptedAndProvesNoMore) {
     write_tour_certificate(bound, file);
     const testing::ProgramRun run = checked(file);
     ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
+    const TourCertificateCheck check = verify_tour_certificate(file);
+    EXPECT_TRUE(check.is_accepted) << check.reason;
+    EXPECT_EQ(check.bound_m, bound.length_m);
+    ASSERT_TRUE(check.proved_m);
+    EXPECT_GE(*check.proved_m, bound.length_m);
+    EXPECT_EQ(check.regions.size(), bound.regions.size());
+    EXPECT_EQ(check.closed, problem.closed);
+    // All that is proved is accepted, and nothing above it.
+    claim(file, *check.proved_m);
+    EXPECT_TRUE(verify_tour_certificate(file).is_accepted);
+    if (round < 4) {
+      EXPECT_EQ(checked(file).exit_code, 0);
+    }
+    claim(file, std::nextafter(*check.proved_m, 1e300));
+    EXPECT_FALSE(verify_tour_certificate(file).is_accepted);
+    if (round < 4) {
+      EXPECT_EQ(checked(file).exit_code, 1);
+    }
     // What rounding took from the bound is less than a millionth of it.
     claim(file, bound.length_m * (1 + 1e-6) + 1e-9);
     const testing::ProgramRun more = checked(file);
@@ -109,6 +128,7 @@ TEST(TourBoundCertificate, OfAComputedVolumeIsRefused) {
   const testing::ProgramRun run = checked(file);
   EXPECT_EQ(run.exit_code, 1) << run.err << run.out;
   EXPECT_TRUE(run.err.starts_with("refused: ")) << run.err;
+  EXPECT_FALSE(verify_tour_certificate(file).is_accepted);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@
 #include "vantage/threads.h"
 #include "vantage/tiles.h"
 #include "vantage/tour.h"
+#include "vantage/tour_certificate.h"
 #include "vantage/tour_settings.h"
 #include "vantage/verify.h"
 #include "vantage/version.h"

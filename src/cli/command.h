@@ -38,6 +38,7 @@ void add_prove(CLI::App& app, Command& chosen);
 void add_compare(CLI::App& app, Command& chosen);
 void add_simplify(CLI::App& app, Command& chosen);
 void add_tour(CLI::App& app, Command& chosen);
+void add_verify_tour(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);
 void add_cameras(CLI::App& app, Command& chosen);

@@ -111,6 +111,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_compare(app, chosen);
   add_check(app, chosen);
   add_tour(app, chosen);
+  add_verify_tour(app, chosen);
   add_simplify(app, chosen);
   add_devices(app, chosen);
   add_cameras(app, chosen);

@@ -13,7 +13,7 @@
 namespace vantage::internal::flight::plans {
 namespace {
 
-constexpr std::size_t kColumns = 12;
+constexpr std::size_t kWaypointColumns = 12;
 
 std::vector<std::string_view> words_of(std::string_view line) {
   constexpr std::string_view kSeparators = " \t";
@@ -59,7 +59,7 @@ class WaypointTable {
   void add(std::string_view line, std::size_t number) {
     const std::vector<std::string_view> words = words_of(line);
     const std::string where = source_.place("line " + std::to_string(number));
-    if (words.size() != kColumns) {
+    if (words.size() != kWaypointColumns) {
       PlanSource::fail_at(ErrorCode::plan_syntax, where,
                           "the row has " + std::to_string(words.size()) + " columns instead of 12",
                           "save the plan anew with the ground station");
