@@ -71,6 +71,49 @@ TEST_F(CliFlight, TheExitCodeSaysWhetherSomethingWasFound) {
   EXPECT_EQ(code_of({"orbit", "mission.yaml", "--radius", "20", "--max-radius", "10"}), 2);
 }
 
+TEST_F(CliFlight, OrbitWritesAPlan) {
+  write("old.csv", testing::kOldOutput);
+  EXPECT_EQ(code_of({"orbit", "mission.yaml", "--radius", "20", "-q", "-o", "old.csv"}), 0);
+  // All of it sees the target, as the judge of plans says.
+  const Json check = json_of({"check", "mission.yaml", "old.csv", "--json", "--speed", "5"});
+  ASSERT_EQ(check["targets"].size(), 1U);
+  const Json& seen = check["targets"][0]["seen"];
+  ASSERT_EQ(seen.size(), 1U) << check;
+  EXPECT_NEAR(seen[0]["end_m"].get<double>() - seen[0]["begin_m"].get<double>(), check["length_m"].get<double>(), 1e-6);
+  EXPECT_GT(check["length_m"], 2 * 3.14 * 19.9);
+}
+
+TEST_F(CliFlight, OrbitRefusesAnOutputBeforeItComputes) {
+  write("old.csv", testing::kOldOutput);
+  write("two.yaml", std::string(kScene) + kTwo + kSensor);
+  expect_bad({"orbit", "mission.yaml", "-o", "orbit.plan"}, "qgroundcontrol");
+  expect_bad({"orbit", "mission.yaml", "-o", "city.obj"}, "city.obj");
+  expect_bad({"orbit", "mission.yaml", "-o", "orbit.txt"}, "orbit.txt");
+  expect_bad({"orbit", "two.yaml", "-o", "old.csv"}, "command line, -o");
+  expect_bad({"stand", "mission.yaml", "--clearance", "-2"}, "--clearance");
+}
+
+TEST_F(CliFlight, TheTourOfTheMissionSaysMarginClearanceAndRadius) {
+  const std::string plain = std::string(kScene) + testing::kTarget + kSensor;
+  write("tour.yaml",
+        plain + "tour: {vehicle: {kind: fixed_wing, turn_radius: 22}, view: {margin: 2.5}, clearance: 7}\n");
+  for (const Json& point : json_of({"stand", "tour.yaml", "--json"})["targets"][0]["standpoints"]) {
+    EXPECT_GE(point["margin_m"], 2.5);
+    EXPECT_GE(point["obstacle_distance_m"], 7);
+  }
+  EXPECT_EQ(json_of({"stand", "tour.yaml", "--json", "--margin", "1"})["targets"][0]["margin_m"], 1);
+  const Json orbits = json_of({"orbit", "tour.yaml", "--json"})["targets"][0]["orbits"];
+  ASSERT_FALSE(orbits.empty());
+  for (const Json& orbit : orbits) {
+    EXPECT_GE(orbit["radius_m"], 22);
+    EXPECT_GE(orbit["margin_m"], 2.5);
+    EXPECT_GE(orbit["obstacle_distance_m"], 6.9);
+  }
+  write("tour.yaml", plain + "tour: {vehicle: {kind: fixed_wing, turn_radius: 500}}\n");
+  EXPECT_EQ(code_of({"orbit", "tour.yaml"}), 1);
+  EXPECT_EQ(code_of({"orbit", "tour.yaml", "--radius", "20"}), 0);
+}
+
 TEST_F(CliFlight, OfSeveralTargetsEachHasItsAnswer) {
   write("two.yaml", std::string(kScene) + kTwo + kSensor);
   const Json json = json_of({"stand", "two.yaml", "--json"});

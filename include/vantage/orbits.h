@@ -9,6 +9,7 @@
 
 #include "vantage/export.h"
 #include "vantage/flight.h"
+#include "vantage/flight_plan.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
@@ -107,6 +108,13 @@ VANTAGE_API Orbits find_orbits(const Mission& mission, const Volume& volume, con
 /// where that is less and not 0. So the flight is in the volume as the orbit is. Throws Error(input) for an orbit
 /// without a radius, numbers that are not finite, and an error that is not positive.
 VANTAGE_API Flight flight_of(const Orbit& orbit, double chord_error_m = 0.1);
+
+/// The orbit as a plan for ground stations: a circle is one loiter, flown once, which formats without loiters state as
+/// chords; a racetrack is its legs. The camera is turned to the target's centre, where its mount allows that. Heights
+/// are above the mission's home, where there is one and the format knows such heights; speed and vehicle are those of
+/// MissionFile::tour. Of a scene without a place on the earth it is x, y and z of the scene frame, which a table (CSV)
+/// alone can state: else throws Error(not_georeferenced). Throws as flight_of.
+VANTAGE_API FlightOut plan_of_orbit(const Orbit& orbit, const Mission& mission, PlanFormat format);
 
 /// Orbits of one target for json_text.
 struct NamedOrbits {

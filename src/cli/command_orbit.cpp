@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -13,7 +14,10 @@
 #include "cli/text_table.h"
 #include "cli/view_rows.h"
 #include "vantage/error.h"
+#include "vantage/flight_plan.h"
+#include "vantage/input.h"
 #include "vantage/orbits.h"
+#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {
@@ -31,6 +35,7 @@ constexpr const char* kOrbitExamples =
     "EXAMPLES\n"
     "  vantage orbit mission.yaml --radius 60\n"
     "  vantage orbit mission.yaml --centre over --margin 5\n"
+    "  vantage orbit mission.yaml --target roof -o orbit.plan\n"
     "  vantage orbit mission.yaml --centre anywhere --json | jq '.targets[].orbits[0]'\n"
     "\n"
     "The exit code is 1 if a target has no orbit.\n";
@@ -38,13 +43,18 @@ constexpr const char* kOrbitExamples =
 struct OrbitArguments {
   CommonOptions common;
   std::string mission_file, target;
-  std::string radius, most_radius, margin;  // as typed; empty: not given
+  std::string radius, most_radius, margin, clearance;  // as typed; empty: not given
+  std::string output_file;
   std::string centre = "around";
   bool counterclockwise = false, circles = false, json = false;
 };
 
-OrbitOptions orbit_options(const OrbitArguments& arguments) {
+OrbitOptions orbit_options(const OrbitArguments& arguments, const MissionFile& file) {
   OrbitOptions options;
+  if (file.tour && file.tour->vehicle.kind == TourVehicle::Kind::fixed_wing) {
+    options.least_radius_m = file.tour->vehicle.turn_radius_m;
+  }
+  if (file.tour) options.margin_m = file.tour->margin_m;
   if (!arguments.radius.empty()) options.least_radius_m = positive_length_option("--radius", arguments.radius);
   if (!arguments.most_radius.empty()) {
     options.most_radius_m = positive_length_option("--max-radius", arguments.most_radius);
@@ -132,15 +142,49 @@ std::vector<NamedOrbits> orbits_of(const TargetVolumes& volumes, const OrbitOpti
   return result;
 }
 
+/// An orbit of one target is written.
+void check_orbit_output(const OrbitArguments& arguments, const MissionFile& file) {
+  if (arguments.output_file.empty()) return;
+  check_can_write(arguments.output_file);
+  check_not_an_input(arguments.output_file, input_files(file));
+  plan_format_of(arguments.output_file);
+  if (file.targets.size() < 2 || file.combine != Combine::each || !arguments.target.empty()) return;
+  throw Error(ErrorCode::missing_key, "the mission has several targets, and a plan has the orbit of one",
+              "command line, -o", "say which with --target NAME");
+}
+
+/// The deepest one: it stays in view wherever the wind pushes, as far as any does.
+void write_orbit(const Orbits& orbits, const Mission& mission, const std::string& file) {
+  if (orbits.found.empty()) return;
+  const auto is_deepest = [](const Orbit& orbit) { return orbit.kind == OrbitKind::deepest; };
+  const auto deepest = std::find_if(orbits.found.begin(), orbits.found.end(), is_deepest);
+  const Orbit& chosen = deepest == orbits.found.end() ? orbits.found.front() : *deepest;
+  write_flight_plan(plan_of_orbit(chosen, mission, plan_format_of(file)), file);
+}
+
+/// Whether the format can state an orbit of the mission: before any is looked for.
+void check_can_state(const Mission& mission, const std::string& file) {
+  Orbit any;
+  any.centre = mission.home.value_or(Vec3::Zero());
+  any.radius_m = 1;
+  flight_plan_bytes(plan_of_orbit(any, mission, plan_format_of(file)), plan_format_of(file));
+}
+
 int run_orbit(const OrbitArguments& arguments) {
-  const MissionFile file = read_mission_argument(arguments.mission_file);
-  const OrbitOptions options = orbit_options(arguments);
+  MissionFile file = read_mission_argument(arguments.mission_file);
+  const OrbitOptions options = orbit_options(arguments, file);
+  check_orbit_output(arguments, file);
+  keep_clearance(file, arguments.clearance);
   std::vector<NamedOrbits> found;
   {
     ProgressLine progress(arguments.common);
     const TargetVolumes volumes =
         compute_targets(file, arguments.target, arguments.common.threads, progress.callback());
+    if (!arguments.output_file.empty()) check_can_state(volumes.targets.front().mission, arguments.output_file);
     found = orbits_of(volumes, options, progress.callback());
+    if (!arguments.output_file.empty()) {
+      write_orbit(found.front().orbits, volumes.targets.front().mission, arguments.output_file);
+    }
     if (!arguments.common.quiet) tell_of_targets(volumes);
   }
   print(arguments.json ? json_text(found) : text_of_orbits(found));
@@ -162,14 +206,23 @@ void add_orbit(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("MISSION");
   command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
-  command->add_option("--radius", options->radius, "The smallest radius that the vehicle can turn with; default: 40")
+  command
+      ->add_option("--radius", options->radius,
+                   "The smallest radius that the vehicle can turn with; default: "
+                   "tour.vehicle.turn_radius of a fixed wing, else 40")
       ->option_text("METRES");
   command->add_option("--max-radius", options->most_radius, "The largest radius to look for; default: any")
       ->option_text("METRES");
   command
       ->add_option("--margin", options->margin,
-                   "How far from the volume's boundary at least; default: 1 m, less in small volumes")
+                   "How far from the volume's boundary at least; default: tour.view.margin, else 1 m, less in small "
+                   "volumes")
       ->option_text("METRES");
+  command->add_option("--clearance", options->clearance, kClearanceHelp)->option_text("METRES");
+  command
+      ->add_option("-o,--output", options->output_file,
+                   "Write the deepest orbit as a plan: .plan, .waypoints, .kml, .gpx, .geojson or .csv")
+      ->option_text("FILE");
   command
       ->add_option("--centre", options->centre,
                    "around: the target is within the orbit; over: the centre is over the target; anywhere")

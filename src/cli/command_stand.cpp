@@ -40,7 +40,7 @@ constexpr const char* kStandExamples =
 struct StandArguments {
   CommonOptions common;
   std::string mission_file, target;
-  std::string margin;  // as typed; empty: not given
+  std::string margin, clearance;  // as typed; empty: not given
   bool json = false;
 };
 
@@ -102,8 +102,10 @@ std::vector<NamedStandpoints> standpoints_of(const TargetVolumes& volumes, const
 }
 
 int run_stand(const StandArguments& arguments) {
-  const MissionFile file = read_mission_argument(arguments.mission_file);
+  MissionFile file = read_mission_argument(arguments.mission_file);
+  keep_clearance(file, arguments.clearance);
   StandpointOptions options;
+  if (file.tour) options.margin_m = file.tour->margin_m;
   options.threads = arguments.common.threads;
   if (!arguments.margin.empty()) options.margin_m = length_option("--margin", arguments.margin);
   std::vector<NamedStandpoints> found;
@@ -135,8 +137,10 @@ void add_stand(CLI::App& app, Command& chosen) {
   command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
   command
       ->add_option("--margin", options->margin,
-                   "How far from the volume's boundary at least; default: 1 m, less in small volumes")
+                   "How far from the volume's boundary at least; default: tour.view.margin, else 1 m, less in small "
+                   "volumes")
       ->option_text("METRES");
+  command->add_option("--clearance", options->clearance, kClearanceHelp)->option_text("METRES");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   finish<StandArguments>(*command, options, kStandExamples, chosen, run_stand);
 }

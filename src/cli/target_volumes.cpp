@@ -5,9 +5,26 @@
 
 #include "cli/chosen_target.h"
 #include "cli/command.h"
+#include "vantage/input.h"
 #include "vantage/warning.h"
 
 namespace vantage::cli {
+
+void keep_clearance(MissionFile& file, const std::string& typed) {
+  std::optional<Clearance>& clearance = file.navigation.clearance;
+  if (!typed.empty()) {
+    const double asked = length_option("--clearance", typed);
+    if (asked < 0) {
+      throw Error(ErrorCode::value_out_of_range, "--clearance must be at least 0, not " + in_quotes(typed),
+                  "command line, --clearance", "write a length");
+    }
+    clearance.reset();
+    if (asked > 0) clearance.emplace().distance_m = asked;
+    return;
+  }
+  const double asked = file.tour ? file.tour->clearance_m : 0;
+  if (asked > 0 && (!clearance || clearance->distance_m < asked)) clearance.emplace().distance_m = asked;
+}
 
 TargetVolumes compute_targets(const MissionFile& file, const std::string& name, int threads, const Progress& progress) {
   Mission mission = resolve_mission(file, progress);

@@ -29,6 +29,13 @@ struct TargetVolumes {
 /// error of one of several targets is kept, that of a single one thrown. `threads` as in RunOptions.
 TargetVolumes compute_targets(const MissionFile& file, const std::string& name, int threads, const Progress& progress);
 
+inline constexpr const char* kClearanceHelp =
+    "How far from the scene at least, but for its ground; default: tour.clearance, else navigation.clearance";
+
+/// Volumes keep so far from the scene: `typed`, where it is not empty; else what MissionFile::tour says, unless
+/// `navigation` keeps farther away. Throws Error(input) for what is no length of at least 0.
+void keep_clearance(MissionFile& file, const std::string& typed);
+
 /// What is to be known of them, a line each on standard error.
 void tell_of_targets(const TargetVolumes& volumes);
 
