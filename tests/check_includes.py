@@ -62,7 +62,9 @@ MODULES = {
                        "maps/osm", "maps/terrain", "maps/city"],
     "flight": ["core", "geo", "io"],
     "flight/plans": ["core", "geo", "io", "flight"],
-    "flight/tour": ["core", "flight"],
+    "flight/tour": ["core", "scene", "flight"],
+    # It judges bounds of tours, and shares nothing with what finds them.
+    "flight/judge": ["core"],
     # The program and what serves the page stand on the public API.
     "live": [],
     "cli": ["live"],

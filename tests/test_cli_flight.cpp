@@ -86,7 +86,7 @@ TEST_F(CliFlight, OrbitWritesAPlan) {
 TEST_F(CliFlight, OrbitRefusesAnOutputBeforeItComputes) {
   write("old.csv", testing::kOldOutput);
   write("two.yaml", std::string(kScene) + kTwo + kSensor);
-  expect_bad({"orbit", "mission.yaml", "-o", "orbit.plan"}, "qgroundcontrol");
+  expect_bad({"orbit", "mission.yaml", "-o", "orbit.plan"}, "QGroundControl");
   expect_bad({"orbit", "mission.yaml", "-o", "city.obj"}, "city.obj");
   expect_bad({"orbit", "mission.yaml", "-o", "orbit.txt"}, "orbit.txt");
   expect_bad({"orbit", "two.yaml", "-o", "old.csv"}, "command line, -o");

@@ -92,6 +92,21 @@ TEST(TourAirspace, NamesWhatIsInTheWay) {
                         "tour.clearance");
 }
 
+TEST(TourAirspace, NothingFliesThroughAHill) {
+  // A ridge of the ground, 20 m high, and no clearance from it: over it, but not through it.
+  testing::SceneBuilder builder;
+  builder.polygon("west", {{-50, -50, 0}, {0, -50, 20}, {0, 50, 20}, {-50, 50, 0}});
+  builder.polygon("east", {{0, -50, 20}, {50, -50, 0}, {50, 50, 0}, {0, 50, 20}});
+  Scene scene = builder.scene();
+  for (SceneObject& object : scene.objects) object.kind = ObjectKind::ground;
+  const auto airspace = make_airspace(PreparedScene(scene), 5);
+  const Leg through = {{-40, 0, 10}, {40, 0, 10}}, over = {{-40, 0, 21}, {40, 0, 21}};
+  EXPECT_FALSE(airspace->allows(through, 0));
+  EXPECT_FALSE(airspace->obstacle(through, 0).empty());
+  EXPECT_TRUE(airspace->allows(over, 0.5));
+  EXPECT_FALSE(airspace->allows(over, 1.5));
+}
+
 TEST(TourAirspace, ToursFlyRoundBuildings) {
   testing::Random random(52);
   int visits = 0, targets = 0;

@@ -53,9 +53,10 @@ struct MissionTour {
 };
 
 struct MissionTourOptions {
-  int threads = 0;                         ///< at most; 0: as many as the machine has
-  bool with_bound = true;                  ///< it takes outer volumes, which take longer than the volumes
-  std::filesystem::path certificate = {};  ///< of the bound, and the meshes it is of beside it; empty: none is written
+  int threads = 0;         ///< at most; 0: as many as the machine has
+  bool with_bound = true;  ///< it takes outer volumes, which take longer than the volumes
+  /// Of the bound; beside "tour.cert" come the meshes it is of, "tour.region0.ply" and so on. Empty: none is written.
+  std::filesystem::path certificate = {};
   std::optional<PreparedScene> prepared = {};  ///< the mission's scene, where it is prepared already
   /// Of each target the position that it is viewed from, scene frame: within 1 cm of it, so it lies at least so deep in
   /// the target's volume. TourSettings::margin_m is not looked at. Empty: the tour finds positions itself.
@@ -71,9 +72,11 @@ struct MissionTourOptions {
 /// The time limit is that of the search for the tour, and once more that of the bound; volumes come on top.
 ///
 /// Throws Error(input) as run_missions and plan_tour do; for positions that are not as many as the targets, or not in
-/// their volumes; for a target that cannot be seen from anywhere, with its name;
-/// for a home from which nothing can be reached straight up, with what stands there. Error(cancelled) before there is a
-/// tour; later the tour is returned without a bound.
+/// their volumes; for a target that cannot be seen from anywhere, with its name; for a home inside a solid, and one
+/// from which nothing can be reached straight up, with what stands there; for zones to stay in that are too narrow for
+/// a fixed wing to turn; and before anything is computed for a certificate whose meshes would replace an input, or a
+/// file that vantage did not write. Error(cancelled) before there is a tour; later the tour is returned without a
+/// bound.
 VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options = {},
                                           const Progress& progress = {});
 

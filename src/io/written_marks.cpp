@@ -55,6 +55,14 @@ bool is_content(std::string_view text) {
   return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", kVolume.size()) == std::string_view::npos;
 }
 
+/// A region beside the certificate of a tour.
+bool is_own_region(std::string_view text) {
+  constexpr std::string_view kStart = "ply\nformat binary_little_endian 1.0\ncomment vantage region: ";
+  if (!text.starts_with(kStart)) return false;
+  text = text.substr(kStart.size());
+  return text.starts_with("outer\nelement vertex ") || text.starts_with("given\nelement vertex ");
+}
+
 /// What is behind `start` and a version, to the end of the line; nothing where the text does not begin so. People write
 /// "# vantage point" and the like: with the version it is the writers' line.
 std::string_view behind_version(std::string_view text, std::string_view start) {
@@ -96,7 +104,7 @@ bool is_own_file(const std::filesystem::path& file) {
   const std::string bytes = beginning_of(file, kLooked);
   const std::string_view text = bytes;
   if (extension == ".csv") return text.substr(0, text.find_first_of("\r\n")) == kVolumeTableHeader;
-  if (extension == ".ply") return is_content(behind_version(text, kPlyStart));
+  if (extension == ".ply") return is_content(behind_version(text, kPlyStart)) || is_own_region(text);
   if (extension == ".obj") return is_content(behind_version(text, "# vantage "));
   if (extension == ".stl") return is_own_stl(text);
   if (extension == ".glb") return is_own_glb(text);

@@ -9,10 +9,10 @@
 #include "core/format.h"
 #include "core/text.h"
 #include "flight/gimbal.h"
+#include "flight/tour/mission_limits.h"
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
 #include "vantage/error.h"
-#include "vantage/leg_query.h"
 #include "vantage/outer.h"
 #include "vantage/solid_index.h"
 
@@ -102,26 +102,6 @@ void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
   request.settings.margin_m = 0;
 }
 
-/// Straight above the home, the lowest place where flying is allowed.
-Vec3 above(const Vec3& home, const Mission& mission, const PreparedScene& scene, const Airspace& airspace) {
-  constexpr double kStep = 0.5, kHighest = 1000;
-  const std::string& where = mission.as_written.places.tour;
-  for (double height = 0; height <= kHighest; height += kStep) {
-    Vec3 at = home + Vec3(0, 0, height);
-    if (!airspace.allows({at, at}, kPlanRoundingM)) continue;
-    LegDistanceOptions options;
-    options.without_ground = true;
-    const LegDistance nearest = LegDistances(scene, options).nearest({home, at});
-    if (nearest.distance_m > 0) return at;
-    throw Error(ErrorCode::viewpoint_inside_solid,
-                "tour.home lies inside or under " + (nearest.name.empty() ? "the scene" : nearest.name), where,
-                "move it to where the way up is free");
-  }
-  throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
-              "move it into the zones of 'navigation', or widen these; nearest above it: " +
-                  airspace.obstacle({home, home + Vec3(0, 0, kHighest)}, 0));
-}
-
 tour::Incumbent incumbent_of(const Tour& found) {
   tour::Incumbent incumbent;
   std::vector<std::size_t> place(found.order.size());
@@ -189,13 +169,19 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   MissionTour result;
   result.settings = mission.as_written.tour.value_or(TourSettings());
   result.home = mission.home;
+  if (!options.certificate.empty()) tour::check_tour_certificate_files(mission, options.certificate);
+  tour::check_room_to_turn(mission, result.settings);
   const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
-  result.targets = volumes_of(mission, scene, options.threads, progress);
 
   TourRequest request;
   request.settings = result.settings;
   request.airspace = make_airspace(scene, result.settings.clearance_m + kPlanRoundingM, mission.navigation);
-  if (mission.home) request.home = above(*mission.home, mission, scene, *request.airspace);
+  if (mission.home) {
+    const bool is_wing = result.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
+    const double deviation = is_wing ? request.chord_error_m : kPlanRoundingM;
+    request.home = tour::start_above(*mission.home, mission, scene, *request.airspace, deviation);
+  }
+  result.targets = volumes_of(mission, scene, options.threads, progress);
   for (const MissionTourTarget& target : result.targets) {
     request.targets.push_back({target.name, target.volume, target.centre});
   }

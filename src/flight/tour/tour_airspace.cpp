@@ -1,6 +1,7 @@
 // The airspace of a scene: the exact distance of legs from its surfaces, and the limits of navigation.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -22,6 +23,17 @@ LegDistanceOptions options_of(double clearance_m) {
   options.cutoff_m = clearance_m + kMostDeviation;
   options.without_ground = true;
   return options;
+}
+
+/// Only the ground. Nothing where the scene has none.
+std::unique_ptr<LegDistances> ground_distances(const PreparedScene& scene) {
+  LegDistanceOptions options;
+  options.cutoff_m = kMostDeviation;
+  for (std::uint32_t i = 0; i < scene.objects().size(); ++i) {
+    if (scene.objects()[i].kind != ObjectKind::ground) options.without_objects.push_back(i);
+  }
+  if (options.without_objects.size() == scene.objects().size()) return nullptr;
+  return std::make_unique<LegDistances>(scene, options);
 }
 
 /// Around all positions that the limits allow, or more.
@@ -55,18 +67,21 @@ class SceneAirspace : public Airspace {
  public:
   SceneAirspace(const PreparedScene& scene, double clearance_m, const Navigation& navigation)
       : distances_(scene, options_of(clearance_m)),
+        ground_(ground_distances(scene)),
         limits_(navigation),
         clearance_(clearance_m),
         has_limits_(!navigation.empty()),
         bounds_(bounds_of(navigation)) {}
 
   bool allows(const Leg& leg, double deviation_m) const override {
-    return !is_near(distances_.nearest(leg), deviation_m) && (!has_limits_ || limits_.broken(leg, deviation_m).empty());
+    return !is_near(distances_.nearest(leg), deviation_m) && !meets_ground(leg, deviation_m) &&
+           (!has_limits_ || limits_.broken(leg, deviation_m).empty());
   }
 
   std::string obstacle(const Leg& leg, double deviation_m) const override {
     const LegDistance nearest = distances_.nearest(leg);
     if (is_near(nearest, deviation_m)) return nearest.name;
+    if (meets_ground(leg, deviation_m)) return "the ground";
     if (!has_limits_) return {};
     const std::vector<LegBreak> broken = limits_.broken(leg, deviation_m);
     return broken.empty() ? std::string() : broken.front().limit;
@@ -82,7 +97,13 @@ class SceneAirspace : public Airspace {
     return least > 0 ? nearest.distance_m < least : nearest.distance_m <= 0;
   }
 
+  /// No clearance is kept from it, but nothing flies through it.
+  bool meets_ground(const Leg& leg, double deviation) const {
+    return ground_ && !(ground_->nearest(leg).distance_m > deviation);
+  }
+
   LegDistances distances_;
+  std::unique_ptr<LegDistances> ground_;
   LegLimits limits_;
   double clearance_;
   bool has_limits_;

@@ -13,6 +13,7 @@
 
 #include "vantage/atomic_file.h"
 #include "vantage/hash.h"
+#include "vantage/output.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
@@ -125,13 +126,24 @@ std::string tour_certificate_text(const TourBound& bound, const std::vector<std:
   return text + end + "\n";
 }
 
+std::filesystem::path region_file(const std::filesystem::path& certificate, std::size_t region) {
+  std::string name = certificate.stem().string();
+  for (char& c : name) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!is_plain && c != '_' && c != '.' && c != '-') c = '_';
+  }
+  return certificate.parent_path() / (name + ".region" + std::to_string(region) + ".ply");
+}
+
 void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file) {
   std::vector<std::string> files;
   std::vector<std::unique_ptr<AtomicFile>> written;
   for (std::size_t r = 0; r < bound.regions.size(); ++r) {
-    files.push_back(file.stem().string() + ".region" + std::to_string(r) + ".ply");
+    const std::filesystem::path mesh = region_file(file, r);
+    files.push_back(mesh.filename().string());
     if (bound.regions[r].kind() == OuterRegion::Kind::point) continue;
-    written.push_back(std::make_unique<AtomicFile>(file.parent_path() / files.back()));
+    check_derived_output(mesh);
+    written.push_back(std::make_unique<AtomicFile>(mesh));
     written.back()->write(region_ply(bound.regions[r]));
   }
   written.push_back(std::make_unique<AtomicFile>(file));

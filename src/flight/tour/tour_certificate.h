@@ -1,6 +1,7 @@
 // The file by which a stranger's program checks a bound of a tour: docs/theory.md, "Tours". tools/check_tour.py is one.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,8 +30,12 @@ std::string region_ply(const OuterRegion& region);
 /// Whole numbers of vectors are in units of 2^-30.
 std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files);
 
-/// Writes FILE and, beside it, a mesh of each region: FILE's stem with .region0.ply and so on. All are written whole,
-/// or none. Throws Error(output).
+/// The mesh of a region, beside the certificate: its stem with .region0.ply and so on. What is neither an ASCII letter
+/// nor a digit, nor one of "_.-", becomes "_": checkers refuse other names, as they could lead elsewhere.
+std::filesystem::path region_file(const std::filesystem::path& certificate, std::size_t region);
+
+/// Writes FILE and, beside it, a mesh of each region, its region_file. All are written whole, or none. Throws
+/// Error(output), and as check_derived_output for a mesh.
 void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file);
 
 }  // namespace vantage::internal::flight::tour

@@ -1,0 +1,33 @@
+// What of a mission makes every tour impossible: found before anything is searched for.
+#pragma once
+
+#include <filesystem>
+
+#include "vantage/constraints.h"
+#include "vantage/geometry.h"
+#include "vantage/mission.h"
+#include "vantage/scene.h"
+#include "vantage/tour.h"
+#include "vantage/tour_settings.h"
+
+namespace vantage::internal::flight::tour {
+
+/// In plan: the width of the narrowest strip that holds all positions that the limits allow, or more. Infinite where
+/// nothing is to be stayed in.
+double least_width_m(const Navigation& navigation);
+
+/// Throws Error(input) where a closed flight of a fixed wing does not fit in the zones to stay in: by its turns it is
+/// as wide in each direction as the smallest circle, whatever its course is.
+void check_room_to_turn(const Mission& mission, const TourSettings& settings);
+
+/// Straight above the home that is given, the lowest place where the airspace allows to be, with all within
+/// `deviation_m`. Throws Error(input) where there is none, where something stands on the way up, and for a home inside
+/// a solid, or more than 2 m under the ground.
+Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene& scene, const Airspace& airspace,
+                 double deviation_m);
+
+/// Throws Error(input or output) where a certificate of the mission's tour, or the mesh of a target beside it, cannot
+/// be written, would replace an input, or, of a mesh, a file that vantage did not write.
+void check_tour_certificate_files(const Mission& mission, const std::filesystem::path& certificate);
+
+}  // namespace vantage::internal::flight::tour

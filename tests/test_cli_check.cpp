@@ -1,0 +1,75 @@
+// The command check and plans that are wrong: one message each, and no file is lost. What is wrong with plans in detail
+// is tested with their reader.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/cli_fixture.h"
+#include "support/map_text.h"
+#include "support/plan_texts.h"
+
+namespace vantage::testing {
+namespace {
+
+using Json = nlohmann::json;
+using plan_texts::plan;
+using plan_texts::simple;
+using plan_texts::waypoint;
+
+/// A map about 11 E, 48 N, with one building.
+class CliCheck : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    MapText map({11, 48});
+    map.box(30, 0, 40, 10, {{"building", "yes"}});
+    write("city.osm", map.text());
+    write("map.yaml",
+          "scene: {osm: city.osm, center: [48, 11], radius: 150}\nsensor: {max_range: 80}\n"
+          "target: {center: [48, 11], width: 4, length: 4}\n");
+    write("old.json", kOldOutput);
+  }
+
+  void expect_bad_plan(const std::string& name, const std::string& text, const std::string& where) {
+    SCOPED_TRACE(text);
+    write(name, text);
+    expect_bad({"check", "map.yaml", name, "-o", "old.json"}, where);
+  }
+};
+
+TEST_F(CliCheck, PlansThatAreWrongCostNoFile) {
+  expect_bad_plan("a.csv", "lat,lon,agl\n", "a.csv");
+  expect_bad_plan("a.csv", "name,agl\nwest,20\n", "a.csv");
+  expect_bad_plan("a.csv", "lat,lon,agl\n48,11,nan\n", "line 2");
+  expect_bad_plan("a.csv", "lat,lon,alt\n48,11,20\n48,11.001,20\n", "line 2");  // above what?
+  expect_bad_plan("a.csv", "lat,lon,agl\n48,11,20\n52.5,13.4,20\n", "line 3");  // another city
+  expect_bad_plan("a.csv", "x,y,z\n1,2,1e300\n", "a.csv");
+  expect_bad_plan("a.plan", plan({}), "a.plan");
+  expect_bad_plan("a.plan", plan({simple(16, 3, "[0, 0, 0, 0, 0, 0, 50]")}), "item 1");
+  expect_bad_plan("a.plan", plan({simple(177, 2, "[7, 1, 0, 0, 0, 0, 0]"), waypoint(48, 11, 20)}), "item 1");
+  expect_bad_plan("a.plan", plan({waypoint(48, 11, 20, 3, 1), simple(177, 2, "[1, 900000, 0, 0, 0, 0, 0]")}), "item");
+  expect_bad_plan("a.plan", plan({"{\"type\": \"ComplexItem\", \"complexItemType\": \"StructureScan\"}"}), "item 1");
+  expect_bad_plan("a.kml", plan_texts::kml(""), "a.kml");
+  write("a.csv", "lat,lon,agl\n48,11.0001,30\n48,11.0002,30\n");
+  expect_bad({"check", "map.yaml", "a.csv", "-o", "a.csv"}, "a.csv");
+  expect_bad({"check", "map.yaml", "a.csv", "-o", "old.txt"}, "old.txt");
+  expect_bad({"check", "map.yaml", "none.plan", "-o", "old.json"}, "none.plan");
+  expect_bad({"check", "map.yaml", "a.csv", "--speed", "0", "-o", "old.json"});
+}
+
+TEST_F(CliCheck, WhatIsNotFlownIsTold) {
+  write("a.plan", plan({waypoint(48, 11, 30, 3, 1), simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"),
+                        waypoint(48.0002, 11, 30, 3, 2), simple(177, 2, "[1, 1, 0, 0, 0, 0, 0]")}));
+  const ProgramRun check = run({"check", "map.yaml", "a.plan", "--json", "-o", "old.json"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.err.find("31010"), std::string::npos) << check.err;
+  const Json answer = Json::parse(check.out);
+  // There, back by the jump, and there again.
+  EXPECT_NEAR(answer["length_m"].get<double>(), 3 * 0.0002 * 111200, 0.2);
+  EXPECT_EQ(Json::parse(content(folder_ / "old.json")), answer);
+}
+
+}  // namespace
+}  // namespace vantage::testing

@@ -1,0 +1,277 @@
+// Tours of missions: what is planned and written keeps what is asked, as the judge of plans sees it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "flight/tour/mission_limits.h"
+#include "support/places.h"
+#include "support/plaza_text.h"
+#include "support/random.h"
+#include "support/run_program.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+#include "vantage/dubins.h"
+#include "vantage/flight_check.h"
+#include "vantage/flight_plan.h"
+#include "vantage/mission_tour.h"
+
+namespace vantage::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class PlanMissionTour : public ::testing::Test {
+ protected:
+  PlanMissionTour() { write_bytes(folder_ / "plaza.obj", plaza_obj()); }
+
+  Mission mission(const std::string& tour, const std::string& more = "") const {
+    return of_text(plaza_mission(tour, more));
+  }
+  Mission of_text(const std::string& text) const {
+    write_bytes(folder_ / "mission.yaml", text);
+    MissionFile file = read_mission(folder_ / "mission.yaml");
+    file.combine = Combine::each;
+    return resolve_mission(file);
+  }
+
+  TemporaryDirectory folder_;
+};
+
+/// The plan as a table, read back and judged.
+FlightCheck judged(const MissionTour& tour, const Mission& mission) {
+  const std::string table = flight_plan_bytes(plan_of_tour(tour, mission), PlanFormat::csv);
+  const LocatedPlan located = locate_flight(parse_flight_plan(table, "tour.csv"), {});
+  FlightCheckOptions options;
+  options.speed_m_s = tour.settings.vehicle.speed_m_s;
+  options.clearance_m = tour.settings.clearance_m;
+  options.dwell_s = tour.settings.dwell_s - 1e-3;  // which the clock of the plan may round
+  return check_flight(mission, located.flight, options);
+}
+
+void expect_passes(const FlightCheck& check) {
+  EXPECT_TRUE(check.passes()) << (check.failures.empty() ? "" : check.failures.front());
+}
+
+TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
+  const Mission of = mission("home: [-20, -20, 0], clearance: 4, gap: 0.3", "navigation: {altitude: [0, 100]}\n");
+  const MissionTour tour = plan_mission_tour(of);
+  EXPECT_TRUE(tour.is_complete());
+  EXPECT_EQ(tour.tour.order.size(), 3U);
+  EXPECT_EQ(tour.home, Vec3(-20, -20, 0));
+  const Vec3 start = tour.tour.flight.points.front().position;
+  EXPECT_EQ(start.head<2>(), Eigen::Vector2d(-20, -20));
+  EXPECT_GT(start.z(), 0);
+  EXPECT_LE(start.z(), 0.5);
+  EXPECT_EQ(tour.tour.flight.points.back().position, start);
+  const FlightCheck check = judged(tour, of);
+  expect_passes(check);
+  EXPECT_GE(check.nearest.distance_m, 4);
+  EXPECT_NEAR(check.length_m, tour.tour.length_m, 1e-4);
+
+  ASSERT_TRUE(tour.bound);
+  EXPECT_GT(tour.bound->length_m, 0);
+  EXPECT_LE(tour.bound->length_m, tour.tour.length_m);
+  EXPECT_NEAR(tour.bound->gap, 1 - tour.bound->length_m / tour.tour.length_m, 1e-12);
+  EXPECT_TRUE(tour.reaches_gap());
+  EXPECT_FALSE(tour.bound->ignored.empty());
+}
+
+TEST_F(PlanMissionTour, OfAFixedWingKeepsWhatIsAsked) {
+  const Mission of = mission(
+      "vehicle: {kind: fixed_wing, speed: 12, turn_radius: 15}, home: [-20, -20, 0], clearance: 4, "
+      "view: {dwell: 1}",
+      "navigation: {altitude: [0, 100]}\n");
+  const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
+  EXPECT_TRUE(tour.is_complete());
+  EXPECT_FALSE(tour.bound);
+  expect_passes(judged(tour, of));
+  EXPECT_NEAR(tour.tour.time_s, tour.tour.length_m / 12, 1e-9);
+}
+
+TEST_F(PlanMissionTour, WithoutAHomeAndOneTarget) {
+  const Mission of = of_text(std::string(kPlazaScene) + kPlazaSensor +
+                             "target: {vertices: [[-83, -3, 0.1], [-77, -3, 0.1], [-77, 3, 0.1], [-83, 3, 0.1]]}\n");
+  const MissionTour tour = plan_mission_tour(of);
+  EXPECT_FALSE(tour.home);
+  EXPECT_EQ(tour.tour.length_m, 0) << "it hovers";
+  ASSERT_TRUE(tour.bound);
+  EXPECT_EQ(tour.bound->length_m, 0);
+  expect_passes(judged(tour, of));
+}
+
+TEST_F(PlanMissionTour, ItsCertificateIsAccepted) {
+  const Mission of = mission("home: [-20, -20, 0], gap: 0.3");
+  const std::filesystem::path file = folder_ / "tour of 3.cert";
+  const MissionTour tour = plan_mission_tour(of, {.certificate = file});
+  const ProgramRun run =
+      run_program("/usr/bin/env", {"python3", (source_folder() / "tools/check_tour.py").string(), file.string()});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(Json::parse(read_bytes(file))["bound_m"], tour.bound->length_m);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "tour_of_3.region2.ply"));
+}
+
+TEST_F(PlanMissionTour, ItsCertificateReplacesNothingOfOthers) {
+  const Mission of = mission("gap: 0.3");
+  const auto plan = [&] { plan_mission_tour(of, {.certificate = folder_ / "tour.cert"}); };
+  write_bytes(folder_ / "tour.region1.ply", "ply\nof somebody\n");
+  expect_error(plan, ErrorCode::output_of_others, "tour.region1.ply");
+  EXPECT_EQ(read_bytes(folder_ / "tour.region1.ply"), "ply\nof somebody\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "tour.region0.ply"));
+  std::filesystem::remove(folder_ / "tour.region1.ply");
+  plan();
+  plan();  // its own files it may replace
+  expect_error([&] { plan_mission_tour(of, {.certificate = folder_ / "plaza.obj"}); },
+               ErrorCode::output_overwrites_input, "plaza.obj");
+}
+
+TEST_F(PlanMissionTour, ItsJsonSaysAllOfIt) {
+  const Mission of = mission("home: [-20, -20, 0], gap: 0.3");
+  const MissionTour tour = plan_mission_tour(of);
+  const Json answer = Json::parse(json_text(tour));
+  EXPECT_EQ(answer["vehicle"], "multirotor");
+  EXPECT_EQ(answer["length_m"], tour.tour.length_m);
+  EXPECT_EQ(answer["time_s"], tour.tour.time_s);
+  EXPECT_EQ(answer["bound"]["length_m"], tour.bound->length_m);
+  EXPECT_EQ(answer["bound"]["gap"], tour.bound->gap);
+  EXPECT_EQ(answer["bound"]["kind"], tour.bound->kind);
+  EXPECT_EQ(answer["bound"]["ignored"].size(), tour.bound->ignored.size());
+  ASSERT_EQ(answer["visits"].size(), 3U);
+  for (const Json& visit : answer["visits"]) {
+    EXPECT_GE(visit["dwell_s"], 2);
+    EXPECT_LE(visit["begin_m"], visit["end_m"]);
+    EXPECT_EQ(visit["from"].size(), 3U);
+  }
+  EXPECT_EQ(answer["left_out"], Json::array());
+  EXPECT_EQ(answer["points"].size(), tour.tour.flight.points.size());
+}
+
+TEST_F(PlanMissionTour, WhatCannotBeReachedIsLeftOut) {
+  const std::string apart =
+      "navigation: {keep_in: [{min: [-150, -150, 0], max: [20, 150, 100]}, "
+      "{min: [80, -150, 0], max: [150, 150, 100]}]}\n";
+  const Mission of = mission("home: [-20, -20, 0], gap: 0.3", apart);
+  const MissionTour tour = plan_mission_tour(of);
+  EXPECT_FALSE(tour.is_complete());
+  ASSERT_EQ(tour.tour.problems.size(), 1U);
+  EXPECT_EQ(tour.targets[tour.tour.problems[0].target].name, "east");
+  EXPECT_EQ(tour.tour.order.size(), 2U);
+  ASSERT_TRUE(tour.bound);
+  EXPECT_LE(tour.bound->length_m, tour.tour.length_m);
+  EXPECT_EQ(Json::parse(json_text(tour))["left_out"][0]["target"], "east");
+}
+
+TEST_F(PlanMissionTour, EndsAtTheTimeLimitWithTheBestSoFar) {
+  const Mission of = mission("home: [-20, -20, 0], gap: 0, time_limit: 0.2");
+  const MissionTour tour = plan_mission_tour(of);
+  EXPECT_EQ(tour.tour.order.size(), 3U);
+  ASSERT_TRUE(tour.bound);
+  EXPECT_FALSE(tour.reaches_gap());
+  expect_passes(judged(tour, of));
+}
+
+TEST_F(PlanMissionTour, SaysWhatCannotBeSeenOrFlown) {
+  const auto expect = [&](const std::string& tour, const std::string& more, ErrorCode code, const std::string& where) {
+    SCOPED_TRACE(tour + more);
+    const Mission of = mission(tour, more);
+    expect_error([&] { plan_mission_tour(of); }, code, where);
+  };
+  const std::string far = "navigation: {keep_in: [{min: [-150, 100, 0], max: [150, 150, 100]}]}\n";
+  const std::string narrow =
+      "navigation: {keep_in: [{polygon: [[-100, -110], [110, 100], [80, 130], [-130, -80]], "
+      "heights: any}]}\n";
+  const std::string wing = "vehicle: {kind: fixed_wing, turn_radius: 40}";
+  expect("gap: 0.3", far, ErrorCode::nothing_given, "mission.yaml:3:");
+  expect("view: {margin: 40}", "", ErrorCode::limits_empty, "west");
+  expect("vehicle: {kind: fixed_wing, speed: 60, turn_radius: 150}, view: {dwell: 10}", "", ErrorCode::limits_empty,
+         "west");
+  expect(wing, narrow, ErrorCode::limits_empty, "mission.yaml:9:");
+  expect("home: [0, 70, 8]", "", ErrorCode::viewpoint_inside_solid, "object 'hall'");
+  expect("home: [0, -42, 0]", "", ErrorCode::viewpoint_inside_solid, "object 'kiosk'");
+  expect("home: [-20, -20, 0]", far, ErrorCode::limits_empty, "mission.yaml:9:");
+  expect("home: [-20, -20, -3]", "", ErrorCode::viewpoint_inside_solid, "mission.yaml:8:");
+}
+
+TEST_F(PlanMissionTour, AHomeUnderARoofIsRefused) {
+  // Four posts' worth of nothing, and a roof over the home: it is in no solid.
+  write_bytes(folder_ / "plaza.obj", plaza_obj() +
+                                         "o roof\nv -30 -30 12\nv -10 -30 12\nv -10 -10 12\nv -30 -10 12\n"
+                                         "f 29 30 31 32\n");
+  const Mission of = mission("home: [-20, -20, 0]", "navigation: {altitude: [15, 100]}\n");
+  expect_error([&] { plan_mission_tour(of); }, ErrorCode::viewpoint_inside_solid, "mission.yaml:9:");
+}
+
+TEST(MissionTourLimits, TheWidthOfZonesIsThatOfTheNarrowestStrip) {
+  using internal::flight::tour::least_width_m;
+  EXPECT_EQ(least_width_m({}), std::numeric_limits<double>::infinity());
+  Random random(61);
+  for (int i = 0; i < 200; ++i) {
+    Navigation navigation;
+    Zone zone;
+    for (int k = random.integer(3, 9); k > 0; --k) zone.outer.emplace_back(random.uniform(0, 9), random.uniform(0, 4));
+    navigation.keep_in_zones.push_back(zone);
+    if (random.chance(0.5)) navigation.keep_in.push_back({{1, 1, 0}, {random.uniform(2, 5), random.uniform(2, 3), 9}});
+    std::vector<Eigen::Vector2d> points(zone.outer.begin(), zone.outer.end());
+    for (const Box& box : navigation.keep_in) {
+      for (const double x : {box.min.x(), box.max.x()}) {
+        for (const double y : {box.min.y(), box.max.y()}) points.emplace_back(x, y);
+      }
+    }
+    double slow = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3000; ++k) {
+      const Eigen::Vector2d across(std::cos(k * std::numbers::pi / 3000), std::sin(k * std::numbers::pi / 3000));
+      double low = 1e9, high = -1e9;
+      for (const Eigen::Vector2d& point : points) {
+        low = std::min(low, across.dot(point));
+        high = std::max(high, across.dot(point));
+      }
+      slow = std::min(slow, high - low);
+    }
+    const double width = least_width_m(navigation);
+    EXPECT_LE(width, slow + 1e-12);
+    EXPECT_GE(width, slow - 10 * std::numbers::pi / 3000);
+  }
+}
+
+TEST(MissionTourLimits, ClosedFlightsAreAsWideAsACircle) {
+  // From a place through some others and back, whatever the headings: never narrower than two radii.
+  Random random(62);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 1500; ++i) {
+    std::vector<PlanePose> poses;
+    const double size = random.chance(0.5) ? 0.5 : 4;
+    for (int k = random.integer(1, 3); k > 0; --k) {
+      poses.push_back({random.uniform(0, size), random.uniform(0, size), random.uniform(0, 7)});
+    }
+    poses.push_back({poses.front().x_m, poses.front().y_m, random.uniform(0, 7)});
+    std::vector<Eigen::Vector2d> points;
+    for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
+      const DubinsPath path = shortest_dubins(poses[k], poses[k + 1], 1);
+      for (int step = 0; step <= 200; ++step) {
+        const PlanePose pose = path.at(path.length_m() * step / 200);
+        points.emplace_back(pose.x_m, pose.y_m);
+      }
+    }
+    for (int k = 0; k < 60; ++k) {
+      const Eigen::Vector2d across(std::cos(k * std::numbers::pi / 60), std::sin(k * std::numbers::pi / 60));
+      double low = 1e9, high = -1e9;
+      for (const Eigen::Vector2d& point : points) {
+        low = std::min(low, across.dot(point));
+        high = std::max(high, across.dot(point));
+      }
+      // A straight that comes back on itself needs a turn; one pose and its like is no flight.
+      if (poses.size() > 2 || high > low) least = std::min(least, high - low);
+    }
+  }
+  EXPECT_GE(least, 2 - 1e-2);
+  EXPECT_LE(least, 2 + 1e-1);
+}
+
+}  // namespace
+}  // namespace vantage::testing
