@@ -41,7 +41,7 @@ class CliDocs : public Cli {
     for (const std::string& line : lines(output_of({"--help"}))) {
       is_listed_ |= line == "Subcommands:";
       if (is_listed_ && line.empty()) break;
-      for (const std::string& name : matches(line, "^  ([a-z-]+) ")) commands_.push_back(name);
+      for (const std::string& name : matches(line, "^  ([a-z][a-z-]+) ")) commands_.push_back(name);
     }
     ASSERT_GE(commands_.size(), 11U);
   }

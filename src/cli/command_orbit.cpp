@@ -163,7 +163,7 @@ void write_orbit(const Orbits& orbits, const Mission& mission, const std::string
 }
 
 /// Whether the format can state an orbit of the mission: before any is looked for.
-void check_can_state(const Mission& mission, const std::string& file) {
+void check_orbit_can_be_stated(const Mission& mission, const std::string& file) {
   Orbit any;
   any.centre = mission.home.value_or(Vec3::Zero());
   any.radius_m = 1;
@@ -180,7 +180,8 @@ int run_orbit(const OrbitArguments& arguments) {
     ProgressLine progress(arguments.common);
     const TargetVolumes volumes =
         compute_targets(file, arguments.target, arguments.common.threads, progress.callback());
-    if (!arguments.output_file.empty()) check_can_state(volumes.targets.front().mission, arguments.output_file);
+    if (!arguments.output_file.empty())
+      check_orbit_can_be_stated(volumes.targets.front().mission, arguments.output_file);
     found = orbits_of(volumes, options, progress.callback());
     if (!arguments.output_file.empty()) {
       write_orbit(found.front().orbits, volumes.targets.front().mission, arguments.output_file);
