@@ -36,8 +36,9 @@ Whole Whole::scaled(double value, int bits) {
   const auto [mantissa, exponent] = parts_of(value);
   Whole result(mantissa);
   if (mantissa == 0) return result;
-  if (exponent + bits < 0) throw std::length_error("a number with a fraction");
-  result.limbs_ = shifted_up(result.limbs_, static_cast<std::size_t>(exponent + bits));
+  const int places = exponent + bits;
+  if (places < 0) throw std::length_error("a number with a fraction");
+  result.limbs_ = shifted_up(result.limbs_, static_cast<std::size_t>(places));
   return result;
 }
 
