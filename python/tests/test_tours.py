@@ -87,7 +87,7 @@ def test_settings_take_the_place_of_those_of_the_mission(mission, found):
     for settings, code, where in (({"speed": 3}, "unknown-key", "settings"), ({"gap": 2}, "value-out-of-range", "gap"),
                                   ({"vehicle": {"kind": "balloon"}}, "unknown-choice", "settings"),
                                   ({"home": [48.2, 11.575]}, "target-off-ground", "settings"),
-                                  ({"home": [25, 5, 1]}, "limits-empty", "settings"), (3, "wrong-type", "settings")):
+                                  ({"home": [25, 5, 1]}, "viewpoint-inside-solid", "settings"), (3, "wrong-type", "settings")):
         error = refused(lambda: vt.tour(mission, settings, bound=False))
         assert error.code == code and where in error.where, error
     assert refused(lambda: vt.Mission.of(placed(), SQUARES, max_range=25, tour={"clearance": -1})).code == "value-out-of-range"
