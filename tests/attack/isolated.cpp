@@ -89,6 +89,19 @@ std::pair<std::size_t, Exit> Processes::next() {
   }
 }
 
+void Processes::run_each(std::size_t first, std::size_t count, const std::function<std::string(std::size_t)>& work,
+                         const std::function<void(std::size_t, const Exit&)>& note) {
+  for (std::size_t begun = 0; begun < count || !idle();) {
+    if (begun < count && !full()) {
+      const std::size_t index = first + begun++;
+      start(index, [&work, index] { return work(index); });
+      continue;
+    }
+    const auto [index, exit] = next();
+    note(index, exit);
+  }
+}
+
 Exit run_isolated(unsigned seconds, const std::function<std::string()>& work) {
   Processes one(1, seconds);
   one.start(0, work);

@@ -24,6 +24,9 @@ class Processes {
   void start(std::size_t id, const std::function<std::string()>& work);
   /// Waits for one to end.
   std::pair<std::size_t, Exit> next();
+  /// work(i) for `count` numbers from `first` on; `note` hears of each end as it comes, in no order.
+  void run_each(std::size_t first, std::size_t count, const std::function<std::string(std::size_t)>& work,
+                const std::function<void(std::size_t, const Exit&)>& note);
 
  private:
   struct Running {

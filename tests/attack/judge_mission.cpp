@@ -288,28 +288,22 @@ bool run_drawn_missions(const MissionRun& run) {
     }
     std::fflush(stdout);
   };
-  Processes processes(run.jobs, run.seconds);
-  for (std::size_t i = 0; i < run.count || !processes.idle();) {
-    if (i < run.count && !processes.full()) {
-      const std::size_t index = run.first + i++;
-      processes.start(index, [&run, index] {
-        const MissionJudgement judgement = judge_drawn_mission(draw_mission(run.seed, index));
-        std::string text;
-        for (const std::string& word : judgement.words) text += "+" + word + "\n";
-        for (std::string fault : judgement.wrong) {
-          std::replace(fault.begin(), fault.end(), '\n', ' ');
-          text += "-" + fault + "\n";
-        }
-        return text;
-      });
-      continue;
+  const auto work = [&run](std::size_t index) {
+    const MissionJudgement judgement = judge_drawn_mission(draw_mission(run.seed, index));
+    std::string text;
+    for (const std::string& word : judgement.words) text += "+" + word + "\n";
+    for (std::string fault : judgement.wrong) {
+      std::replace(fault.begin(), fault.end(), '\n', ' ');
+      text += "-" + fault + "\n";
     }
-    const auto [index, exit] = processes.next();
+    return text;
+  };
+  Processes(run.jobs, run.seconds).run_each(run.first, run.count, work, [&](std::size_t index, const Exit& exit) {
     ++total.all;
     if (exit.crashed || exit.hung) {
       ++counts[exit.hung ? "hung" : "crashed"];
       note(index, {(exit.hung ? "took too long: " : "crashed: ") + exit.how});
-      continue;
+      return;
     }
     std::istringstream lines(exit.text);
     std::vector<std::string> faults;
@@ -322,7 +316,7 @@ bool run_drawn_missions(const MissionRun& run) {
     }
     ++(is_refused ? total.refused : is_computed ? total.computed : total.empty);
     note(index, faults);
-  }
+  });
   for (const auto& [word, count] : counts) std::printf("%8zu  %s\n", count, word.c_str());
   std::printf("%zu missions: %zu computed, %zu without a volume, %zu refused; %zu wrong\n", total.all, total.computed,
               total.empty, total.refused, total.wrong);

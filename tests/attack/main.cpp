@@ -132,19 +132,13 @@ class Attack {
     std::printf("seed %llu, scenes %zu to %zu; one of them: vantage_attack --seed %llu --only NUMBER\n",
                 static_cast<unsigned long long>(options_.seed), options_.first, options_.first + options_.scenes - 1,
                 static_cast<unsigned long long>(options_.seed));
-    Processes processes(options_.jobs, options_.seconds);
-    for (std::size_t i = 0; i < options_.scenes || !processes.idle();) {
-      if (i < options_.scenes && !processes.full()) {
-        const std::size_t index = options_.first + i++;
-        processes.start(index, [this, index] {
-          const Case c = draw_case(options_.seed, index);
-          return to_text(judge(c, ask_engine(c), judge_options(index)));
-        });
-        continue;
-      }
-      const auto [index, exit] = processes.next();
-      note(index, exit);
-    }
+    const auto work = [this](std::size_t index) {
+      const Case c = draw_case(options_.seed, index);
+      return to_text(judge(c, ask_engine(c), judge_options(index)));
+    };
+    Processes(options_.jobs, options_.seconds)
+        .run_each(options_.first, options_.scenes, work,
+                  [this](std::size_t index, const Exit& exit) { note(index, exit); });
     std::fputs(summary_.text().c_str(), stdout);
     return summary_.wrong() > 0 ? 1 : 0;
   }

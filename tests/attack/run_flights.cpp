@@ -42,16 +42,10 @@ class FlightAttack {
     std::printf("seed %llu, flights %zu to %zu; one of them: vantage_attack --flights 1 --seed %llu --only NUMBER\n",
                 static_cast<unsigned long long>(run_.seed), run_.first, run_.first + run_.count - 1,
                 static_cast<unsigned long long>(run_.seed));
-    Processes processes(run_.jobs, run_.seconds);
-    for (std::size_t i = 0; i < run_.count || !processes.idle();) {
-      if (i < run_.count && !processes.full()) {
-        const std::size_t index = run_.first + i++;
-        processes.start(index, [this, index] { return to_text(judge_number(run_.seed, index)); });
-        continue;
-      }
-      const auto [index, exit] = processes.next();
-      note(index, exit);
-    }
+    Processes(run_.jobs, run_.seconds)
+        .run_each(
+            run_.first, run_.count, [this](std::size_t index) { return to_text(judge_number(run_.seed, index)); },
+            [this](std::size_t index, const Exit& exit) { note(index, exit); });
     for (const auto& [word, count] : words_) std::printf("%12zu  %s\n", count, word.c_str());
     for (const auto& [what, count] : counts_) std::printf("%12.0f  %s\n", count, what.c_str());
     std::printf("%zu drawn: %zu wrong\n", run_.count, wrong_);
