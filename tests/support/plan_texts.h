@@ -1,9 +1,11 @@
 // Plans of ground stations, written by hand.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "vantage/flight_plan.h"
 #include "vantage/input.h"
 
 namespace vantage::testing::plan_texts {
@@ -71,6 +73,17 @@ inline std::string wayline(const std::string& points, const std::string& mode = 
 inline std::string gpx(const std::string& content) {
   return "<?xml version=\"1.0\"?>\n<gpx version=\"1.1\" creator=\"t\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n" +
          content + "</gpx>\n";
+}
+
+/// What is read of such a text.
+inline FlightPlan parsed_plan(const std::string& text, const std::string& track = "") {
+  ReadPlanOptions options;
+  options.track = track;
+  return parse_flight_plan(text, "/data/flight.plan", options);
+}
+
+inline bool has_note(const std::vector<Warning>& notes, WarningCode code) {
+  return std::any_of(notes.begin(), notes.end(), [&](const Warning& note) { return note.code == code; });
 }
 
 }  // namespace vantage::testing::plan_texts

@@ -1,0 +1,350 @@
+// Plans of ground stations: where they lie in a scene.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "geo/local_frame.h"
+#include "support/grounds.h"
+#include "support/internals.h"
+#include "support/plan_texts.h"
+#include "support/random.h"
+#include "support/wording.h"
+#include "vantage/flight_plan.h"
+
+namespace vantage::testing {
+namespace {
+
+using namespace plan_texts;
+
+Georeference munich(const std::string& vertical = "EGM96 geoid") {
+  Georeference place;
+  place.latitude_deg = 48;
+  place.longitude_deg = 11;
+  place.vertical = vertical;
+  return place;
+}
+
+LocateOptions in_munich() {
+  LocateOptions options;
+  options.georeference = munich();
+  return options;
+}
+
+/// The distance of the vertical or slanted segment's line to a point.
+double distance_to_leg(const Leg& leg, const Vec3& p) {
+  const Vec3 along = leg.to - leg.from;
+  const double share =
+      along.squaredNorm() > 0 ? std::clamp((p - leg.from).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
+  return (leg.from + share * along - p).norm();
+}
+
+TEST(LocateFlight, TurnsEachHeightIntoZ) {
+  const auto z = [](HeightDatum datum, const LocateOptions& options) {
+    FlightPlan one;
+    one.file = "a.plan";
+    one.home = PlanPosition{{11, 48}, 500, HeightDatum::sea_level};
+    one.items.resize(1);
+    one.items[0].position = {{11.001, 48.001}, 100, datum};
+    one.items[0].place = "a.plan: item 1";
+    return locate_flight(one, options).flight.points.at(0).position.z();
+  };
+  const Ground ground{30, nullptr};
+  LocateOptions options = in_munich();
+  EXPECT_EQ(z(HeightDatum::scene_z, options), 100);
+  EXPECT_EQ(z(HeightDatum::sea_level, options), 100);
+  EXPECT_EQ(z(HeightDatum::home, options), 600);
+  options.levels.undulation_m = 45;
+  EXPECT_EQ(z(HeightDatum::ellipsoid, options), 55);
+  options.ground = &ground;
+  EXPECT_EQ(z(HeightDatum::ground, options), 130);
+  EXPECT_EQ(z(HeightDatum::home, options), 130);  // on the ground of the scene
+  options.home_z_m = 7;
+  EXPECT_EQ(z(HeightDatum::home, options), 107);
+  options.levels.sea_level_z_m = -500;
+  EXPECT_EQ(z(HeightDatum::sea_level, options), -400);
+  EXPECT_EQ(z(HeightDatum::ellipsoid, options), -445);
+  options = in_munich();
+  options.georeference->vertical = "ellipsoidal height";
+  EXPECT_EQ(z(HeightDatum::ellipsoid, options), 100);
+  expect_error([&] { z(HeightDatum::sea_level, options); }, ErrorCode::height_unknown, "a.plan: item 1");
+  options.levels.undulation_m = 45;
+  EXPECT_EQ(z(HeightDatum::sea_level, options), 145);
+  options.unknown_heights = HeightDatum::sea_level;
+  EXPECT_EQ(z(HeightDatum::unknown, options), 145);
+}
+
+TEST(LocateFlight, SaysWhichLevelIsNotKnown) {
+  FlightPlan one;
+  one.file = "a.csv";
+  one.items.resize(1);
+  PlanItem& item = one.items[0];
+  item.place = "a.csv: line 2";
+  item.position = {{11.001, 48.001}, 100, HeightDatum::unknown};
+  LocateOptions options = in_munich();
+  const auto locate = [&] { locate_flight(one, options); };
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  item.position.datum = HeightDatum::ellipsoid;
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  item.position.datum = HeightDatum::ground;
+  expect_error(locate, ErrorCode::ground_missing, "a.csv: line 2");
+  item.position.datum = HeightDatum::home;
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  options.home = Eigen::Vector2d(11, 48);
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  options.georeference->vertical = kFlatGround;
+  item.position.datum = HeightDatum::sea_level;
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  item.position.height_m = std::nan("");
+  expect_error(locate, ErrorCode::height_unknown, "a.csv: line 2");
+  options.missing_height_m = 20;
+  options.levels.sea_level_z_m = 3;
+  EXPECT_EQ(locate_flight(one, options).flight.points[0].position.z(), 23);
+  options.georeference.reset();
+  expect_error(locate, ErrorCode::not_georeferenced, "a.csv");
+}
+
+TEST(LocateFlight, RefusesPlansOfAnotherPlace) {
+  LocateOptions options = in_munich();
+  const auto locate = [&](double latitude, double longitude) {
+    locate_flight(parsed_plan(plan({waypoint(48, 11, 5, 0), waypoint(latitude, longitude, 5, 0)})), options);
+  };
+  locate(48.4, 11);
+  expect_error([&] { locate(48.5, 11); }, ErrorCode::too_far_away, "item 2");
+  expect_error([&] { locate(11, 48); }, ErrorCode::too_far_away, "item 2");
+  expect_error([&] { locate(-33, 151); }, ErrorCode::too_far_away, "item 2");
+  options.farthest_m = 80e3;
+  locate(48.5, 11);
+}
+
+TEST(LocateFlight, FollowsPositionsOfTheFrame) {
+  const geo::LocalFrame frame({11, 48});
+  const FlightPlan two = parsed_plan(plan({waypoint(48.003, 11.002, 5, 0), waypoint(47.99, 11.05, 9, 0)}));
+  const LocatedPlan located = locate_flight(two, in_munich());
+  ASSERT_EQ(located.flight.points.size(), 2u);
+  EXPECT_LT((located.flight.points[1].position.head<2>() - frame.to_local({11.05, 47.99})).norm(), 1e-9);
+  EXPECT_EQ(located.flight.points[1].speed_m_s, 5);
+  EXPECT_EQ(located.flight.points[1].place, "/data/flight.plan: item 2");
+  EXPECT_EQ(located.items, (std::vector<std::size_t>{0, 1}));
+  EXPECT_LT(located.flight.chord_error_m, 1e-3);  // of geodesics alone
+}
+
+TEST(LocateFlight, CutsGeodesicsWhereTheFrameBendsThem) {
+  Random random(5);
+  std::size_t most = 0;
+  for (int i = 0; i < 60; ++i) {
+    const geo::LocalFrame frame({11, 48});
+    const Vec3 a = random.point(-33e3, 33e3),
+               b = i % 3 == 0 ? Vec3(random.point(-33e3, 33e3)) : Vec3(a + random.point(-3e3, 3e3));
+    const geo::LonLat from = frame.to_lonlat(a.head<2>()), to = frame.to_lonlat(b.head<2>());
+    FlightPlan two;
+    two.items.resize(2);
+    two.items[0].position = {{from.longitude_deg, from.latitude_deg}, 100, HeightDatum::scene_z};
+    two.items[1].position = {{to.longitude_deg, to.latitude_deg}, 300, HeightDatum::scene_z};
+    LocateOptions options = in_munich();
+    options.chord_error_m = 0.01;
+    const Flight flight = locate_flight(two, options).flight;
+    most = std::max(most, flight.points.size());
+    const geo::LocalFrame about(from);
+    const Eigen::Vector2d way = about.to_local(to);
+    for (int k = 0; k <= 200; ++k) {
+      const Eigen::Vector2d p = frame.to_local(about.to_lonlat(way * k / 200));
+      const Vec3 at(p.x(), p.y(), 100 + k);
+      double nearest = 1e9;
+      for (std::size_t leg = 0; leg < flight.leg_count(); ++leg)
+        nearest = std::min(nearest, distance_to_leg(flight.leg(leg), at));
+      ASSERT_LE(nearest, flight.chord_error_m);
+    }
+  }
+  EXPECT_GT(most, 2u);
+}
+
+TEST(LocateFlight, CirclesWithinTheErrorOfChords) {
+  Random random(8);
+  for (const double error_m : {0.5, 0.05, 0.001}) {
+    for (const double radius_m : {2.0, -75.0, 900.0}) {
+      const FlightPlan circle = parsed_plan(
+          plan({waypoint(48.2, 11.1, 40), simple(18, 3, "[1.5, 0, " + shortest(radius_m) + ", 0, 48.21, 11.1, 50]"),
+                waypoint(48.22, 11.12, 60)}));
+      LocateOptions options = in_munich();
+      options.chord_error_m = error_m;
+      const LocatedPlan located = locate_flight(circle, options);
+      const geo::LocalFrame frame({11, 48}), about({11.1, 48.21});
+      double turned = 0, length = 0;
+      std::size_t chords = 0;
+      for (std::size_t i = 1; i < located.items.size(); ++i) {
+        if (located.items[i] != 1 || located.items[i - 1] != 1) continue;
+        const Leg leg = located.flight.leg(i - 1);
+        const auto on_circle = [&](const Vec3& p) { return about.to_local(frame.to_lonlat(p.head<2>())); };
+        for (int k = 0; k <= 8; ++k) {
+          const double off = std::abs(on_circle(leg.from + (leg.to - leg.from) * k / 8.0).norm() - std::abs(radius_m));
+          ASSERT_LE(off, error_m);
+        }
+        const Eigen::Vector2d p = on_circle(leg.from), q = on_circle(leg.to);
+        turned += std::atan2(p.y() * q.x() - p.x() * q.y(), p.dot(q));  // clockwise
+        length += (leg.to - leg.from).norm();
+        ++chords;
+      }
+      EXPECT_NEAR(turned, 3 * std::numbers::pi * (radius_m > 0 ? 1 : -1), 1e-6);
+      EXPECT_NEAR(length, 3 * std::numbers::pi * std::abs(radius_m), 3 * std::sqrt(error_m * std::abs(radius_m)) + 0.1);
+      EXPECT_GE(chords, 6u);
+    }
+  }
+}
+
+TEST(LocateFlight, CirclesForATime) {
+  const std::string loiter = simple(19, 3, "[100, 0, 40, 0, 48.002, 11, 50]");
+  const FlightPlan circles = parsed_plan(plan({waypoint(48, 11, 50), loiter}, 1));
+  const LocatedPlan located = locate_flight(circles, in_munich());
+  double length = 0;
+  for (std::size_t i = 1; i < located.items.size(); ++i) {
+    if (located.items[i - 1] == 1) length += (located.flight.leg(i - 1).to - located.flight.leg(i - 1).from).norm();
+  }
+  EXPECT_NEAR(length, 100 * 15, 3);
+  // A multirotor stays.
+  const LocatedPlan stays = locate_flight(parsed_plan(plan({waypoint(48, 11, 50), loiter})), in_munich());
+  EXPECT_EQ(stays.flight.points.size(), 2u);
+  EXPECT_EQ(stays.flight.points[1].hold_s, 100);
+  const FlightPlan open = parsed_plan(plan({waypoint(48, 11, 50), simple(18, 3, "[1, 0, 0, 0, 48.002, 11, 50]")}));
+  LocateOptions options = in_munich();
+  expect_error([&] { locate_flight(open, options); }, ErrorCode::missing_key, "item 2");
+  options.loiter_radius_m = 30;
+  EXPECT_GT(locate_flight(open, options).flight.points.size(), 10u);
+}
+
+TEST(LocateFlight, CutsCornersByArcs) {
+  FlightPlan corner;
+  corner.is_in_scene_frame = true;
+  corner.items.resize(3);
+  corner.items[0].position = {{0, 0}, 10, HeightDatum::scene_z};
+  corner.items[1].position = {{100, 0}, 10, HeightDatum::scene_z};
+  corner.items[2].position = {{100, 80}, 10, HeightDatum::scene_z};
+  LocateOptions options;
+  EXPECT_EQ(locate_flight(corner, options).flight.points.size(), 3u);
+  EXPECT_EQ(locate_flight(corner, options).flight.chord_error_m, 0);
+  corner.items[1].cut_m = 20;
+  const Flight flight = locate_flight(corner, options).flight;
+  EXPECT_GT(flight.points.size(), 5u);
+  EXPECT_LT((flight.points[1].position - Vec3(80, 0, 10)).norm(), 1e-9);
+  EXPECT_LT((flight.points[flight.points.size() - 2].position - Vec3(100, 20, 10)).norm(), 1e-9);
+  for (std::size_t i = 1; i + 1 < flight.points.size(); ++i) {
+    EXPECT_NEAR((flight.points[i].position - Vec3(80, 20, 10)).norm(), 20, 1e-9);
+    if (i + 2 < flight.points.size()) {
+      const Vec3 middle = (flight.points[i].position + flight.points[i + 1].position) / 2;
+      EXPECT_LE(20 - (middle - Vec3(80, 20, 10)).norm(), options.chord_error_m);
+    }
+  }
+  corner.items[1].hold_s = 1;  // it goes there
+  EXPECT_EQ(locate_flight(corner, options).flight.points.size(), 3u);
+}
+
+TEST(LocateFlight, FollowsTheGround) {
+  Random random(13);
+  for (int i = 0; i < 12; ++i) {
+    const auto hills = std::make_shared<const Mesh>(make_hills(random, 200, 25, 20, Vec3(0, 0, 0)));
+    const Ground ground{0, hills};
+    const GroundLevels levels(ground);
+    FlightPlan two;
+    two.is_in_scene_frame = true;
+    two.items.resize(2);
+    const Vec3 a = random.point(-190, 190);
+    const Vec3 b = i % 4 == 0 ? Vec3(a.x(), -a.y(), 0) : random.point(-190, 190);
+    two.items[0].position = {a.head<2>(), 20, HeightDatum::ground};
+    two.items[1].position = {b.head<2>(), 60, HeightDatum::ground};
+    two.items[1].follows_ground = true;
+    LocateOptions options;
+    options.ground = &ground;
+    options.ground_error_m = i % 2 == 0 ? 0.25 : 3;
+    const Flight flight = locate_flight(two, options).flight;
+    EXPECT_EQ(flight.chord_error_m, options.ground_error_m);
+    const Eigen::Vector2d way = (b - a).head<2>();
+    std::size_t checked = 0;
+    for (std::size_t leg = 0; leg < flight.leg_count(); ++leg) {
+      for (int k = 0; k <= 20; ++k) {
+        const Vec3 p = flight.leg(leg).from + (flight.leg(leg).to - flight.leg(leg).from) * k / 20.0;
+        const double share = (p - a).head<2>().dot(way) / way.squaredNorm();
+        const auto range = levels.at(p.x(), p.y());
+        ASSERT_TRUE(range);
+        ASSERT_NEAR(p.z() - range->highest_m, 20 + 40 * share, options.ground_error_m + 1e-3);
+        ++checked;
+      }
+    }
+    EXPECT_GE(checked, 42u);
+    two.items[1].follows_ground = false;
+    EXPECT_EQ(locate_flight(two, options).flight.points.size(), 2u);
+    two.items[1].follows_ground = true;
+    two.items[1].position.horizontal = {300, 0};
+    expect_code([&] { locate_flight(two, options); }, ErrorCode::ground_missing);
+  }
+}
+
+// A line along an edge that triangles share, and a step of the ground.
+TEST(LocateFlight, FollowsEdgesAndStepsOfTheGround) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0},   {50, 0, 0},   {50, 50, 0},   {0, 50, 0},
+                   {50, 0, 30}, {100, 0, 30}, {100, 50, 30}, {50, 50, 30}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const Ground ground{0, std::make_shared<const Mesh>(mesh)};
+  FlightPlan two;
+  two.is_in_scene_frame = true;
+  two.items.resize(2);
+  two.items[0].position = {{0, 0}, 10, HeightDatum::ground};
+  two.items[1].position = {{50, 50}, 10, HeightDatum::ground};
+  two.items[1].follows_ground = true;
+  LocateOptions options;
+  options.ground = &ground;
+  EXPECT_EQ(locate_flight(two, options).flight.points.size(), 2u + 1u);  // up at the step, at its end
+  two.items[1].position.horizontal = {100, 50};
+  const Flight flight = locate_flight(two, options).flight;
+  ASSERT_EQ(flight.points.size(), 4u);
+  EXPECT_LT((flight.points[1].position - Vec3(50, 25, 10)).norm(), 1e-5);
+  EXPECT_LT((flight.points[2].position - Vec3(50, 25, 40)).norm(), 1e-5);
+}
+
+TEST(LocateFlight, TakesOffAndReturns) {
+  const std::vector<std::string> items{simple(22, 3, "[0, 0, 0, null, 48.001, 11, 30]"), waypoint(48.002, 11, 50),
+                                       simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")};
+  const FlightPlan copter = parsed_plan(plan(items));
+  const auto heights = [](const LocatedPlan& located) {
+    std::vector<double> z;
+    for (const FlightPoint& point : located.flight.points) z.push_back(point.position.z());
+    return z;
+  };
+  LocateOptions options = in_munich();
+  const LocatedPlan plain = locate_flight(copter, options);
+  EXPECT_EQ(heights(plain), (std::vector<double>{530, 530, 550, 550}));
+  EXPECT_LT(plain.flight.points[0].position.head<2>().norm(), 1e-6);
+  EXPECT_LT(plain.flight.points[3].position.head<2>().norm(), 1e-6);
+  ASSERT_TRUE(plain.home);
+  EXPECT_EQ(plain.home->z(), 500);
+  EXPECT_TRUE(has_note(plain.notes, WarningCode::plan_assumed));
+  options.return_height_m = 80;
+  options.with_ground_legs = true;
+  const LocatedPlan whole = locate_flight(copter, options);
+  EXPECT_EQ(heights(whole), (std::vector<double>{500, 530, 530, 550, 580, 580, 500}));
+  EXPECT_TRUE(whole.notes.empty());
+  EXPECT_EQ(heights(locate_flight(parsed_plan(plan(items, 1)), options)),
+            (std::vector<double>{500, 530, 550, 580, 580, 500}));
+  const FlightPlan lands = parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48.003, 11, 0]")}));
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 500}));
+  options.with_ground_legs = false;
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550}));
+  const FlightPlan homeless =
+      parsed_plan(plan({waypoint(48.002, 11, 50, 0), simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")}, 2, "null"));
+  expect_error([&] { locate_flight(homeless, options); }, ErrorCode::missing_key, "item 2");
+}
+
+TEST(LocateFlight, HasBounds) {
+  FlightPlan circles = parsed_plan(plan({simple(18, 3, "[10000, 0, 90000, 0, 48, 11, 50]")}));
+  LocateOptions options = in_munich();
+  expect_error([&] { locate_flight(circles, options); }, ErrorCode::work_too_large, "item 1");
+  options.chord_error_m = 0;
+  expect_error([&] { locate_flight(circles, options); }, ErrorCode::value_out_of_range, "chord_error_m");
+}
+
+}  // namespace
+}  // namespace vantage::testing
