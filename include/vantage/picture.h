@@ -110,9 +110,10 @@ struct ProfileRequest {
   std::string title, subtitle;  ///< UTF-8
 };
 
-/// Drawn without OpenGL. Under the flight the highest surface of the scene is shown, looked up once a pixel. Strips
-/// that have no room (more than about a hundred) are left out, and a line says how many. Throws Error(input) for fewer
-/// than two points, one that is not finite, spans that are not finite, and a width out of range; Error(cancelled).
+/// Drawn without OpenGL. Under the flight the highest surface of the scene is shown, looked up once a pixel. Strips for
+/// which the picture would be higher than half of kLargestPicture are left out, and a line says how many. A span is at
+/// least 1.5 pixels wide. Throws Error(input) for fewer than two points, one that is not finite, spans that are not
+/// finite, and a width out of range; Error(cancelled).
 VANTAGE_API Picture render_profile(const Scene& scene, const ProfileRequest& request, const Progress& progress = {});
 
 /// One picture over another, in the middle of what the wider one takes. Throws Error(input) where together they are

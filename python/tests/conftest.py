@@ -31,6 +31,14 @@ def yard():
                                 objects=[vt.SceneObject("ground", kind="ground"), vt.SceneObject("tower", kind="building")])
 
 
+def refused(call):
+    """The error of a call that must be refused for its input."""
+    with pytest.raises(vt.Error) as raised:
+        call()
+    assert raised.value.kind == "input" and raised.value.problem and raised.value.fix, raised.value
+    return raised.value
+
+
 @pytest.fixture(scope="session")
 def scene():
     return yard()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import vantage as vt
-from conftest import PROJECT, SQUARE, yard
+from conftest import PROJECT, SQUARE, refused, yard
 
 PLAZA = PROJECT / "examples" / "plaza" / "mission.yaml"
 PAST_THE_TOWER = [[-60, 5, 20], [90, 5, 20]]
@@ -23,13 +23,6 @@ def mission():
 @pytest.fixture(scope="module")
 def found(mission):
     return vt.check(mission, PAST_THE_TOWER, speed_m_s=5)
-
-
-def refused(call):
-    with pytest.raises(vt.Error) as raised:
-        call()
-    assert raised.value.kind == "input" and raised.value.problem and raised.value.fix, raised.value
-    return raised.value
 
 
 def test_what_is_seen_is_what_the_query_says(mission, found):

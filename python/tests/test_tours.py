@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vantage as vt
-from conftest import PROJECT, yard
+from conftest import PROJECT, refused, yard
 
 PLACE = vt.Georeference(48.137, 11.575, "EGM96 geoid")
 SQUARES = [[[x, y, 0], [x + 6, y, 0], [x + 6, y + 6, 0], [x, y + 6, 0]] for x, y in ((-60, -60), (-60, 50), (60, 50))]
@@ -30,13 +30,6 @@ def mission():
 @pytest.fixture(scope="module")
 def found(mission):
     return vt.tour(mission)
-
-
-def refused(call):
-    with pytest.raises(vt.Error) as raised:
-        call()
-    assert raised.value.kind == "input" and raised.value.problem and raised.value.fix, raised.value
-    return raised.value
 
 
 def test_every_target_is_seen(mission, found):

@@ -268,11 +268,21 @@ def _volumes(wanted: Any, threads: int, progress: Progress) -> tuple[list[Result
     return [mission.run(threads=threads, progress=progress)] if count == 1 else mission._try_each(threads, progress), names
 
 
-def _searched(results: Sequence[Result | Error], names: Sequence[str], told: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """What was found, with the errors of targets in their places."""
+def _searched(results: Sequence[Result | Error], names: Sequence[str], told: list[dict[str, Any]],
+              kind: str) -> tuple[list[tuple[str, dict[str, Any]]], list[Found]]:
+    """What was found, each with its target; and how each search ended, with the errors of targets in their places."""
     left = iter(told)
-    return [{"target": name, "margin_m": None, "reason": one.problem, "notes": []} if isinstance(one, Error) else next(left)
-            for one, name in zip(results, names)]
+    rows: list[tuple[str, dict[str, Any]]] = []
+    searches: list[Found] = []
+    for one, name in zip(results, names):
+        if isinstance(one, Error):
+            searches.append(Found(name, 0, None, one.problem, []))
+            continue
+        row = next(left)
+        found = row.get(kind, [])
+        searches.append(Found(row["target"], len(found), row["margin_m"], row["reason"], row["notes"]))
+        rows += [(row["target"], each) for each in found]
+    return rows, searches
 
 
 def standpoints(mission: Wanted, *, margin_m: float | None = None, tolerance_m: float | None = None,
@@ -308,13 +318,11 @@ def standpoints(mission: Wanted, *, margin_m: float | None = None, tolerance_m: 
     good = [one for one in results if isinstance(one, Result)]
     told = json.loads(_core.find_standpoints([one.mission._core for one in good], [one.volume._core for one in good],
                                              *options, count, progress))["targets"]
-    found, searches = [], []
-    for row in _searched(results, names, told):
-        rows = row.get("standpoints", [])
-        searches.append(Found(row["target"], len(rows), row["margin_m"], row["reason"], row["notes"]))
-        for one in rows:
-            x, y, z = one.pop("position")
-            found.append(Standpoint(target=row["target"], x=x, y=y, z=z, **one))
+    rows, searches = _searched(results, names, told, "standpoints")
+    found = []
+    for target, one in rows:
+        x, y, z = one.pop("position")
+        found.append(Standpoint(target=target, x=x, y=y, z=z, **one))
     return Standpoints(found, searches, _crs_of(good))
 
 
@@ -363,13 +371,11 @@ def orbits(mission: Wanted, *, least_radius_m: float = 40.0, most_radius_m: floa
     text, cores = _core.find_orbits([one.mission._core for one in good], [one.volume._core for one in good], *options, count,
                                     progress)
     left, crs = iter(cores), _crs_of(good)
-    found, searches = [], []
-    for row in _searched(results, names, json.loads(text)["targets"]):
-        rows = row.get("orbits", [])
-        searches.append(Found(row["target"], len(rows), row["margin_m"], row["reason"], row["notes"]))
-        for one in rows:
-            place = np.array(one.pop("centre"))
-            found.append(Orbit(target=row["target"], centre=place, _core=next(left), _crs=crs, **one))
+    rows, searches = _searched(results, names, json.loads(text)["targets"], "orbits")
+    found = []
+    for target, one in rows:
+        place = np.array(one.pop("centre"))
+        found.append(Orbit(target=target, centre=place, _core=next(left), _crs=crs, **one))
     return Orbits(found, searches, crs)
 
 

@@ -180,15 +180,15 @@ int run_check(const CheckArguments& options) {
     written.write(is_json_file(options.output_file) ? json_text(check, georeference) : csv_text(check));
     written.commit();
   }
-  if (!options.picture_file.empty()) {
-    const std::string verdict = check.passes() ? "keeps what is asked" : "does not keep what is asked";
-    const FlightPicture picture{&mission, &located.flight, &check, {}, plan_name(options), verdict};
-    write_flight_picture(picture, options.picture_file, progress.callback());
-  }
   if (options.json) {
     print(json_text(check, georeference));
   } else if (!options.common.quiet) {
     print(table_text(check, options.plan_file));
+  }
+  if (!options.picture_file.empty()) {
+    const std::string verdict = check.passes() ? "keeps what is asked" : "does not keep what is asked";
+    const FlightPicture picture{&mission, &located.flight, &check, {}, plan_name(options), verdict};
+    write_flight_picture(picture, options.picture_file, progress.callback());
   }
   return check.passes() ? kSuccess : kCheckFailed;
 }

@@ -145,13 +145,13 @@ int run_tour(const TourArguments& options) {
   }
   if (!options.output_file.empty() && !tour.tour.order.empty())
     write_flight_plan(plan_of_tour(tour, mission, plan_format_of(options.output_file)), options.output_file);
-  if (!options.picture_file.empty() && !tour.tour.order.empty()) {
-    draw_tour(tour, mission, options.picture_file, progress.callback());
-  }
   if (options.json) {
     print(json_text(tour));
   } else if (!options.common.quiet) {
     print(table_text(tour));
+  }
+  if (!options.picture_file.empty() && !tour.tour.order.empty()) {
+    draw_tour(tour, mission, options.picture_file, progress.callback());
   }
   if (!tour.is_complete()) return kCheckFailed;
   return options.no_bound || tour.reaches_gap() ? kSuccess : kUndecided;
