@@ -35,6 +35,19 @@ TEST_F(CliTour, WritesAPlanThatCheckAccepts) {
   EXPECT_EQ(run({"check", "tour.yaml", "old.csv", "--clearance", "40"}).exit_code, 1);
 }
 
+TEST_F(CliTour, WritesPlansForAircraftOfDji) {
+  const std::string town = (source_folder() / "examples/town/tour.yaml").string();
+  expect_bad({"tour", town, "--no-bound", "-o", "tour.kmz"}, "flight");
+  for (const char* wrong : {"77", "77,x", "-1,0", "77,0,66,1", "77,,66"}) {
+    expect_bad({"tour", town, "--no-bound", "-o", "tour.kmz", "--aircraft", wrong}, "--aircraft");
+  }
+  ASSERT_EQ(run({"tour", town, "--no-bound", "-q", "-o", "tour.kmz", "--aircraft", "77,0,66"}).exit_code, 0);
+  const ProgramRun check = run({"check", town, "tour.kmz", "--json", "--undulation", "0"});
+  const Json answer = Json::parse(check.out);
+  EXPECT_EQ(answer["targets"].size(), 5U) << check.err;
+  for (const Json& target : answer["targets"]) EXPECT_FALSE(target["seen"].empty()) << target["name"];
+}
+
 TEST_F(CliTour, PrintsATable) {
   const std::string text = output_of({"tour", "tour.yaml"});
   for (const char* word : {"multirotor, 3 of 3 targets", "length", "bound", "gap", "it ignores", "west", "south"}) {

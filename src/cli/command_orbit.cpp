@@ -8,6 +8,7 @@
 
 #include "cli/chosen_target.h"
 #include "cli/command.h"
+#include "cli/plan_output.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/target_volumes.h"
@@ -45,6 +46,7 @@ struct OrbitArguments {
   std::string mission_file, target;
   std::string radius, most_radius, margin, clearance;  // as typed; empty: not given
   std::string output_file;
+  PlanOutput plan;
   std::string centre = "around";
   bool counterclockwise = false, circles = false, json = false;
 };
@@ -154,20 +156,22 @@ void check_orbit_output(const OrbitArguments& arguments, const MissionFile& file
 }
 
 /// The deepest one: it stays in view wherever the wind pushes, as far as any does.
-void write_orbit(const Orbits& orbits, const Mission& mission, const std::string& file) {
+void write_orbit(const Orbits& orbits, const Mission& mission, const OrbitArguments& arguments) {
   if (orbits.found.empty()) return;
   const auto is_deepest = [](const Orbit& orbit) { return orbit.kind == OrbitKind::deepest; };
   const auto deepest = std::find_if(orbits.found.begin(), orbits.found.end(), is_deepest);
   const Orbit& chosen = deepest == orbits.found.end() ? orbits.found.front() : *deepest;
-  write_flight_plan(plan_of_orbit(chosen, mission, plan_format_of(file)), file);
+  const std::string& file = arguments.output_file;
+  write_flight_plan(with_output(plan_of_orbit(chosen, mission, plan_format_of(file)), arguments.plan), file);
 }
 
 /// Whether the format can state an orbit of the mission: before any is looked for.
-void check_orbit_can_be_stated(const Mission& mission, const std::string& file) {
+void check_orbit_can_be_stated(const Mission& mission, const OrbitArguments& arguments) {
   Orbit any;
   any.centre = mission.home.value_or(Vec3::Zero());
   any.radius_m = 1;
-  flight_plan_bytes(plan_of_orbit(any, mission, plan_format_of(file)), plan_format_of(file));
+  const PlanFormat format = plan_format_of(arguments.output_file);
+  flight_plan_bytes(with_output(plan_of_orbit(any, mission, format), arguments.plan), format);
 }
 
 int run_orbit(const OrbitArguments& arguments) {
@@ -180,11 +184,10 @@ int run_orbit(const OrbitArguments& arguments) {
     ProgressLine progress(arguments.common);
     const TargetVolumes volumes =
         compute_targets(file, arguments.target, arguments.common.threads, progress.callback());
-    if (!arguments.output_file.empty())
-      check_orbit_can_be_stated(volumes.targets.front().mission, arguments.output_file);
+    if (!arguments.output_file.empty()) check_orbit_can_be_stated(volumes.targets.front().mission, arguments);
     found = orbits_of(volumes, options, progress.callback());
     if (!arguments.output_file.empty()) {
-      write_orbit(found.front().orbits, volumes.targets.front().mission, arguments.output_file);
+      write_orbit(found.front().orbits, volumes.targets.front().mission, arguments);
     }
     if (!arguments.common.quiet) tell_of_targets(volumes);
   }
@@ -222,8 +225,9 @@ void add_orbit(CLI::App& app, Command& chosen) {
   command->add_option("--clearance", options->clearance, kClearanceHelp)->option_text("METRES");
   command
       ->add_option("-o,--output", options->output_file,
-                   "Write the deepest orbit as a plan: .plan, .waypoints, .kml, .gpx, .geojson or .csv")
+                   "Write the deepest orbit as a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv")
       ->option_text("FILE");
+  add_plan_output(*command, options->plan);
   command
       ->add_option("--centre", options->centre,
                    "around: the target is within the orbit; over: the centre is over the target; anywhere")

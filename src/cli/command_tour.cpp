@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/flight_picture.h"
 #include "cli/picture_options.h"
+#include "cli/plan_output.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
@@ -38,12 +39,13 @@ constexpr const char* kTourExamples =
     "EXAMPLES\n"
     "  vantage tour mission.yaml\n"
     "  vantage tour mission.yaml -o tour.plan --picture tour.png\n"
-    "  vantage tour mission.yaml -o tour.kml --no-bound\n"
+    "  vantage tour mission.yaml -o tour.kmz --aircraft 77,0,66 --no-bound\n"
     "  vantage tour mission.yaml -o tour.csv --certificate tour.cert --json > tour.json\n";
 
 struct TourArguments {
   CommonOptions common;
   std::string mission_file, output_file, certificate_file, picture_file;
+  PlanOutput plan;
   bool no_bound = false, json = false;
 };
 
@@ -105,14 +107,19 @@ void check_outputs(const TourArguments& options, const MissionFile& mission) {
   }
 }
 
-/// Before anything is computed: whether the format can state a flight of this mission. A flight of one point shows it.
-void check_can_state(const Mission& mission, const std::string& file) {
-  if (file.empty()) return;
+FlightOut plan_in(const MissionTour& tour, const Mission& mission, const TourArguments& options) {
+  return with_output(plan_of_tour(tour, mission, plan_format_of(options.output_file)), options.plan);
+}
+
+/// Before anything is computed: whether the format can state a flight of this mission. One from and to one place shows
+/// it.
+void check_can_state(const Mission& mission, const TourArguments& options) {
+  if (options.output_file.empty()) return;
   MissionTour tour;
   tour.settings = mission.as_written.tour.value_or(TourSettings());
   tour.home = mission.home;
-  tour.tour.flight.points.push_back({mission.home.value_or(Vec3::Zero())});
-  flight_plan_bytes(plan_of_tour(tour, mission, plan_format_of(file)), plan_format_of(file));
+  tour.tour.flight.points.assign(2, {mission.home.value_or(Vec3::Zero())});
+  flight_plan_bytes(plan_in(tour, mission, options), plan_format_of(options.output_file));
 }
 
 /// The flight in the scene, with the volumes of all targets, and its profile: what is seen is as `check` finds it.
@@ -132,7 +139,7 @@ int run_tour(const TourArguments& options) {
   if (!file.targets.empty()) file.combine = Combine::each;
   ProgressLine progress(options.common);
   const Mission mission = resolve_mission(file, progress.callback());
-  check_can_state(mission, options.output_file);
+  check_can_state(mission, options);
   if (!options.picture_file.empty()) check_flight(mission, {{{mission.home.value_or(Vec3::Zero())}}, 0});  // or refuses
   MissionTourOptions asked;
   asked.threads = options.common.threads;
@@ -144,7 +151,7 @@ int run_tour(const TourArguments& options) {
     for (const std::string& text : tour.notes) note(text);
   }
   if (!options.output_file.empty() && !tour.tour.order.empty())
-    write_flight_plan(plan_of_tour(tour, mission, plan_format_of(options.output_file)), options.output_file);
+    write_flight_plan(plan_in(tour, mission, options), options.output_file);
   if (options.json) {
     print(json_text(tour));
   } else if (!options.common.quiet) {
@@ -167,8 +174,10 @@ void add_tour(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("MISSION");
   command
-      ->add_option("-o,--output", options->output_file, "Write a plan: .plan, .waypoints, .kml, .gpx, .geojson or .csv")
+      ->add_option("-o,--output", options->output_file,
+                   "Write a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv")
       ->option_text("FILE");
+  add_plan_output(*command, options->plan);
   command->add_flag("--no-bound", options->no_bound, "Plan alone: quicker, and no word on how short a flight can be");
   command
       ->add_option("--certificate", options->certificate_file,

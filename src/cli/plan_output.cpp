@@ -1,0 +1,54 @@
+#include "cli/plan_output.h"
+
+#include <charconv>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::cli {
+namespace {
+
+DjiAircraft aircraft_of(const std::string& text) {
+  std::vector<int> numbers;
+  bool is_right = true;
+  for (const std::string_view part : split_at_commas(text)) {
+    int& number = numbers.emplace_back();
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+    is_right = is_right && error == std::errc() && end == part.data() + part.size() && number >= 0;
+  }
+  if (!is_right || numbers.size() < 2 || numbers.size() > 3) {
+    throw Error(
+        ErrorCode::value_syntax, in_quotes(text) + " does not name an aircraft of DJI", "command line, --aircraft",
+        "give the numbers of its type and subtype in DJI's documents, and of its camera: 77,0,66 for the Mavic 3E");
+  }
+  DjiAircraft aircraft;
+  aircraft.drone = numbers[0];
+  aircraft.drone_sub_type = numbers[1];
+  if (numbers.size() > 2) aircraft.payload = numbers[2];
+  return aircraft;
+}
+
+}  // namespace
+
+void add_plan_output(CLI::App& command, PlanOutput& output) {
+  command
+      .add_option("--aircraft", output.aircraft,
+                  "For .kmz: type, subtype and camera, as DJI numbers them: 77,0,66 is the Mavic 3E")
+      ->option_text("TYPE,SUBTYPE[,CAMERA]");
+  command
+      .add_option("--undulation", output.undulation,
+                  "How high the mean sea level lies above the ellipsoid there, for heights above the ellipsoid")
+      ->option_text("METRES");
+}
+
+FlightOut with_output(FlightOut plan, const PlanOutput& output) {
+  if (!output.aircraft.empty()) plan.aircraft = aircraft_of(output.aircraft);
+  if (output.undulation) plan.levels.undulation_m = output.undulation;
+  return plan;
+}
+
+}  // namespace vantage::cli

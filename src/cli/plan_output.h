@@ -1,0 +1,23 @@
+// What a plan that is written needs, and the mission does not say.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "vantage/flight_plan.h"
+
+namespace vantage::cli {
+
+struct PlanOutput {
+  std::string aircraft;              ///< "TYPE,SUBTYPE" or "TYPE,SUBTYPE,CAMERA"; empty: not given
+  std::optional<double> undulation;  ///< of the mean sea level above the ellipsoid, metres
+};
+
+/// --aircraft and --undulation; `output` must outlive the parsing.
+void add_plan_output(CLI::App& command, PlanOutput& output);
+
+/// The plan with what was given. Throws Error(input) for an aircraft that is none.
+FlightOut with_output(FlightOut plan, const PlanOutput& output);
+
+}  // namespace vantage::cli
