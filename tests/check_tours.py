@@ -8,6 +8,7 @@ The certificates are made here, by hand: weak ones, but right. test_tour_bound_c
 
 import copy
 import hashlib
+import itertools
 import json
 import math
 import pathlib
@@ -99,6 +100,8 @@ def middle(i):
 
 
 class Tours(unittest.TestCase):
+    radius = 0.0
+
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
@@ -135,8 +138,8 @@ class Tours(unittest.TestCase):
         return number if Fraction(number) <= exact else math.nextafter(number, -math.inf)
 
     def certificate(self, regions, proof, **more):
-        return {"format": "vantage tour certificate 1", "bound_m": 0.0, "closed": True, "first": None, "last": None,
-                "regions": regions, "proof": proof, **more}
+        return {"format": "vantage tour certificate 2", "bound_m": 0.0, "turn_radius_m": self.radius, "closed": True,
+                "first": None, "last": None, "regions": regions, "proof": proof, **more}
 
     def leaf(self, stops, closed=True, dwell=False):
         """`stops`: points, each as often as its region has points."""
@@ -229,7 +232,9 @@ class Tours(unittest.TestCase):
     # ---- what is right ------------------------------------------------------
 
     def test_right_ones_are_accepted(self):
-        for make in (self.insertion, self.open_with_dwell, self.pairs, lambda: self.pairs(True)):
+        makes = (self.insertion, self.open_with_dwell, self.pairs, lambda: self.pairs(True),
+                 lambda: self.pairs(False, 3.0))
+        for make, self.radius in itertools.product(makes, (0.0, 2.5, 300.0)):
             make()
             bound = json.loads(self.file.read_text(encoding="ascii"))["bound_m"]
             self.assertEqual(self.accepted(), Fraction(bound))
@@ -270,6 +275,37 @@ class Tours(unittest.TestCase):
                 bounds.append(sum(least(certificate["regions"][r], w) for r, w in zip(order, ways)) +
                               sum(8 * (1 - math.sqrt(sum(x * x for x in u[k]))) for k in (2, 4)))
             self.assertAlmostEqual(self.proved(), min(bounds), 6)
+
+    def three(self, radius):
+        """A leaf alone: a closed tour of three regions. Returns its vectors."""
+        self.radius = radius
+        leaf = self.leaf([middle(s) for s in (0, 1, 2)])
+        self.write(self.certificate(self.regions()[:3], {"kind": "insertion", "root": [0, 1, 2], "tree": [leaf]}))
+        return [leaf[1][k:k + 3] for k in (0, 3, 6)]
+
+    def test_turning_by_hand(self):
+        vectors = self.three(0.0)
+        without, regions = self.proved(), json.loads(self.file.read_text(encoding="ascii"))["regions"]
+        cost = lambda a: a - math.sin(a)  # noqa: E731
+        level = [[x / UNIT for x in v[:2]] + [0] for v in vectors]
+        rooms = [least(regions[(k + 1) % 3], u) + least(regions[k], [-x for x in u]) for k, u in enumerate(level)]
+        for radius in (0.5, 3.0, 10.0, 40.0, 1000.0):
+            self.three(radius)
+            expected = 0
+            for k in range(3):
+                one, other = level[k - 1], level[k]
+                sizes = math.hypot(*one), math.hypot(*other)
+                angle = math.acos(sum(a * b for a, b in zip(one, other)) / sizes[0] / sizes[1])
+                costs = [2 * cost(angle / 2)] + [cost(min(angle, rooms[i] / radius / 2)) for i in (k - 1, k)]
+                expected += min(sizes) * radius * min(costs)
+            self.assertLessEqual(self.proved() - without, expected + 1e-9)
+            self.assertGreater(self.proved() - without, 0.93 * expected)  # series end
+            self.refused(lambda c: c.update(turn_radius_m=c["turn_radius_m"] * (0.99 if radius < 4 else 3)), "less is")
+            self.refused(lambda c: c.update(turn_radius_m=0), "less is proved")
+            self.refused(lambda c: c.update(turn_radius_m=-c["turn_radius_m"]), "negative length")
+            self.both(lambda c: c.pop("turn_radius_m"))
+            self.both(lambda c: c.update(turn_radius_m="3"))
+            self.both(lambda c: c.update(turn_radius_m=float("nan")))
 
     def test_bounds_are_below_tours(self):
         """Random points of the boxes in random orders."""
@@ -329,7 +365,7 @@ class Tours(unittest.TestCase):
 
     def test_form(self):
         self.insertion()
-        self.refused(lambda c: c.update(format="vantage tour certificate 2"), "another version")
+        self.refused(lambda c: c.update(format="vantage tour certificate 1"), "another version")
         self.refused(lambda c: c.update(more=1), "keys")
         self.both(lambda c: c.pop("first"))
         self.both(lambda c: c["proof"].pop("root"))
@@ -470,7 +506,7 @@ class Tours(unittest.TestCase):
         seed = 20261128
         print("seed", seed)
         numbers = random.Random(seed)
-        for make in (self.insertion, self.open_with_dwell, lambda: self.pairs(True)):
+        for make, self.radius in ((self.insertion, 4.0), (self.open_with_dwell, 0.0), (lambda: self.pairs(True), 1.0)):
             make()
             bound = self.accepted()
             kept = {path: path.read_bytes() for path in self.folder.iterdir()}
@@ -492,7 +528,8 @@ class Tours(unittest.TestCase):
                 try:
                     after = self.accepted()
                     before, now = json.loads(kept[self.file]), json.loads(self.file.read_text(encoding="ascii"))
-                    if [{**r, "name": ""} for r in before["regions"]] == [{**r, "name": ""} for r in now["regions"]]:
+                    about = lambda c: ([{**r, "name": ""} for r in c["regions"]], c["turn_radius_m"])  # noqa: E731
+                    if about(before) == about(now):
                         self.assertLess(after, bound + 1)
                 except (checker.Refused, checker.Unreadable):
                     pass

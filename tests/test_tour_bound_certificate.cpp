@@ -60,6 +60,7 @@ BoundProblem random_problem(Random& random, int count, bool dwell) {
     if (dwell) problem.dwell_m.push_back(random.chance(0.5) ? 0 : size * random.uniform(0, 0.5));
   }
   problem.closed = random.chance(0.5);
+  if (random.chance(0.5)) problem.turn_radius_m = size * random.uniform(0.01, 0.5);
   if (!problem.closed || random.chance(0.3)) problem.start = origin + size * random.point(-1, 1);
   if (!problem.closed && random.chance(0.5)) problem.finish = origin + size * random.point(-1, 1);
   return problem;
@@ -91,6 +92,7 @@ TEST(TourBoundCertificate, IsAcceptedAndProvesNoMore) {
     EXPECT_GE(*check.proved_m, bound.length_m);
     EXPECT_EQ(check.regions.size(), bound.regions.size());
     EXPECT_EQ(check.closed, problem.closed);
+    EXPECT_EQ(check.turn_radius_m, problem.turn_radius_m);
     // All that is proved is accepted, and nothing above it.
     claim(file, *check.proved_m);
     EXPECT_TRUE(verify_tour_certificate(file).is_accepted);

@@ -46,6 +46,18 @@ TEST(WholeNumber, AgreesWithTheMachine) {
   EXPECT_EQ(Whole(0).bit_length(), 0U);
 }
 
+TEST(WholeNumber, RootsAreTheLargestWhoseSquareFits) {
+  Random random(9);
+  for (int i = 0; i < 300; ++i) {
+    const Whole square = random_whole(random, i % 13).abs();
+    const Whole root = root_down(square);
+    EXPECT_LE(root * root, square);
+    EXPECT_GT((root + Whole(1)) * (root + Whole(1)), square);
+    EXPECT_EQ(root_down(root * root), root);
+  }
+  EXPECT_THROW(root_down(Whole(-1)), std::domain_error);
+}
+
 TEST(WholeNumber, DivisionsLeaveWhatTheyShould) {
   Random random(72);
   for (int i = 0; i < 20000; ++i) {

@@ -3,22 +3,12 @@
 
     python3 check_tour.py tour.cert
 
-All is decided with whole numbers; nothing of the program that found the bound is believed. Of a region only the corners
-of its triangles count.
-
-Insertion. Let stops lie in convex hulls, in a given order. For any vectors u_k, none longer than 1, of the legs between
-them the way is at least the sum over stops of the least (u_(k-1) - u_k) . v over the corners v of the hull (Cauchy and
-Schwarz). The tree begins with three regions, or the ends of an open tour: any tour visits them in this order. "insert"
-puts a region behind each stop, "cut" takes the parts of a stop's cell on both sides of a plane: the children cover all
-tours of the parent, and leaving out stops makes no way longer. So the least leaf is a bound.
-
-Pairs. With vectors u_ij = -u_ji a tour is at least the sum over its regions i of c_i(j, k) = min (u_ij + u_ik) . v, j
-and k its neighbours. For any numbers p, d, and s >= 0 of sets, that is at least the sum over regions of the least
-c_i(j, k) - p_ij - p_ik, of 2 d_i, of 2 s, and over edges of min(0, p_ij + p_ji - d_i - d_j - the s of sets that it
-leaves): a tour has two edges at each region and leaves each set twice. "edge" fixes one in the tour, then out of it.
-
-That regions hold all that is to be visited only their files say ("vantage region: outer" or "given"); that of a
-computed volume, which lies inside, is refused. Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
+All is decided with whole numbers; nothing of the program that found the bound is believed. docs/theory.md, "Tours", has
+the proofs. In short, a leg with a vector u, not longer than 1, is no shorter than its progress along u, so that a tour
+is no shorter than the sum over its stops of the least (u before - u behind) . v over the corners v of its region. The
+tree covers all tours: "insert" puts a region behind each stop, "cut" takes both sides of a plane, "edge" fixes an edge
+in the tour, then out of it. That regions hold all that is to be visited only their files say ("outer" or "given").
+Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
 
 import argparse, hashlib, json, math, re, struct, sys  # noqa: E401
 from fractions import Fraction
@@ -28,7 +18,6 @@ UNIT, BITS, LARGEST = 1 << 30, 90, 1e9  # of vectors; lengths are in 2^-90 m, or
 HEADER = re.compile(rb"ply\nformat binary_little_endian 1\.0\ncomment vantage region: (outer|given)\nelement vertex "
                     rb"([1-9][0-9]{0,9})\nproperty double x\nproperty double y\nproperty double z\nelement face "
                     rb"([1-9][0-9]{0,9})\nproperty list uchar int vertex_indices\nend_header\n")
-KEYS = {"format", "bound_m", "closed", "first", "last", "regions", "proof"}
 
 class Refused(Exception):
     """The certificate does not prove what it says."""
@@ -36,17 +25,13 @@ class Refused(Exception):
 class Unreadable(Exception):
     """A file is not what it should be."""
 
-def demand(holds, problem):
+def demand(holds, problem, error=Refused):
     if not holds:
-        raise Refused(problem)
+        raise error(problem)
 
 def parsed(text, kind, most):
     demand(len(text) <= most and math.isfinite(kind(text)), "a number that no double holds")
     return kind(text)
-
-def each_key_once(pairs):
-    demand(len(dict(pairs)) == len(pairs), "a key twice")
-    return dict(pairs)
 
 def list_of(values, kinds, count=None):
     """Bools and strings are neither numbers nor lists."""
@@ -72,13 +57,11 @@ def read_mesh(path, kind, said):
     data = path.read_bytes() if path.is_file() else b""
     header = HEADER.match(data)
     demand(header or b"vantage volume: " not in data, f"{path}: a computed volume lies inside, there is no bound of it")
-    if not header:
-        raise Unreadable(f"{path}: is no mesh of a region")
+    demand(header, f"{path}: is no mesh of a region", Unreadable)
     demand(header[1].decode() == kind, f"{path}: is a region of another kind")
     vertices, faces = int(header[2]), int(header[3])
     middle = header.end() + 24 * vertices
-    if len(data) != middle + 13 * faces:
-        raise Unreadable(f"{path}: its size is not the one that its header says")
+    demand(len(data) == middle + 13 * faces, f"{path}: its size is not the one that its header says", Unreadable)
     places = list(struct.iter_unpack("<3d", data[header.end():middle]))
     demand(all(abs(x) <= LARGEST for p in places for x in p), f"{path}: a coordinate is not finite, or too large")
     digest, triangles = hashlib.sha256(b"vantage volume 1\n" + struct.pack("<Q", faces)), []
@@ -90,8 +73,7 @@ def read_mesh(path, kind, said):
     return triangles
 
 class Cell:
-    """What of a region lies on some sides of planes. Corners of polygons are (x, y, z, w), for the point (x, y, z) / w;
-    in the boxes they are rounded down."""
+    """A region on some sides of planes. Corners (x, y, z, w) are the point (x, y, z) / w, which boxes have rounded."""
 
     def __init__(self, region, polygons, is_cut):
         self.region, self.polygons, self.is_cut, self.parts, self.known = region, polygons, is_cut, {}, {}
@@ -99,12 +81,11 @@ class Cell:
         self.root = self.boxes(points) if points else None
 
     def boxes(self, points):
-        box = [min(p[k] for p in points) for k in range(3)] + [max(p[k] for p in points) for k in range(3)]
+        box = [least(p[k] for p in points) for least in (min, max) for k in range(3)]
         if len(points) <= 6:
             return box, points, None
-        axis = max(range(3), key=lambda k: box[k + 3] - box[k])
+        axis, half = max(range(3), key=lambda k: box[k + 3] - box[k]), len(points) // 2
         points = sorted(points, key=lambda p: p[axis])
-        half = len(points) // 2
         return box, self.boxes(points[:half]), self.boxes(points[half:])
 
     def least(self, direction):
@@ -146,21 +127,24 @@ class Tour:
     """What the certificate is about, in whole numbers."""
 
     def __init__(self, certificate, folder):
-        demand(set(certificate) == KEYS, "keys too many or too few")
-        demand(certificate["format"] == "vantage tour certificate 1", "a certificate of another version")
+        keys = {"format", "bound_m", "turn_radius_m", "closed", "first", "last", "regions", "proof"}
+        demand(certificate["format"] == "vantage tour certificate 2", "a certificate of another version")
+        demand(set(certificate) == keys, "keys too many or too few")
         self.closed, self.regions = certificate["closed"], list_of(certificate["regions"], [dict])
         soups = [self.read(region, folder) for region in self.regions]
         self.bits = max([BITS] + [x.as_integer_ratio()[1].bit_length() - 1 for s in soups for t in s for x in t])
         demand(self.bits <= 400, "a coordinate is too fine")
         corners = lambda t: [tuple(map(self.whole, t[k:k + 3])) + (1,) for k in range(0, len(t), 3)]  # noqa: E731
         self.cells = [Cell(i, list(map(corners, soup)), False) for i, soup in enumerate(soups)]
+        self.radius = self.whole(certificate["turn_radius_m"])
         self.dwell = [self.whole(region["dwell_m"]) for region in self.regions]
+        self.places = {i for i, region in enumerate(self.regions) if region["kind"] == "point"}
         self.ends = [e for e in (certificate["first"], certificate["last"]) if e is not None]
         demand(len(set(indices(self.ends, len(soups)))) == len(self.ends), "one region is both ends")
-        demand(all(d >= 0 for d in self.dwell), "a stay of negative length")
-        demand(type(self.closed) is bool, "neither closed nor open")
-        demand(not self.ends if self.closed else certificate["first"] is not None, "ends that it cannot have")
-        demand(all(self.regions[e]["kind"] == "point" and not self.dwell[e] for e in self.ends), "an end is no place")
+        demand(all(d >= 0 for d in self.dwell + [self.radius]), "a stay or a radius of negative length")
+        demand(type(self.closed) is bool and (not self.ends if self.closed else certificate["first"] is not None),
+               "neither closed nor open, or ends that it cannot have")
+        demand(all(e in self.places and not self.dwell[e] for e in self.ends), "an end is no place")
 
     def whole(self, number):
         demand(type(number) in (int, float) and abs(number) <= 1e15, "no number, or too large")
@@ -179,18 +163,35 @@ class Tour:
         demand(re.fullmatch(r"[\w.-]+", region["file"], re.ASCII), "a mesh lies in another folder")
         return read_mesh(folder / region["file"], region["kind"], region["hash"])
 
+def turning(tour, cell, before, behind, rooms):
+    """What turning adds at a stop between legs of these vectors; `rooms`: the least ways over ground beside it."""
+    squares, one = [v[0] * v[0] + v[1] * v[1] for v in (before, behind)], UNIT * UNIT
+    along, norms = before[0] * behind[0] + before[1] * behind[1], math.isqrt(squares[0] * squares[1])
+    if not tour.radius * norms or cell.region in tour.places:  # where flights begin and end, in any direction
+        return 0
+    cosine = min(one, -(-one * along // (norms + (along < 0))))  # from here to `half` all is rounded to less turning
+    quarter = math.isqrt(UNIT * max(0, UNIT - 1 - math.isqrt((one + cosine) // 2)) // 2)  # its sine, then a series
+    half = 2 * quarter + quarter ** 3 // (3 * one) + 3 * quarter ** 5 // (20 * one * one)
+    costs = [a ** 3 * (20 * one - a * a) // (120 * one * one)  # a - sin a, or less
+             for a in [half] + [min(2 * half, max(0, room) // (2 * tour.radius)) for room in rooms]]
+    return math.isqrt(min(squares)) * min(2 * costs[0], *costs[1:]) * tour.radius // UNIT
+
+def room(start, u, end):
+    return start.least((-u[0], -u[1], 0)) + end.least((u[0], u[1], 0))
+
 def leaf_of_insertion(tour, stops, vectors):
     """A stop with a dwell is two points, with a leg between that counts as so long at least."""
     points, stays = [], []
     for cell, stay in ((cell, tour.dwell[cell.region]) for cell in stops):
         points, stays = (points + [cell, cell], stays + [stay, 0]) if stay else (points + [cell], stays + [0])
-    legs = len(points) - (not tour.closed or len(points) == 1)
-    demand(len(vectors) == legs, "there are vectors for another number of legs")
+    demand(len(vectors) == len(points) - (not tour.closed or len(points) == 1), "vectors for another number of legs")
     demand(all(s.root for s in stops), "a part of a region is empty")
-    total, around = 0, vectors if tour.closed and vectors else [(0, 0, 0)] + vectors + [(0, 0, 0)]
-    for k, cell in enumerate(points if vectors else []):
-        before, behind = (around[k - 1], around[k]) if tour.closed else (around[k], around[k + 1])
-        total += cell.least(tuple(a - b for a, b in zip(before, behind)))
+    ends = vectors[-1:] + vectors if tour.closed else [(0, 0, 0)] + vectors + [(0, 0, 0)]
+    around = list(zip(points if vectors else [], ends, ends[1:]))  # a stop, the vectors of its legs
+    total = sum(cell.least(tuple(a - b for a, b in zip(before, behind))) for cell, before, behind in around)
+    turns = [(c, u, v) for c, u, v in around if u != v or c.region in tour.places] if tour.radius else []
+    rooms = [room(turns[k - 1][0], u, c) for k, (c, u, v) in enumerate(turns)]
+    total += sum(turning(tour, *turn, both) for turn, both in zip(turns, zip(rooms, rooms[1:] + rooms[:1])))
     return total + sum(s * (UNIT - 1 - math.isqrt(dot(v, v) - 1) if any(v) else UNIT) for v, s in zip(vectors, stays))
 
 def check_insertion(tour, proof):
@@ -229,6 +230,9 @@ def leaf_of_pairs(tour, rows, origin, inside, outside, p, d, sets):
             return 0
         both, cell, stay = tuple(a + b for a, b in zip(u(i, j), u(i, k))), tour.cells[i], tour.dwell[i]
         least = cell.least(u(i, j)) + cell.least(u(i, k)) + stay * UNIT if stay else cell.least(both)
+        if tour.radius and not stay and max(j, k) < len(tour.cells):
+            rooms = [room(tour.cells[other], u(i, other), cell) for other in (j, k)]
+            least += turning(tour, cell, u(i, j), u(k, i), rooms)
         return least - dot(both, origin)  # p and d are of points about it
 
     total = sum(2 * x for x in d) + sum(2 * s for s, _ in sets)
@@ -237,10 +241,9 @@ def leaf_of_pairs(tour, rows, origin, inside, outside, p, d, sets):
         must = {j for j in beside if (min(i, j), max(i, j)) in inside}
         pairs = ((j, k) for j in beside for k in beside if j < k and must <= {j, k})
         total += min((cost(i, j, k) - p[i][j] - p[i][k] for j, k in pairs), default=math.inf)
-        for j in beside:
-            if j < i:
-                left = p[i][j] + p[j][i] - d[i] - d[j] - sum(s for s, of in sets if (i in of) != (j in of))
-                total += left if j in must else min(0, left)
+        for j in (j for j in beside if j < i):
+            left = p[i][j] + p[j][i] - d[i] - d[j] - sum(s for s, of in sets if (i in of) != (j in of))
+            total += left if j in must else min(0, left)
     return total
 
 def check_pairs(tour, proof):
@@ -271,9 +274,9 @@ def check_pairs(tour, proof):
 
 def check(path, say=print):
     try:
-        certificate = json.loads(path.read_text(encoding="ascii"), object_pairs_hook=each_key_once,
-                                 parse_float=lambda text: parsed(text, float, 40), parse_constant=float,
-                                 parse_int=lambda text: parsed(text, int, 16))
+        certificate = json.loads(path.read_text(encoding="ascii"), parse_constant=float,
+                                 object_pairs_hook=lambda p: demand(len(dict(p)) == len(p), "a key twice") or dict(p),
+                                 parse_float=lambda t: parsed(t, float, 40), parse_int=lambda t: parsed(t, int, 16))
         tour, proof = Tour(certificate, path.parent), certificate["proof"]
         bound = tour.whole(certificate["bound_m"]) * UNIT
         proved = {"insertion": check_insertion, "pairs": check_pairs}[proof["kind"]](tour, proof)
@@ -282,19 +285,16 @@ def check(path, say=print):
     demand(bound <= max(0, proved), "less is proved than the certificate says")
     for region, stay in zip(tour.regions, tour.dwell):
         say(f"{region['kind']:5} {region['name']!a}" + f": {region['dwell_m']} m in it, for it alone" * (stay > 0))
-    say(f"accepted: no {'closed' if tour.closed else 'open'} tour of these {len(tour.regions)} is shorter than "
+    wing = f", turning in {certificate['turn_radius_m']} m over ground or more," * (tour.radius > 0)
+    say(f"accepted: no {'closed' if tour.closed else 'open'} tour of these {len(tour.regions)}{wing} is shorter than "
         f"{certificate['bound_m']} m ({proof['kind']}, {len(proof['tree'])} nodes)")
     return Fraction(bound, UNIT << tour.bits)
 
-def main():
-    parser = argparse.ArgumentParser(description="Checks a bound of tours.")
-    parser.add_argument("certificate", type=Path)
+if __name__ == "__main__":
+    PARSER = argparse.ArgumentParser(description="Checks a bound of tours.")
+    PARSER.add_argument("certificate", type=Path)
     try:
-        check(parser.parse_args().certificate)
+        check(PARSER.parse_args().certificate)
     except (Refused, Unreadable) as problem:
         print(f"refused: {problem}" if isinstance(problem, Refused) else problem, file=sys.stderr)
-        return 1 if isinstance(problem, Refused) else 2
-    return 0
-
-if __name__ == "__main__":
-    sys.exit(main())
+        sys.exit(1 if isinstance(problem, Refused) else 2)

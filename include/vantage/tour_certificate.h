@@ -35,6 +35,8 @@ struct TourCertificateCheck {
   double bound_m = 0;  ///< that the certificate states: no tour is shorter, where it is accepted
   /// What its proof proves, rounded down; nothing where the proof is none. At least bound_m where it is accepted.
   std::optional<double> proved_m = std::nullopt;
+  /// Of the tours that the bound is of: their track over ground curves no tighter but at points; 0: it may.
+  double turn_radius_m = 0;
   bool closed = true;                          ///< of tours that end where they begin
   std::string kind;                            ///< of the proof: "insertion", "pairs" (docs/theory.md, "Tours")
   std::size_t nodes = 0;                       ///< of its tree
@@ -53,7 +55,7 @@ VANTAGE_API TourCertificateCheck verify_tour_certificate(const std::filesystem::
                                                          const Progress& progress = {});
 
 /// JSON (UTF-8, indented, a newline at the end): "accepted", "reason", "bound_m", "proved_m" (null where nothing is
-/// proved, or no tour is possible), "closed", "proof", "nodes", "regions". Lengths in metres.
+/// proved, or no tour is possible), "turn_radius_m", "closed", "proof", "nodes", "regions". Lengths in metres.
 VANTAGE_API std::string json_text(const TourCertificateCheck& check);
 
 }  // namespace vantage

@@ -52,6 +52,9 @@ std::string table_text(const TourCertificateCheck& check, const VerifyTourArgume
   table.heading(options.certificate + ": accepted");
   table.row("bound", fixed(check.bound_m, 3),
             std::string("m: no ") + (check.closed ? "closed" : "open") + " tour of these regions is shorter");
+  if (check.turn_radius_m > 0) {
+    table.row("turns", fixed(check.turn_radius_m, 1), "m: the radius of the track over ground, or more");
+  }
   table.row("proof", check.kind, count(check.nodes) + " nodes");
   if (length) {
     table.row("tour", fixed(*length, 3), "m, as --length says");
@@ -64,8 +67,9 @@ std::string table_text(const TourCertificateCheck& check, const VerifyTourArgume
   table.heading("regions");
   add_regions(table, check);
   table.heading("it ignores");
-  for (const char* ignored :
-       {"obstacles, and zones to stay out of", "turning, climbing and speed", "a margin inside the regions"}) {
+  for (const char* ignored : {"obstacles, and zones to stay out of",
+                              check.turn_radius_m > 0 ? "climbing and speed" : "turning, climbing and speed",
+                              "a margin inside the regions"}) {
     table.row("", "", ignored);
   }
   return table.text();

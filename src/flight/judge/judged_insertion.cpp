@@ -28,6 +28,32 @@ std::int64_t root_up(std::int64_t square) {
 
 Direction difference(const Direction& a, const Direction& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
+/// A point of a leaf.
+struct Stop {
+  Cell* cell;
+  Direction before, behind;  // vectors of its legs
+};
+
+/// Where the vector stays the same, it does not matter where along the track the stop is.
+Whole turning_of(const JudgedTour& tour, const std::vector<Stop>& stops) {
+  std::vector<Stop> turns;
+  for (const Stop& stop : stops) {
+    if (stop.before != stop.behind || tour.is_place[stop.cell->region()]) turns.push_back(stop);
+  }
+  std::vector<Whole> rooms;  // before each
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const Stop& last = turns[(k + turns.size() - 1) % turns.size()];
+    rooms.push_back(room_between(*last.cell, *turns[k].cell, turns[k].before));
+  }
+  Whole total;
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const auto& [cell, before, behind] = turns[k];
+    if (tour.is_place[cell->region()]) continue;
+    total += turning_at(tour.turn_radius, before, behind, rooms[k], rooms[(k + 1) % rooms.size()]);
+  }
+  return total;
+}
+
 /// A stop with a dwell is two points, with a leg between that counts as so long at least.
 Whole leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::vector<Direction>& vectors) {
   std::vector<Cell*> points;
@@ -45,11 +71,14 @@ Whole leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::v
   const std::size_t none = !tour.closed || points.size() == 1 ? 1 : 0;
   demand(vectors.size() + none == points.size(), "there are vectors for another number of legs");
   Whole total;
+  std::vector<Stop> around;
   for (std::size_t k = 0; k < points.size() && !vectors.empty(); ++k) {
     const bool has_before = k > 0 || tour.closed, has_behind = k < vectors.size();
     const Direction before = has_before ? vectors[k > 0 ? k - 1 : vectors.size() - 1] : Direction{};
-    total += points[k]->least(difference(before, has_behind ? vectors[k] : Direction{}));
+    around.push_back({points[k], before, has_behind ? vectors[k] : Direction{}});
+    total += points[k]->least(difference(before, around.back().behind));
   }
+  if (tour.turn_radius.sign() > 0) total += turning_of(tour, around);
   for (std::size_t k = 0; k < vectors.size(); ++k) {
     // A stay may be longer than the way between its points: what the vector leaves of it counts.
     if (stays[k].sign() > 0) total += stays[k] * Whole(kUnit - root_up(square_of(vectors[k])));

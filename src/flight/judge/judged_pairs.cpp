@@ -128,6 +128,11 @@ class PairsJudge {
     Cell& cell = *tour_.cells[i];
     Whole least =
         tour_.dwell[i].sign() > 0 ? cell.least(a) + cell.least(b) + tour_.dwell[i] * Whole(kUnit) : cell.least(both);
+    const bool turns = tour_.turn_radius.sign() > 0 && tour_.dwell[i].sign() == 0 && !tour_.is_place[i];
+    if (turns && std::max(j, k) < tour_.cells.size()) {
+      least += turning_at(tour_.turn_radius, a, vector_between(rows, k, i), room_between(*tour_.cells[j], cell, a),
+                          room_between(*tour_.cells[k], cell, b));
+    }
     return least -= dot(both, origin_);
   }
 

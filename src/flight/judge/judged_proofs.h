@@ -20,6 +20,8 @@ struct JudgedTour {
   bool closed = true;
   std::vector<std::unique_ptr<Cell>> cells;  ///< the regions
   std::vector<Whole> dwell;                  ///< of each
+  std::vector<bool> is_place;                ///< of each: flights begin and end there, in any direction
+  Whole turn_radius;                         ///< the track over ground curves no tighter elsewhere; 0: it may
   std::vector<std::size_t> ends;             ///< of an open tour, the first one and then the last one: regions
   int bits = 0;                              ///< units of lengths are 2^-bits m
 };
@@ -38,6 +40,14 @@ std::vector<Direction> vectors_of(const Json& numbers);
 
 /// Throws Refusal unless these are the keys.
 void demand_keys(const Json& json, std::span<const char* const> keys, const char* problem);
+
+/// How far over ground it is at least from one cell to another along a vector, in units of lengths times those of
+/// vectors; less than 0 where they are not apart.
+Whole room_between(Cell& from, Cell& to, const Direction& direction);
+
+/// What turning adds at a stop whose legs have these vectors and such rooms; in the same units, rounded down.
+Whole turning_at(const Whole& radius, const Direction& before, const Direction& behind, const Whole& room_before,
+                 const Whole& room_behind);
 
 /// What no tour is shorter than, in units of lengths times those of vectors; nothing: there is no tour. Throws Refusal
 /// for a proof that is none, nlohmann's exceptions for one that is no list of what it should be, Error(cancelled), and

@@ -50,9 +50,10 @@ class CertificateJudge {
 
   /// Throws Refusal.
   void judge(const Json& json) {
-    constexpr const char* kKeys[] = {"format", "bound_m", "closed", "first", "last", "regions", "proof"};
+    constexpr const char* kKeys[] = {"format", "bound_m", "turn_radius_m", "closed",
+                                     "first",  "last",    "regions",       "proof"};
     demand_keys(json, kKeys, "it has keys too many or too few");
-    demand(json["format"] == "vantage tour certificate 1", "it is a certificate of another version");
+    demand(json["format"] == "vantage tour certificate 2", "it is a certificate of another version");
     progress_.begin("regions of the certificate");
     for (const Json& region : list_of(json["regions"])) read_region(region);
     make_cells();
@@ -166,7 +167,11 @@ class CertificateJudge {
       tour_.dwell.push_back(whole_of(dwell_[r], tour_.bits));
       demand(tour_.dwell.back().sign() >= 0, "a stay is of negative length");
       check_.regions[r].dwell_m = dwell_[r].get<double>();
+      tour_.is_place.push_back(check_.regions[r].kind == TourCertificateRegion::Kind::point);
     }
+    tour_.turn_radius = whole_of(json["turn_radius_m"], tour_.bits);
+    demand(tour_.turn_radius.sign() >= 0, "a turn radius is negative");
+    check_.turn_radius_m = json["turn_radius_m"].get<double>();
     demand(json["closed"].is_boolean(), "it is of tours that are neither closed nor open");
     tour_.closed = check_.closed = json["closed"].get<bool>();
     for (const char* key : {"first", "last"}) {
@@ -175,8 +180,7 @@ class CertificateJudge {
     demand(tour_.ends.size() < 2 || tour_.ends[0] != tour_.ends[1], "one region is both ends");
     demand(tour_.closed ? tour_.ends.empty() : !json["first"].is_null(), "its tours have ends that they cannot have");
     for (const std::size_t end : tour_.ends) {
-      const bool is_place = check_.regions[end].kind == TourCertificateRegion::Kind::point;
-      demand(is_place && tour_.dwell[end].sign() == 0, "an end is no place");
+      demand(tour_.is_place[end] && tour_.dwell[end].sign() == 0, "an end is no place");
     }
   }
 
@@ -232,6 +236,7 @@ std::string json_text(const TourCertificateCheck& check) {
   json["bound_m"] = check.bound_m;
   json["proved_m"] = nullptr;
   if (check.proved_m && std::isfinite(*check.proved_m)) json["proved_m"] = *check.proved_m;
+  json["turn_radius_m"] = check.turn_radius_m;
   json["closed"] = check.closed;
   json["proof"] = check.kind;
   json["nodes"] = check.nodes;

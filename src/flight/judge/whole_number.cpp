@@ -203,6 +203,19 @@ Whole floor_divided(const Whole& a, const Whole& b) {
   return quotient;
 }
 
+Whole root_down(const Whole& square) {
+  if (square.sign() < 0) throw std::domain_error("root of what is negative");
+  if (square.sign() == 0) return {};
+  // Newton's steps from above go down until they are there.
+  Whole root;
+  root.limbs_ = Whole::shifted_up({1}, (square.bit_length() + 1) / 2);
+  for (;;) {
+    Whole next = floor_divided(root + floor_divided(square, root), Whole(2));
+    if (next >= root) return root;
+    root = std::move(next);
+  }
+}
+
 Whole common_divisor(Whole a, Whole b) {
   a.is_negative_ = b.is_negative_ = false;
   while (b.sign() != 0) {

@@ -38,6 +38,8 @@ class Whole {
 
   /// The largest whole number that is not above a / b; b > 0.
   friend Whole floor_divided(const Whole& a, const Whole& b);
+  /// The largest whole number whose square is not above `square`, which is 0 or more.
+  friend Whole root_down(const Whole& square);
   /// Greatest common divisor, >= 0; of 0 and 0: 0.
   friend Whole common_divisor(Whole a, Whole b);
 
@@ -61,6 +63,7 @@ class Whole {
 
 Whole floor_divided(const Whole& a, const Whole& b);
 Whole common_divisor(Whole a, Whole b);
+Whole root_down(const Whole& square);
 
 /// How many binary places behind the point a finite number has, 0 to 1074.
 int fraction_bits(double value);

@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "flight/tour/turning.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
@@ -218,7 +219,14 @@ class InsertionSearch {
     options.gap = options.in_hull = precision_;
     options.most_rounds = 6;
     options.enough_m = options_.enough_m;
-    outcome.solution = solve_touring(program_of(outcome.sequence), options);
+    const TouringProgram program = program_of(outcome.sequence);
+    TouringSolution& solution = outcome.solution;
+    solution = solve_touring(program, options);
+    if (space_.turn_radius_m > 0) {
+      solution.directions = straightened(program, std::move(solution.directions), space_.turn_radius_m, options);
+      solution.bound_m = touring_bound(program, solution.directions) +
+                         turning_bound(program, solution.directions, space_.turn_radius_m);
+    }
     return outcome;
   }
 

@@ -21,6 +21,7 @@ struct TourSpace {
   bool closed = true;
   std::optional<std::size_t> first, last;  ///< of an open tour: the regions where it begins (always given) and ends
   std::vector<double> dwell_m;             ///< of each region: a stretch so long is flown in it alone; 0: none
+  double turn_radius_m = 0;  ///< the track over ground curves no tighter, but at points; 0: tours turn on the spot
 };
 
 struct InsertionNode {

@@ -13,6 +13,7 @@
 #include "flight/tour/insertion_bound.h"
 #include "flight/tour/pairs_bound.h"
 #include "flight/tour/touring_program.h"
+#include "flight/tour/turning.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::flight::tour {
@@ -56,6 +57,7 @@ class PairCosts {
         for (std::int32_t& x : vector) x = -x;
       }
     }
+    const std::vector<std::vector<double>> apart = level_distances(cells, space.turn_radius_m);
     costs_.assign(count_, std::vector<double>(count_ * count_, 0.0));
     for (std::size_t i = 0; i < regions_; ++i) {
       const double dwell = space.dwell_m.empty() ? 0 : space.dwell_m[i];
@@ -63,7 +65,12 @@ class PairCosts {
       for (std::size_t j = 0; j < count_; ++j) {
         for (std::size_t k = j + 1; k < count_; ++k) {
           if (i == j || i == k) continue;
-          costs_[i][j * count_ + k] = costs_[i][k * count_ + j] = cost(hull, vector(i, j), vector(i, k), dwell);
+          double& here = costs_[i][j * count_ + k];
+          here = cost(hull, vector(i, j), vector(i, k), dwell);
+          if (space.turn_radius_m > 0 && dwell <= 0 && !hull.is_point()) {
+            here += turning_part(between(j, i), between(i, k), apart[i][j], apart[i][k], space.turn_radius_m);
+          }
+          costs_[i][k * count_ + j] = here;
         }
       }
       error_ += (2 * 44 * 0x1p-53 * hull.reach_m() + 2.001 * hull.moved_m()) * 2 + 4 * 0x1p-53 * dwell;
@@ -84,6 +91,22 @@ class PairCosts {
   }
   Vec3 vector(std::size_t i, std::size_t j) const {
     return j < i ? vector_of(vectors_[i][j]) : Vec3(-vector_of(vectors_[j][i]));
+  }
+  /// Of the leg from one region to another.
+  Direction between(std::size_t from, std::size_t to) const {
+    if (from < to) return vectors_[to][from];
+    Direction back = vectors_[from][to];
+    for (std::int32_t& x : back) x = -x;
+    return back;
+  }
+  std::vector<std::vector<double>> level_distances(const Cells& cells, double turn_radius_m) const {
+    std::vector<std::vector<double>> apart(count_, std::vector<double>(count_, 0.0));
+    for (std::size_t i = 0; i < regions_ && turn_radius_m > 0; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        apart[i][j] = apart[j][i] = level_distance_m(*cells[j].hull, *cells[i].hull, vectors_[i][j]);
+      }
+    }
+    return apart;
   }
   static double cost(const Hull& hull, const Vec3& one, const Vec3& other, double dwell) {
     if (dwell > 0) return one.dot(hull.lowest(one)) + other.dot(hull.lowest(other)) + dwell;

@@ -28,6 +28,10 @@ void check_problem(const BoundProblem& problem) {
     throw Error(ErrorCode::array_sizes_differ, "there are lengths of stay for another number of regions", "dwell_m",
                 "give one length for each region, or none");
   }
+  if (!(problem.turn_radius_m >= 0) || !std::isfinite(problem.turn_radius_m)) {
+    throw Error(ErrorCode::value_out_of_range, "a radius of turning is negative or not finite", "turn_radius_m",
+                "give metres, 0 or more");
+  }
   for (const double dwell : problem.dwell_m) {
     if (!(dwell >= 0) || !std::isfinite(dwell)) {
       throw Error(ErrorCode::value_out_of_range, "a length of stay is negative or not finite", "dwell_m",
@@ -103,6 +107,7 @@ TourBound bound_tour(const BoundProblem& problem, const Incumbent& incumbent, co
   result.regions = problem.regions;
   result.space.closed = problem.closed;
   result.space.dwell_m = problem.dwell_m;
+  result.space.turn_radius_m = problem.turn_radius_m;
   const auto add_place = [&](const Vec3& place, const char* name) {
     result.regions.push_back(OuterRegion::point(place, name));
     if (!result.space.dwell_m.empty()) result.space.dwell_m.push_back(0);
@@ -153,7 +158,8 @@ TourBound bound_tour(const BoundProblem& problem, const Incumbent& incumbent, co
       }
     }
   });
-  result.ignored = {"obstacles between the regions", "turning and climbing", "acceleration"};
+  const bool has_turning = problem.turn_radius_m > 0;
+  result.ignored = {"obstacles between the regions", has_turning ? "climbing" : "turning and climbing", "acceleration"};
   result.length_m = std::max(0.0, result.length_m);
   if (!std::isfinite(incumbent.length_m)) {
     result.gap = 1;

@@ -96,8 +96,9 @@ std::string region_ply(const OuterRegion& region) {
 
 std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files) {
   Json json;
-  json["format"] = "vantage tour certificate 1";
+  json["format"] = "vantage tour certificate 2";
   json["bound_m"] = bound.length_m;
+  json["turn_radius_m"] = bound.space.turn_radius_m;
   json["closed"] = bound.space.closed;
   json["first"] = or_null(bound.space.first);
   json["last"] = or_null(bound.space.last);

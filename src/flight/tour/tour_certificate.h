@@ -17,8 +17,9 @@ std::string region_ply(const OuterRegion& region);
 
 /// JSON, one entry of the tree a line. `files`: of each region the name of its mesh, relative to the certificate's
 /// folder; of points it is not read.
-///   format      "vantage tour certificate 1"
+///   format      "vantage tour certificate 2"
 ///   bound_m     what is proved
+///   turn_radius_m  of a fixed wing: the track over ground curves no tighter but at points. Else 0
 ///   closed      first, last: numbers of regions, or null
 ///   regions     name, kind, dwell_m; file and hash (docs/hashes.md, of a volume) of a mesh, "at" of a point
 ///   proof       "kind": "insertion", "root": regions, "tree": in preorder

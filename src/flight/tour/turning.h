@@ -1,0 +1,40 @@
+// What a limit on turning adds to a bound: docs/theory.md, "Tours".
+//
+// Let the track over ground curve no tighter than a circle of radius r. A vector u, of length 1 at most, bounds a leg
+// by its progress along u. Each metre over ground of a track that heads at an angle t from u is longer than its
+// progress by |u_h| (1 - cos t), u_h the part of u that is level. Where the vectors of two legs are at an angle, the
+// track heads apart from one of them at least, and needs r t metres to turn by t, which costs r (t - sin t): more than
+// r min(|u_h|, |v_h|) 2 (t / 2 - sin(t / 2)) in all for an angle t between u_h and v_h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flight/tour/touring_program.h"
+
+namespace vantage::internal::flight::tour {
+
+/// The least radius of the track over ground of a path that climbs and descends by at most so many degrees, and whose
+/// smallest radius of curvature in space is this: the track of a helix that climbs by c curves by 1 / (r cos(c)^2).
+double track_radius_m(double radius_in_space_m, double steepest_climb_deg);
+
+/// At a stop whose legs have these vectors, in metres, rounded down. `before_m`, `behind_m`: so long at least is the
+/// track over ground between this stop and the ones beside it; each stop has one half of it to turn in. `radius_m`: 0
+/// for a vehicle that turns on the spot.
+double turning_part(const Direction& before, const Direction& behind, double before_m, double behind_m,
+                    double radius_m);
+
+/// How far `to` is at least from `from`, along what of the vector is level: rounded down, 0 or more.
+double level_distance_m(const Hull& from, const Hull& to, const Direction& direction);
+
+/// Of a whole sequence: this may be added to touring_bound of the same vectors. At points, where a flight begins and
+/// ends, vehicles may turn on the spot.
+double turning_bound(const TouringProgram& program, std::span<const Direction> directions, double radius_m);
+
+/// Vectors for which both together are larger, if such are found: where a tour hardly turns at a stop, the vectors of a
+/// program without it leave more room to turn at the others. `directions` are those of the program's solution.
+/// `enough_m`: ends as soon as the bound is so large.
+std::vector<Direction> straightened(const TouringProgram& program, std::vector<Direction> directions, double radius_m,
+                                    const TouringOptions& options);
+
+}  // namespace vantage::internal::flight::tour
