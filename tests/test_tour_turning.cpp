@@ -203,12 +203,5 @@ TEST(TourTurning, EndsAtAHomeOnTheWay) {
   EXPECT_EQ(turning_bound(program, std::vector<Direction>{east, east, there, back}, 20), without);
 }
 
-TEST(TourTurning, OfAHelixIsItsTrack) {
-  // A helix of radius r that climbs by c has a radius of curvature of r / cos(c)^2.
-  const double climb = 0.3, track = 35;
-  EXPECT_NEAR(track_radius_m(track / (std::cos(climb) * std::cos(climb)), climb * 180 / kPi), track, 1e-9);
-  EXPECT_LE(track_radius_m(40, 0), 40);
-}
-
 }  // namespace
 }  // namespace vantage::internal::flight::tour

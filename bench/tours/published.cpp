@@ -15,7 +15,6 @@
 #include "core/stopwatch.h"
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
-#include "flight/tour/turning.h"
 #include "region_files.h"
 #include "vantage/tour.h"
 
@@ -56,10 +55,7 @@ void run(const Asked& asked) {
   for (vantage::Mesh& mesh : vantage::bench::read_regions(asked.outer)) {
     problem.regions.push_back(tour::OuterRegion::given(std::move(mesh), std::to_string(problem.regions.size())));
   }
-  if (asked.wing) {
-    const double steepest_deg = std::max(asked.vehicle.max_climb_deg, -asked.vehicle.min_climb_deg);
-    problem.turn_radius_m = tour::track_radius_m(asked.vehicle.turn_radius_m, steepest_deg);
-  }
+  if (asked.wing) problem.turn_radius_m = asked.vehicle.turn_radius_m;
   tour::Incumbent incumbent;
   incumbent.length_m = flown.length_m;
   for (const vantage::TourVisit& visit : flown.visits) {

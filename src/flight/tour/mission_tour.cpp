@@ -12,7 +12,6 @@
 #include "flight/tour/mission_limits.h"
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
-#include "flight/tour/turning.h"
 #include "vantage/error.h"
 #include "vantage/outer.h"
 #include "vantage/solid_index.h"
@@ -139,8 +138,7 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   problem.closed = settings.closed;
   problem.start = start;
   if (settings.vehicle.kind == TourVehicle::Kind::fixed_wing) {
-    const TourVehicle& wing = settings.vehicle;
-    problem.turn_radius_m = tour::track_radius_m(wing.turn_radius_m, std::max(wing.max_climb_deg, -wing.min_climb_deg));
+    problem.turn_radius_m = settings.vehicle.turn_radius_m;
     // A multirotor may hover: its dwell is no length.
     if (!settings.simultaneous) {
       problem.dwell_m.assign(problem.regions.size(), settings.vehicle.speed_m_s * settings.dwell_s);

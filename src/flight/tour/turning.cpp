@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -75,11 +74,6 @@ std::vector<std::size_t> nearly_straight(const Reduced& of) {
 }
 
 }  // namespace
-
-double track_radius_m(double radius_in_space_m, double steepest_climb_deg) {
-  const double cosine = std::cos(std::abs(steepest_climb_deg) * std::numbers::pi / 180);
-  return radius_in_space_m * cosine * cosine * (1 - 1e-12);
-}
 
 double turning_part(const Direction& before, const Direction& behind, double before_m, double behind_m,
                     double radius_m) {

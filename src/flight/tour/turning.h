@@ -14,10 +14,6 @@
 
 namespace vantage::internal::flight::tour {
 
-/// The least radius of the track over ground of a path that climbs and descends by at most so many degrees, and whose
-/// smallest radius of curvature in space is this: the track of a helix that climbs by c curves by 1 / (r cos(c)^2).
-double track_radius_m(double radius_in_space_m, double steepest_climb_deg);
-
 /// At a stop whose legs have these vectors, in metres, rounded down. `before_m`, `behind_m`: so long at least is the
 /// track over ground between this stop and the ones beside it; each stop has one half of it to turn in. `radius_m`: 0
 /// for a vehicle that turns on the spot.
