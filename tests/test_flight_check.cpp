@@ -291,6 +291,9 @@ TEST(FlightCheckText, IsJsonThatSaysWhatIsNotKnown) {
   EXPECT_TRUE(json["duration_s"].is_null());
   EXPECT_EQ(json["length_m"], 120);
   EXPECT_EQ(json["targets"][0]["seen"].size(), 2U);
+  EXPECT_EQ(json["targets"][0]["parts"][0][1]["x_m"], kHalf);
+  EXPECT_EQ(json["points"][1]["position"]["x_m"], 60);
+  EXPECT_TRUE(json["points"][1]["departure_s"].is_null());
   EXPECT_EQ(json["targets"][0]["not_seen"][0]["name"], "wall");
   EXPECT_EQ(json["nearest"]["object"], "wall");
   EXPECT_FALSE(json["nearest"]["position"].contains("lon_deg"));

@@ -79,13 +79,14 @@ struct GimbalUse {
 /// One target along the flight.
 struct TargetCheck {
   std::string name;
-  Vec3 centre = Vec3::Zero();          ///< scene frame
-  std::vector<FlightSpan> seen;        ///< all of it is seen, within all limits of the sensor; sorted, apart
-  std::optional<std::size_t> longest;  ///< of `seen`: the longest in time, or in length where times are not known
-  std::vector<NotSeen> not_seen;       ///< the longest first
-  std::optional<GimbalUse> gimbal;     ///< along the longest stretch
-  std::optional<FlightSpan> followed;  ///< where a rate of the gimbal is asked: the longest stretch in time on which
-                                       ///< all is seen and the line of sight to the centre turns no faster
+  Vec3 centre = Vec3::Zero();            ///< scene frame
+  std::vector<std::vector<Vec3>> parts;  ///< the corners of its convex polygons, scene frame
+  std::vector<FlightSpan> seen;          ///< all of it is seen, within all limits of the sensor; sorted, apart
+  std::optional<std::size_t> longest;    ///< of `seen`: the longest in time, or in length where times are not known
+  std::vector<NotSeen> not_seen;         ///< the longest first
+  std::optional<GimbalUse> gimbal;       ///< along the longest stretch
+  std::optional<FlightSpan> followed;    ///< where a rate of the gimbal is asked: the longest stretch in time on which
+                                         ///< all is seen and the line of sight to the centre turns no faster
 };
 
 /// A limit of navigation that the flight breaks.
@@ -113,6 +114,8 @@ struct FlightCheck {
   double tube_radius_m = 0;          ///< with the flight's chord error
   std::vector<double> point_at_m;    ///< of each point of the flight: how far along it
   std::vector<double> arrival_s;     ///< likewise; NaN where a speed is missing
+  std::vector<double> departure_s;   ///< likewise, after what it stays there
+  std::vector<Vec3> positions;       ///< of the points of the flight, scene frame
   std::vector<TargetCheck> targets;  ///< of the mission, in its order
   std::vector<BrokenLimit> broken;   ///< of navigation
   NearestPass nearest;

@@ -26,6 +26,7 @@ class Along {
 
   const std::vector<double>& point_at_m() const { return at_m_; }
   const std::vector<double>& arrival_s() const { return arrival_s_; }
+  const std::vector<double>& departure_s() const { return departure_s_; }
   double length_m() const { return at_m_.back(); }
   /// With the stay at the last point; NaN where a speed is missing.
   double duration_s() const { return departure_s_.back(); }

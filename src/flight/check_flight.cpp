@@ -58,7 +58,8 @@ Intervals common(const Intervals& a, const Intervals& b) { return flight::withou
 /// A position sees it that sees, of each list, one target or more, each within its limits.
 class JudgedTarget {
  public:
-  JudgedTarget(const Mission& mission, const PreparedScene& scene) : name_(mission.target.name) {
+  JudgedTarget(const Mission& mission, const PreparedScene& scene)
+      : name_(mission.target.name), parts_(mission.target.parts) {
     for (const std::vector<PreparedTarget>& list : prepare_views(mission, scene)) {
       std::vector<One>& judged = lists_.emplace_back();
       for (const PreparedTarget& target : list) judged.push_back({LegViews(target), LegLimits(target, {})});
@@ -73,6 +74,7 @@ class JudgedTarget {
 
   const std::string& name() const { return name_; }
   const Vec3& centre() const { return centre_; }
+  const std::vector<std::vector<Vec3>>& parts() const { return parts_; }
 
   TargetOnLeg look(const Leg& leg, double radius_m) const {
     TargetOnLeg result{whole(), {}};
@@ -131,6 +133,7 @@ class JudgedTarget {
 
   std::string name_;
   Vec3 centre_ = Vec3::Zero();
+  std::vector<std::vector<Vec3>> parts_;
   std::vector<std::vector<One>> lists_;
 };
 
@@ -223,6 +226,7 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
   TargetCheck check;
   check.name = target.name();
   check.centre = target.centre();
+  check.parts = target.parts();
   std::vector<Stretch> seen;
   std::map<std::pair<NotSeen::Kind, std::string>, std::vector<Stretch>> reasons;
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {
@@ -390,6 +394,8 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   check.tube_radius_m = options.tube_radius_m + flight.chord_error_m;
   check.point_at_m = along.point_at_m();
   check.arrival_s = along.arrival_s();
+  check.departure_s = along.departure_s();
+  for (const FlightPoint& point : flight.points) check.positions.push_back(point.position);
 
   const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
   std::vector<JudgedTarget> targets;

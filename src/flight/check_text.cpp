@@ -53,6 +53,12 @@ Json spans_json(const std::vector<FlightSpan>& spans, const PositionJson& positi
 Json target_json(const TargetCheck& target, const PositionJson& position) {
   Json json;
   json["name"] = target.name;
+  json["parts"] = Json::array();
+  for (const std::vector<Vec3>& part : target.parts) {
+    Json corners = Json::array();
+    for (const Vec3& corner : part) corners.push_back(position(corner));
+    json["parts"].push_back(std::move(corners));
+  }
   json["seen"] = spans_json(target.seen, position);
   json["longest"] = target.longest ? span_json(target.seen[*target.longest], position) : Json(nullptr);
   json["followed"] = target.followed ? span_json(*target.followed, position) : Json(nullptr);
@@ -125,7 +131,10 @@ std::string json_text(const FlightCheck& check, const Georeference* georeference
   }
   json["points"] = Json::array();
   for (std::size_t i = 0; i < check.point_at_m.size(); ++i) {
-    json["points"].push_back({{"at_m", check.point_at_m[i]}, {"arrival_s", number_json(check.arrival_s[i])}});
+    json["points"].push_back({{"at_m", check.point_at_m[i]},
+                              {"arrival_s", number_json(check.arrival_s[i])},
+                              {"departure_s", number_json(check.departure_s[i])},
+                              {"position", position(check.positions[i])}});
   }
   constexpr int kIndentation = 2;
   return internal::core::escaped_json(json.dump(kIndentation, ' ', false, Json::error_handler_t::replace)) + "\n";
