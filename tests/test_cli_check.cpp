@@ -59,6 +59,25 @@ TEST_F(CliCheck, PlansThatAreWrongCostNoFile) {
   expect_bad({"check", "map.yaml", "a.csv", "--speed", "0", "-o", "old.json"});
 }
 
+// `view` says of a plan what `check` does, before anything is served.
+TEST_F(CliCheck, ViewRefusesTheSamePlans) {
+  write("page.html", "<!--LIVE-->");
+  write("other.csv", "lat,lon,agl\n48,11,20\n52.5,13.4,20\n");
+  write("cut.plan", "{\"fileType\": \"Plan\", ");
+  write("unknown.csv", "x,y,height\n1,2,30\n2,2,30\n");
+  for (const char* const plan : {"other.csv", "cut.plan", "unknown.csv", "none.plan"}) {
+    SCOPED_TRACE(plan);
+    const ProgramRun check = run({"check", "map.yaml", plan}),
+                     view = run({"view", "map.yaml", "--flight", plan, "--page", "page.html"});
+    EXPECT_EQ(check.exit_code, 2);
+    EXPECT_EQ(view.exit_code, 2);
+    EXPECT_EQ(view.out, "");
+    EXPECT_EQ(view.err, check.err);
+  }
+  expect_bad({"view", "map.yaml", "--heights", "scene", "--page", "page.html"}, "command line");
+  expect_bad({"view", "map.yaml", "--flight", "-", "--page", "page.html"}, "--flight");
+}
+
 TEST_F(CliCheck, WhatIsNotFlownIsTold) {
   write("a.plan", plan({waypoint(48, 11, 30, 3, 1), simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"),
                         waypoint(48.0002, 11, 30, 3, 2), simple(177, 2, "[1, 1, 0, 0, 0, 0, 0]")}));

@@ -428,6 +428,60 @@ TEST_F(LiveSession, FindsTheAreaOfTheMapAtAPoint) {
   EXPECT_EQ(code_of({{"call", "area"}}), name_of(ErrorCode::value_syntax));
 }
 
+GivenFlight given_flight(const std::string& table) {
+  GivenFlight given;
+  given.plan = parse_flight_plan(table, "flight.csv");
+  given.locate.unknown_heights = HeightDatum::scene_z;
+  given.speed_m_s = 5;
+  given.name = "flight.csv";
+  return given;
+}
+
+constexpr const char* kOver = "x,y,z\n-40,0,40\n40,0,40\n";
+
+TEST_F(LiveSession, TellsWhatAFlightSees) {
+  EXPECT_TRUE(Json::parse(session_.hello())["flight"].is_null());
+  EXPECT_EQ(code_of({{"call", "flight"}}), name_of(ErrorCode::nothing_given));
+  session_.show_flight(given_flight(kOver));
+  const Json flight = Json::parse(session_.hello())["flight"];
+  EXPECT_EQ(flight["name"], "flight.csv");
+  EXPECT_TRUE(flight["home"].is_null());
+  // What the program says of it.
+  write("flight.csv", kOver);
+  const auto checked = [&](const std::string& mission) {
+    return Json::parse(run({"check", mission, "flight.csv", "--heights", "scene", "--speed", "5", "--json"}).out);
+  };
+  EXPECT_EQ(flight["check"], checked("mission.yaml"));
+  ASSERT_FALSE(flight["check"]["targets"][0]["seen"].empty());
+  EXPECT_EQ(flight["check"]["targets"][0]["parts"][0][2]["x_m"], 5);
+  EXPECT_EQ(flight["check"]["points"][1]["position"]["x_m"], 40);
+  // By the mission of the last volume, which has another range.
+  EXPECT_EQ(code_of({{"call", "flight"}}), name_of(ErrorCode::nothing_given)) << "there is no volume yet";
+  const std::string nearer =
+      "target: {name: square, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}\nsensor: {max_range: 45}\n";
+  ask({{"call", "compute"}, {"text", nearer}});
+  const Json again = ask({{"call", "flight"}}).header["value"]["check"];
+  write("nearer.yaml", testing::kScene + nearer);
+  EXPECT_EQ(again, checked("nearer.yaml"));
+  EXPECT_NE(again["targets"], flight["check"]["targets"]);
+}
+
+TEST_F(LiveSession, AFlightSeesEachOfSeveralTargetsByItself) {
+  const std::string targets =
+      "targets:\n  - {name: a, vertices: [[-35, -5, 0], [-30, -5, 0], [-30, 5, 0]]}\n"
+      "  - {name: b, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\nsensor: {max_range: 42}\n";
+  write("several.yaml", testing::kScene + targets);
+  session_.open_file(folder_ / "several.yaml");
+  session_.show_flight(given_flight(kOver));
+  ask({{"call", "compute"}, {"text", targets}});
+  for (const Json& flight : {Json::parse(session_.hello())["flight"], ask({{"call", "flight"}}).header["value"]}) {
+    ASSERT_EQ(flight["check"]["targets"].size(), 2U);
+    EXPECT_EQ(flight["check"]["targets"][0]["name"], "a");
+    EXPECT_FALSE(flight["check"]["targets"][0]["seen"].empty());
+    EXPECT_FALSE(flight["check"]["targets"][1]["seen"].empty());
+  }
+}
+
 TEST_F(LiveSession, RequestsOfOthersAreRefused) {
   for (const char* const text :
        {"", "{", "[]", "7", R"({"id": -1, "request": {"call": "prove"}})", R"({"id": 1})", R"({"id": 1, "request": 3})",

@@ -4,11 +4,17 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "cli/command.h"
+#include "cli/located_plan.h"
 #include "cli/page_file.h"
 #include "cli/progress_line.h"
+#include "live/judged_flight.h"
 #include "live/page_server.h"
 #include "live/session.h"
 #include "vantage/error.h"
@@ -21,6 +27,8 @@ constexpr const char* kViewExamples =
     "EXAMPLES\n"
     "  vantage view mission.yaml\n"
     "  vantage view mission.yaml --volume volume.ply    # one that is there already; what is dragged is computed\n"
+    "  vantage view mission.yaml --flight tour.plan      # flies it in the scene, and shows when what is seen\n"
+    "  vantage view mission.yaml --flight track.csv --heights scene --speed 5\n"
     "  vantage view mission.yaml --port 8090 --no-browser\n"
     "  ssh -L 8090:127.0.0.1:8090 host vantage view mission.yaml --port 8090 --no-browser\n"
     "\n"
@@ -30,6 +38,8 @@ constexpr const char* kViewExamples =
 
 struct ViewArguments {
   CommonOptions common;
+  PlanArguments flight;
+  std::optional<double> speed_m_s;
   std::string mission, volume, page;
   std::uint16_t port = 0;
   bool no_browser = false;
@@ -51,7 +61,20 @@ void open_browser(const std::string& address) {
   ::_exit(1);
 }
 
+/// Judged before anything is served, so that a plan that cannot be shown ends the program at once.
+void show_flight(live::Session& session, const ViewArguments& options, const Progress& progress) {
+  live::GivenFlight given;
+  given.plan = read_plan_argument(options.flight, progress);
+  given.locate = locate_options(options.flight, given.plan);
+  given.speed_m_s = options.speed_m_s;
+  given.name = std::filesystem::path(options.flight.plan_file).filename().string();
+  session.show_flight(std::move(given), progress);
+}
+
 int run_view(const ViewArguments& options) {
+  if (options.flight.plan_file == "-") {
+    throw Error(ErrorCode::stdin_not_possible, "the plan must be a file", "--flight", "write it to a file first");
+  }
   if (options.mission == "-") {
     throw Error(ErrorCode::stdin_not_possible, "the mission must be a file: names in it start from its folder",
                 "command line", "write it to a file first");
@@ -63,6 +86,7 @@ int run_view(const ViewArguments& options) {
     ProgressLine progress(options.common);
     session.open_file(options.mission, progress.callback());
     if (!options.volume.empty()) session.show_volume(options.volume, progress.callback());
+    if (!options.flight.plan_file.empty()) show_flight(session, options, progress.callback());
   }
   const InterruptGuard guard;
   print(server.address() + "\n");
@@ -81,6 +105,15 @@ void add_view(CLI::App& app, Command& chosen) {
   command->add_option("mission", options->mission, "The mission file")->required()->option_text("MISSION");
   command->add_option("--volume", options->volume, "Show this volume of the mission at first, instead of computing it")
       ->option_text("FILE");
+  CLI::Option* flight =
+      command
+          ->add_option("--flight", options->flight.plan_file,
+                       "Fly this plan in the scene: .plan, .waypoints, .kml, .kmz, .gpx, .geojson, .csv")
+          ->option_text("PLAN");
+  add_options_of_plan(*command, options->flight, *flight);
+  command->add_option("--speed", options->speed_m_s, "Of legs for which the plan states none, metres per second")
+      ->option_text("M/S")
+      ->needs(flight);
   command->add_option("--port", options->port, "Port of 127.0.0.1 (default: one that is free)")->option_text("N");
   command->add_flag("--no-browser", options->no_browser, "Do not open a browser, only print the address");
   command->add_option("--page", options->page, "The page, where it is not installed: web/dist/index.html of 'make web'")

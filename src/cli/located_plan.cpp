@@ -34,35 +34,30 @@ std::optional<Eigen::Vector2d> home_if_given(const PlanArguments& arguments, con
 
 }  // namespace
 
-void add_plan_options(CLI::App& command, PlanArguments& arguments) {
-  command.add_option("plan", arguments.plan_file, "The plan: .plan, .waypoints, .kml, .kmz, .gpx, .geojson, .csv")
-      ->required()
-      ->option_text("PLAN");
-  command
-      .add_option("--track", arguments.track, "Of several tracks, lines or routes: the name or number of the one meant")
-      ->option_text("NAME");
-  command.add_option("--home", arguments.home, "Where it takes off, if the plan does not say: latitude and longitude")
-      ->option_text("LAT,LON");
-  command.add_option("--home-z", arguments.home_z, "z of the home in the scene; without it that of the ground there")
-      ->option_text("METRES");
-  command
-      .add_option("--undulation", arguments.undulation,
-                  "How high the mean sea level lies above the ellipsoid there, for heights above the ellipsoid")
-      ->option_text("METRES");
-  command
-      .add_option("--heights", arguments.heights,
-                  "What heights are measured from where the plan does not say: sea, ellipsoid, ground, home or scene")
-      ->option_text("LEVEL")
+void add_options_of_plan(CLI::App& command, PlanArguments& arguments, CLI::Option& plan) {
+  const auto add = [&](const char* name, auto& value, const char* what, const char* text) {
+    return command.add_option(name, value, what)->option_text(text)->needs(&plan);
+  };
+  add("--track", arguments.track, "Of several tracks, lines or routes: the name or number of the one meant", "NAME");
+  add("--home", arguments.home, "Where it takes off, if the plan does not say: latitude and longitude", "LAT,LON");
+  add("--home-z", arguments.home_z, "z of the home in the scene; without it that of the ground there", "METRES");
+  add("--undulation", arguments.undulation,
+      "How high the mean sea level lies above the ellipsoid there, for heights above the ellipsoid", "METRES");
+  add("--heights", arguments.heights,
+      "What heights are measured from where the plan does not say: sea, ellipsoid, ground, home or scene", "LEVEL")
       ->check(CLI::IsMember({"sea", "ellipsoid", "ground", "home", "scene"}));
-  command.add_option("--height", arguments.height, "The height of all positions that have none, above --heights")
-      ->option_text("METRES");
-  command.add_option("--return-height", arguments.return_height, "Of the way back to the home, above it")
-      ->option_text("METRES");
+  add("--height", arguments.height, "The height of all positions that have none, above --heights", "METRES");
+  add("--return-height", arguments.return_height, "Of the way back to the home, above it", "METRES");
+  add("--loiter-radius", arguments.loiter_radius, "Of circles for which the plan leaves it to the vehicle", "METRES");
   command
-      .add_option("--loiter-radius", arguments.loiter_radius, "Of circles for which the plan leaves it to the vehicle")
-      ->option_text("METRES");
-  command.add_flag("--ground-legs", arguments.with_ground_legs,
-                   "Judge the climb from the home and the descent to it, too");
+      .add_flag("--ground-legs", arguments.with_ground_legs, "Judge the climb from the home and the descent to it, too")
+      ->needs(&plan);
+}
+
+void add_plan_options(CLI::App& command, PlanArguments& arguments) {
+  CLI::Option* plan =
+      command.add_option("plan", arguments.plan_file, "The plan: .plan, .waypoints, .kml, .kmz, .gpx, .geojson, .csv");
+  add_options_of_plan(command, arguments, *plan->required()->option_text("PLAN"));
 }
 
 FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& progress) {
@@ -72,7 +67,7 @@ FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& pr
   return read_flight_plan(arguments.plan_file, options);
 }
 
-LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
+LocateOptions locate_options(const PlanArguments& arguments, const FlightPlan& plan) {
   LocateOptions options;
   options.levels.undulation_m = arguments.undulation;
   options.home = home_if_given(arguments, plan);
@@ -82,7 +77,11 @@ LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPla
   options.return_height_m = length_if_given("--return-height", arguments.return_height);
   options.loiter_radius_m = length_if_given("--loiter-radius", arguments.loiter_radius);
   options.with_ground_legs = arguments.with_ground_legs;
-  return locate_flight(mission, plan, options);
+  return options;
+}
+
+LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
+  return locate_flight(mission, plan, locate_options(arguments, plan));
 }
 
 }  // namespace vantage::cli

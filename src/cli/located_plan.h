@@ -22,7 +22,13 @@ struct PlanArguments {
 /// The argument PLAN and its options; `arguments` must outlive the parsing.
 void add_plan_options(CLI::App& command, PlanArguments& arguments);
 
+/// The options of a plan that `plan` names. They need it.
+void add_options_of_plan(CLI::App& command, PlanArguments& arguments, CLI::Option& plan);
+
 FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& progress);
+
+/// What the arguments say of it.
+LocateOptions locate_options(const PlanArguments& arguments, const FlightPlan& plan);
 
 /// The plan in the frame of the mission's scene, with the mission's ground and sea level, and its home where neither
 /// the plan nor the arguments have one.

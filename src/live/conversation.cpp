@@ -21,7 +21,7 @@ constexpr std::size_t kFragment = std::size_t{1} << 20;
 
 /// May take all cores, and gigabytes.
 bool is_heavy(const Request& request) {
-  return request.call == "compute" || request.call == "prove" || request.call == "area";
+  return request.call == "compute" || request.call == "flight" || request.call == "prove" || request.call == "area";
 }
 
 }  // namespace

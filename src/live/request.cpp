@@ -55,6 +55,7 @@ std::string value_of(Session& session, MapAreas& areas, const Request& request, 
   if (request.call == "compute") return session.compute(request.text, progress);
   if (request.call == "query") return session.query(request.coordinates);
   if (request.call == "area") return area_of(areas, session, request, progress);
+  if (request.call == "flight") return session.flight(progress);
   if (request.call == "prove") return session.prove(progress);
   if (request.call == "slice") return session.slice(request.z_m);
   if (request.call == "save") return session.save(request.format);

@@ -248,12 +248,31 @@ void Session::show_volume(const std::filesystem::path& volume, const Progress& p
   prove_options_ = {.rounding_m = known.rounding_m, .lift_m = known.lift_m};
 }
 
+void Session::show_flight(GivenFlight given, const Progress& progress) {
+  flight_ = std::make_shared<const GivenFlight>(std::move(given));
+  flight_text_ = judged(*mission_, progress);
+}
+
+std::string Session::judged(const Mission& mission, const Progress& progress) const {
+  MissionFile file = mission.as_written;
+  if (file.targets.empty()) return judged_flight(*flight_, mission, scene_of(mission)->prepared, progress);
+  file.combine = Combine::each;
+  const Mission each = resolve_mission(file, opened_->loaded, progress);
+  return judged_flight(*flight_, each, scene_of(each)->prepared, progress);
+}
+
+std::string Session::flight(const Progress& progress) {
+  if (!flight_) throw Error(ErrorCode::nothing_given, "no flight is shown", "", "start the program with --flight");
+  return judged(mission(), progress);
+}
+
 std::string Session::hello() const {
   return text_of(Json{{"about", Json::parse(about())},
                       {"scene", Json::parse(scene_json())},
                       {"mission", text_},
                       {"name", file_.filename().string()},
-                      {"volume", result_ ? Json::parse(volume_json()) : Json()}});
+                      {"volume", result_ ? Json::parse(volume_json()) : Json()},
+                      {"flight", flight_ ? Json::parse(flight_text_) : Json()}});
 }
 
 std::string Session::scene_json() const {

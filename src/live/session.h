@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "live/judged_flight.h"
 #include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
@@ -46,7 +47,11 @@ class Session {
   /// After open_file: a volume of that mission that is there already.
   void show_volume(const std::filesystem::path& volume, const Progress& progress = {});
 
-  /// JSON: {about, scene, mission: the text of the file, name: of it, volume: the last one, or null}.
+  /// After open_file: a flight to be judged by that mission and all that follow. Throws as judged_flight does.
+  void show_flight(GivenFlight given, const Progress& progress = {});
+
+  /// JSON: {about, scene, mission: the text of the file, name: of it, volume: the last one, or null, flight: as
+  /// flight() has it, judged by the mission that was opened, or null}.
   std::string hello() const;
 
   /// `text`: a mission without `scene`. Computes the volume; a session keeps the last one when that fails.
@@ -54,6 +59,9 @@ class Session {
 
   /// What the points (x, y, z in turn) see of the target of the last volume.
   std::string query(const std::vector<double>& coordinates);
+
+  /// JSON of judged_flight: the flight that is shown, by the mission of the last volume, each of its targets by itself.
+  std::string flight(const Progress& progress = {});
 
   /// Proves the last volume, or refutes it: once.
   std::string prove(const Progress& progress = {});
@@ -82,6 +90,7 @@ class Session {
   using ScenePointer = std::shared_ptr<const ReadyScene>;
 
   const Mission& mission() const;  ///< of the last volume
+  std::string judged(const Mission& mission, const Progress& progress) const;
   /// The scene that is open, or one with more ground, out to where the mission's target needs it.
   ScenePointer scene_of(const Mission& mission) const;
   RunOptions options(const ReadyScene& scene) const;
@@ -110,7 +119,9 @@ class Session {
   ProveOptions prove_options_;
   bool has_causes_ = true;  ///< some formats of files have no room for them
   std::optional<ProofReport> proof_;
-  std::shared_ptr<ViewsQuery> query_;  ///< of the last volume; null: nothing was asked yet
+  std::shared_ptr<ViewsQuery> query_;          ///< of the last volume; null: nothing was asked yet
+  std::shared_ptr<const GivenFlight> flight_;  ///< null: none is shown
+  std::string flight_text_;                    ///< judged by the mission that was opened
   double resolve_ms_ = 0, compute_ms_ = 0, view_ms_ = 0;
   ViewMesh volume_view_;
   std::string bytes_;

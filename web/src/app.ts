@@ -2,6 +2,7 @@
 import { placeOf, toldBy, type Engine, type Volume } from "./engine/client";
 import { Stopped } from "./engine/transport";
 import type { Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh } from "./engine/messages";
+import { Flights } from "./flights";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
 import { faultOf } from "./model/polygon";
@@ -53,6 +54,7 @@ export class App {
   readonly zones: ZonesView;
   readonly sectionView: SectionView;
   readonly probeView: ProbeView;
+  readonly flights: Flights;
 
   mission: Mission = emptyMission();
   history = new History<Mission>(this.mission);
@@ -114,6 +116,7 @@ export class App {
     this.zones = new ZonesView(stage.scene, this.city);
     this.sectionView = new SectionView(stage.scene, this.city);
     this.probeView = new ProbeView(stage.scene, this.city);
+    this.flights = new Flights(this);
     stage.beforeFrame = () => this.volumeView.update();
   }
 
@@ -149,6 +152,7 @@ export class App {
     this.setProbe(null); // ends the view of its eye before all of the scene is looked at
     if (this.scene) this.former.set(this.scene.hash, { mission: this.mission, history: this.history });
     const former = this.former.get(info.hash);
+    if (info.hash !== this.scene?.hash) this.flights.close(); // it is of the other scene
     this.scene = info;
     this.city.show(info, mesh);
     this.stage.frameScene(info);
@@ -369,6 +373,7 @@ export class App {
     this.isStopped = error instanceof Stopped;
     this.failurePlace = placeOf(error);
     say(this.failure, true);
+    this.flights.setOld("the mission has no volume");
     this.showMission();
     this.changed();
   }
@@ -408,6 +413,7 @@ export class App {
   private accept(volume: Volume): void {
     this.failure = "";
     this.showMission();
+    void this.flights.follow();
     if (volume.info.outcome !== "computed") say(`No position sees ${seenFrom(volume.info)}: ${volume.info.reason}. ${volume.info.hint}`, true);
     else if (hasBadNews()) say("");
   }

@@ -5,6 +5,7 @@ import { SocketTransport } from "./engine/socket_transport";
 import type { Transport } from "./engine/transport";
 import { WorkerTransport } from "./engine/worker_transport";
 import { Files } from "./ui/files";
+import { FlightPanel } from "./ui/flight_panel";
 import { button, element, metres, say } from "./ui/page";
 import { Panel } from "./ui/panel";
 import { makeReport } from "./ui/report";
@@ -135,6 +136,7 @@ async function start(): Promise<void> {
   app.canEdit = !window.vantageReport;
   new Panel(app, engine.about);
   new Results(app);
+  new FlightPanel(app);
   const tools = new Tools(app);
   const files = new Files(app, window.vantageData ?? { mesh: "", mission: "" });
   element("version").textContent = `vantage ${engine.about.version}`;

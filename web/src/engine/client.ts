@@ -1,5 +1,5 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
+import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Section, ServedFlight, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
@@ -105,6 +105,11 @@ export class Engine {
 
   async query(points: [number, number, number][]): Promise<PointAnswer[]> {
     return ((await this.transport.ask({ call: "query", points })).value as { answers: PointAnswer[] }).answers;
+  }
+
+  /** The flight that the program was started with, by the mission of the last volume. */
+  async flight(): Promise<ServedFlight> {
+    return (await this.transport.ask({ call: "flight" })).value as ServedFlight;
   }
 
   async prove(): Promise<Proof> {

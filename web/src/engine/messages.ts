@@ -90,6 +90,14 @@ export interface VolumeInfo {
   view_ms: number;
 }
 
+/** A flight that the program judged; `check`: what `vantage check -o check.json` writes; `home`: on the ground. */
+export interface ServedFlight {
+  name: string;
+  home: Point | null;
+  notes: string[];
+  check: unknown;
+}
+
 /** What the program was started with. `mission`: text of the file `name`; `volume`: one that was given to be shown. */
 export interface Hello {
   about: About;
@@ -97,6 +105,8 @@ export interface Hello {
   mission: string;
   name: string;
   volume: VolumeInfo | null;
+  /** judged by that mission */
+  flight: ServedFlight | null;
 }
 
 /** Triangles for drawing, about the scene's origin; `labels`: of each triangle its object, or its cause. */
@@ -144,6 +154,7 @@ export type Request =
   | { call: "compute"; text: string }
   | { call: "query"; points: Point[] }
   | { call: "area"; points: [Point] }
+  | { call: "flight" }
   | { call: "prove" }
   | { call: "slice"; z: number }
   | { call: "save"; format: string }

@@ -123,6 +123,7 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
     case "hello":
     case "shown":
     case "area":
+    case "flight":
     case "stop":
       throw new Error("only the engine of the program answers this");
     case "slice":

@@ -3,6 +3,7 @@ import { Superseded, type App, type SceneSource } from "../app";
 import { toldBy } from "../engine/client";
 import { EngineFailure } from "../engine/transport";
 import type { Hello, ViewMesh } from "../engine/messages";
+import { isFlight } from "../model/flight";
 import { divided, missionText, sceneText } from "../model/mission";
 import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/link";
 import { button, element, input, say } from "./page";
@@ -28,6 +29,9 @@ function isSame(one: Record<string, unknown>, other: Record<string, unknown>): b
     .map(([key, value]) => JSON.stringify([key, FILES.includes(key) ? nameOf(value) : value])).sort().join());
   return a === b;
 }
+
+/** Plans of ground stations that name no zones, as .kml does. */
+const PLAN = /\.(plan|waypoints|gpx|kmz|csv)$/i;
 
 const isMesh = (name: string) => /\.(obj|ply|stl|glb|gltf|json|cityjson)(\.gz)?$/i.test(name);
 
@@ -97,8 +101,14 @@ export class Files {
     const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
     app.source = { name, bytes: new ArrayBuffer(0), section: scene, beside: {} };
     app.showScene(hello.scene, mesh);
-    if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
-    else await app.openMission(body);
+    try {
+      if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
+      else await app.openMission(body);
+    } finally {
+      if (hello.flight) app.flights.openServed(hello.flight);
+    }
+    // Of a tour no position need see all targets: that is no news.
+    if (hello.flight && app.volume) say("Play, or the slider below, flies it");
     app.lookAtTarget();
     document.title = `${hello.name} · vantage`;
   }
@@ -129,8 +139,22 @@ export class Files {
       const [file] = missions;
       if (file && file.size > LARGEST_MISSION) throw new Error(`${file.name} is too long: a mission has 1 MiB at most`);
       const mission = file ? divided(await file.text()) : null;
-      await this.open(mission, files.filter((file) => !isMission(file)));
+      const { flight, others } = await this.withoutFlight(files.filter((file) => !isMission(file)));
+      if (mission || others.length > 0) await this.open(mission, others);
+      if (flight) this.app.flights.openCheck(await flight.text(), flight.name);
     });
+  }
+
+  /** Of what is opened: the flight, and what else there is. */
+  private async withoutFlight(files: File[]): Promise<{ flight: File | null; others: File[] }> {
+    const are = await Promise.all(files.map(async (file) => /\.json$/i.test(file.name) && isFlight(await file.slice(0, 1000).text())));
+    const flights = files.filter((_, i) => are[i]);
+    if (flights.length > 1) throw new Error("open one flight at a time");
+    const plan = files.find(({ name }) => PLAN.test(name));
+    if (plan && files.length === 1) {
+      throw new Error(`${plan.name}: this page judges no plans: run \`vantage view mission.yaml --flight ${plan.name}\`, or drop what \`vantage check -o check.json\` writes`);
+    }
+    return { flight: flights[0] ?? null, others: files.filter((_, i) => !are[i]) };
   }
 
   private async open(mission: { scene: Record<string, unknown>; body: string } | null, others: File[]): Promise<void> {

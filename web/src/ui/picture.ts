@@ -1,6 +1,7 @@
 // The view as a picture, with what one needs to read it: what the colours are, the scale, where north is.
 import type { App } from "../app";
 import { LIT_COLOUR } from "../view/city";
+import { FLIGHT_COLOUR, SEEN_COLOUR } from "../view/flight";
 import { RED } from "../view/target";
 import { element, hex } from "./page";
 
@@ -20,6 +21,10 @@ function legend(app: App): Row[] {
   const rows: Row[] = [];
   if (volume && failure === "") rows.push({ colour: hex(RED), text: "the target" });
   if (app.city.isLit()) rows.push({ colour: hex(LIT_COLOUR), text: "hides some of the target from the probe" });
+  if (app.flights.flight) {
+    rows.push({ colour: hex(FLIGHT_COLOUR), text: `the flight ${app.flights.flight.name}` });
+    rows.push({ colour: hex(SEEN_COLOUR), text: "where it sees all of a target" });
+  }
   if (app.isEye()) return rows;
   return [...rows, ...[...element("legend").children].map((item) => ({
     colour: item.querySelector("i")!.style.background, text: item.textContent ?? "",

@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import type { Point, SceneInfo, ViewMesh } from "../engine/messages";
 import { flatPlace } from "../model/flat_place";
+import { heightsBelow, type HeightsBelow } from "../model/heights_below";
 import type { Plane } from "../model/polygon";
 
 export interface Hit {
@@ -118,6 +119,19 @@ export class City {
     const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: mesh.geometry.getIndex()!.array };
     const corners = flatPlace(triangles, face, this.toView(point).toArray(), plane.normal, reach, GAP * size);
     return corners.map((corner) => this.toScene(new THREE.Vector3(...corner)));
+  }
+
+  /** Scene frame. What the file or the map calls ground is ground. */
+  heightsBelow(places: Point[]): HeightsBelow {
+    const { mesh, info, labels } = this;
+    if (!mesh || !info) return heightsBelow({ positions: [], triangles: [] }, () => false, places);
+    const kinds = info.objects.map(({ kind }) => kind);
+    const isGround = kinds.map((kind) => kind === (kinds.includes("ground") ? "ground" : "surface")); // as ground_of() has it
+    const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: mesh.geometry.getIndex()!.array };
+    const inView = places.map((place) => this.toView(place).toArray());
+    const { surface, ground } = heightsBelow(triangles, (i) => isGround[labels[i]!] ?? false, inView);
+    const toScene = (z: number) => z + info.origin[2];
+    return { surface: surface.map(toScene), ground: ground.map(toScene) };
   }
 
   toScene(p: THREE.Vector3): Point {

@@ -1,0 +1,180 @@
+// A flight in the page: drawn, flown, and followed by what is judged.
+import AxeBuilder from "@axe-core/playwright";
+import { expect, test as plain, type Page } from "@playwright/test";
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { hasVolume, open, openExample, plaza, plazaMesh, program, root, settled, test } from "./support";
+
+const TABLE = "x,y,z,speed\n-40,-30,45,5\n40,-30,45,5\n40,40,60,5\n";
+const file = join(plaza, "mission.yaml");
+
+function checked(table = TABLE): { text: string; plan: string; check: any } {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+  const plan = join(folder, "flight.csv");
+  writeFileSync(plan, table);
+  try {
+    execFileSync(program, ["check", file, plan, "--heights", "scene", "--speed", "5", "-q", "-o", join(folder, "check.json")], { stdio: "pipe" });
+  } catch (error) {
+    expect((error as { status: number }).status).toBe(1); // not all that is asked for holds
+  }
+  const text = readFileSync(join(folder, "check.json"), "utf8");
+  return { text, plan, check: JSON.parse(text) };
+}
+
+const flown = (page: Page) => page.evaluate(() => {
+  const { flights } = (window as any).vantage;
+  const { x, moment, ground, isPlaying, old } = flights;
+  return { x, at: moment?.at as number[], seen: moment?.seen as number[], ground, isPlaying, old, sight: flights.view.sightCount as number, isShown: flights.view.isShown as boolean };
+});
+
+const flyTo = (page: Page, x: number) => page.locator("#fly").evaluate((slider: HTMLInputElement, value) => {
+  slider.value = String(value);
+  slider.dispatchEvent(new Event("input"));
+}, x);
+
+test.describe("a check that is dropped", () => {
+  test.beforeEach(({ page }) => openExample(page));
+
+  test("is drawn and flown", async ({ page }) => {
+    const { text, check } = checked();
+    await expect(page.locator("#flight")).toBeHidden();
+    await open(page, { name: "check.json", text });
+    await settled(page);
+    await expect(page.locator("#flight-name")).toHaveText("check.json");
+    await expect(page.locator("#flight-verdict")).toHaveText(check.passes ? "keeps what is asked" : "does not keep what is asked");
+    const [{ begin_s, end_s, begin }] = check.targets[0].seen;
+    // Where the target is seen lines of sight go to its corners; a little before none do.
+    await flyTo(page, (begin_s + end_s) / 2);
+    const corners = check.targets[0].parts.flat().length as number;
+    expect((await flown(page)).sight).toBe(2 * corners);
+    await expect(page.locator("#readout")).toContainText(`in view: ${check.targets[0].name}`);
+    if (begin_s > 0.1) {
+      await flyTo(page, begin_s - 0.01);
+      expect((await flown(page)).seen).toEqual([]);
+      expect((await flown(page)).sight).toBe(0);
+      await expect(page.locator("#readout")).toContainText("no target in view");
+      await flyTo(page, begin_s);
+      for (const [i, key] of ["x_m", "y_m", "z_m"].entries()) expect((await flown(page)).at[i]).toBeCloseTo(begin[key], 6);
+    }
+    await flyTo(page, 0);
+    await expect(page.locator("#readout")).toContainText("0.0 s · 0.0 m");
+    const { ground } = await flown(page);
+    await expect(page.locator("#readout")).toContainText(ground === null ? "z 45.0 m" : `${(45 - ground).toFixed(1)} m above ground, z 45.0 m`);
+    // One strip for each target, one rectangle for each stretch.
+    await expect(page.locator("#flight-rows .strip")).toHaveCount(check.targets.length);
+    await expect(page.locator("#flight-rows .strip").first().locator(".seen")).toHaveCount(check.targets[0].seen.length);
+  });
+
+  test("obeys the keyboard, and plays", async ({ page }) => {
+    const { text, check } = checked();
+    await open(page, { name: "check.json", text });
+    await settled(page);
+    await page.locator("#fly").focus();
+    await page.keyboard.press("ArrowRight");
+    expect((await flown(page)).x).toBeCloseTo(check.duration_s / 1000, 9);
+    await page.keyboard.press("PageUp");
+    expect((await flown(page)).x).toBeCloseTo((51 * check.duration_s) / 1000, 9);
+    await page.keyboard.press("End");
+    expect((await flown(page)).x).toBeCloseTo(check.duration_s, 9);
+    await page.keyboard.press("Home");
+    expect((await flown(page)).x).toBe(0);
+    expect(await page.locator("#fly").getAttribute("aria-valuetext")).toContain("0.0 s");
+    await page.locator("#play").focus();
+    await page.keyboard.press("Enter");
+    await expect(page.locator("#play")).toHaveText("Pause");
+    await expect.poll(async () => (await flown(page)).x).toBeGreaterThan(0);
+    await page.keyboard.press("Enter");
+    await expect(page.locator("#play")).toHaveText("Play");
+    const { x } = await flown(page);
+    await page.waitForTimeout(200);
+    expect((await flown(page)).x).toBe(x);
+    await flyTo(page, check.duration_s - 0.01);
+    await page.click("#play");
+    await expect(page.locator("#play")).toHaveText("Play"); // it has ended
+    expect((await flown(page)).x).toBeCloseTo(check.duration_s, 9);
+  });
+
+  test("is accessible, also in the dark and on a phone", async ({ page }) => {
+    await open(page, { name: "check.json", text: checked().text });
+    await settled(page);
+    for (const isDark of [false, true]) {
+      if (isDark) await page.click("#theme");
+      const { violations } = await new AxeBuilder({ page }).analyze();
+      expect(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(" ")}`)).toEqual([]);
+    }
+    await page.setViewportSize({ width: 390, height: 780 });
+    expect(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth)).toBe(true);
+  });
+
+  test("costs nothing where it is wrong", async ({ page }) => {
+    const { text, check } = checked();
+    await open(page, { name: "check.json", text });
+    await settled(page);
+    await flyTo(page, 3);
+    const before = await flown(page);
+    const far = JSON.parse(text);
+    for (const { position } of far.points) position.x_m += 50_000;
+    const wrong: [string, string, string][] = [
+      ["cut.json", text.slice(0, text.length / 2), "cut.json is cut short or damaged"],
+      ["old.json", JSON.stringify({ ...check, points: check.points.map(({ at_m, arrival_s }: any) => ({ at_m, arrival_s })) }), 'old.json, points 1 has no "position"'],
+      ["far.json", JSON.stringify(far), "away from the scene that is open"],
+      ["flight.plan", "{}", "vantage view mission.yaml --flight flight.plan"],
+    ];
+    for (const [name, told, message] of wrong) {
+      await open(page, { name, text: told });
+      await expect(page.locator("#hint")).toContainText(message);
+      expect(await flown(page), name).toEqual(before);
+    }
+    await expect(page.locator("#flight-name")).toHaveText("check.json");
+    await page.click("#close-flight");
+    await expect(page.locator("#flight")).toBeHidden();
+    expect((await flown(page)).isShown).toBe(false);
+  });
+
+  test("goes with its scene", async ({ page }) => {
+    const { text } = checked();
+    const tent = "v 0 0 0\nv 10 0 0\nv 5 5 8\nv 5 -5 8\nf 1 2 3\nf 1 2 4\n";
+    await open(page, { name: "check.json", text });
+    await settled(page);
+    await open(page, { name: "tent.obj", text: tent });
+    await settled(page);
+    await expect(page.locator("#flight")).toBeHidden();
+    // Together with a scene it is opened in that one.
+    await open(page, plazaMesh, { name: "check.json", text });
+    await settled(page);
+    await expect(page.locator("#flight")).toBeVisible();
+  });
+});
+
+plain("a plan that the program was started with follows the mission", async ({ page }) => {
+  const { plan, check } = checked();
+  const viewer = spawn(program, ["view", file, "--flight", plan, "--heights", "scene", "--speed", "5", "--no-browser", "--page", join(root, "web/dist/index.html")]);
+  try {
+    await page.goto(await new Promise<string>((resolve) => viewer.stdout.once("data", (text: Buffer) => resolve(text.toString().trim()))));
+    await hasVolume(page);
+    await settled(page);
+    const seen = () => page.evaluate(() => (window as any).vantage.flights.flight.targets[0].seen as number[][]);
+    const [{ begin_s, end_s }] = check.targets[0].seen;
+    expect((await seen())[0]).toEqual([begin_s, end_s]);
+    await expect(page.locator("#flight-name")).toHaveText("flight.csv");
+    expect((await flown(page)).old).toBe("");
+    await flyTo(page, 4);
+    const edit = (range: number) => page.evaluate((value) => (window as any).vantage.edit((m: any) => (m.maxRange = m.range = value), true), range);
+    await edit(20); // nothing of the flight is so near
+    await expect.poll(seen).toEqual([]);
+    await expect(page.locator("#flight-verdict")).toHaveText("does not keep what is asked");
+    await expect(page.locator("#flight-lines")).toContainText("nowhere seen whole");
+    expect((await flown(page)).x).toBe(4);
+    await page.click("#undo");
+    await expect.poll(async () => (await seen())[0]).toEqual([begin_s, end_s]);
+    await expect.poll(async () => (await flown(page)).old).toBe("");
+    // A mission without a volume says that the flight is not judged by it.
+    await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.keepOut = [{ min: [1, 1, 1], max: [0, 0, 0] }]), true));
+    await expect(page.locator("#flight-verdict")).toContainText("Not judged by this mission");
+    expect((await flown(page)).isShown).toBe(true);
+  } finally {
+    viewer.kill("SIGINT");
+  }
+});
