@@ -482,6 +482,30 @@ TEST_F(LiveSession, AFlightSeesEachOfSeveralTargetsByItself) {
   }
 }
 
+TEST_F(LiveSession, EachTargetHasAVolumeOfItsOwn) {
+  EXPECT_EQ(code_of({{"call", "volumes"}}), name_of(ErrorCode::nothing_given));
+  const std::string targets =
+      "targets:\n  - {name: a, vertices: [[-35, -5, 0], [-30, -5, 0], [-30, 5, 0]]}\n"
+      "  - {name: b, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\nsensor: {max_range: 42}\n";
+  ask({{"call", "compute"}, {"text", targets}});
+  const Message message = ask({{"call", "volumes"}});
+  EXPECT_EQ(message.header["value"]["volumes"],
+            Json::parse(R"([{"name": "a", "reason": ""}, {"name": "b", "reason": ""}])"));
+  write("each.yaml", testing::kScene + targets + "combine: each\n");
+  const Mission each = resolve_mission(read_mission(folder_ / "each.yaml"));
+  std::vector<std::size_t> expected;
+  for (std::size_t i = 0; i < 2; ++i) expected.push_back(run_mission(one_volume(each, i)).volume.mesh.triangles.size());
+  const ViewMesh& view = session_.target_volumes_view();
+  EXPECT_EQ(message.header["mesh"][2], view.label_of.size());
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(std::count(view.label_of.begin(), view.label_of.end(), i), static_cast<std::ptrdiff_t>(expected[i]));
+  }
+  EXPECT_EQ(view.triangles.size(), 3 * view.label_of.size());
+  EXPECT_LT(*std::max_element(view.triangles.begin(), view.triangles.end()), view.positions.size() / 3);
+  // The last volume stays what it was.
+  EXPECT_EQ(ask({{"call", "prove"}}).header["value"]["verdict"], "proved");
+}
+
 TEST_F(LiveSession, RequestsOfOthersAreRefused) {
   for (const char* const text :
        {"", "{", "[]", "7", R"({"id": -1, "request": {"call": "prove"}})", R"({"id": 1})", R"({"id": 1, "request": 3})",

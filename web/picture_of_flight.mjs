@@ -22,6 +22,9 @@ try {
   const page = await browser.newPage({ viewport: { width: 1280, height: 860 } });
   await page.goto(address);
   await page.waitForSelector("#flight:not([hidden])");
+  await page.check("#flight-volumes");
+  await page.waitForSelector("#flight-rows .row-name i");
+  await page.waitForFunction(() => document.body.ariaBusy === "false" && !window.vantage.isLate());
   await page.evaluate(() => {
     const { flights, stage } = window.vantage;
     window.vantage.showAll();

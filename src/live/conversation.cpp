@@ -1,6 +1,9 @@
 #include "live/conversation.h"
 
+#include <algorithm>
+#include <array>
 #include <boost/asio/post.hpp>
+#include <string_view>
 #include <utility>
 
 #include "vantage/threads.h"
@@ -21,7 +24,8 @@ constexpr std::size_t kFragment = std::size_t{1} << 20;
 
 /// May take all cores, and gigabytes.
 bool is_heavy(const Request& request) {
-  return request.call == "compute" || request.call == "flight" || request.call == "prove" || request.call == "area";
+  static constexpr std::array<std::string_view, 5> kHeavy = {"compute", "flight", "volumes", "prove", "area"};
+  return std::find(kHeavy.begin(), kHeavy.end(), request.call) != kHeavy.end();
 }
 
 }  // namespace

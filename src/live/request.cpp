@@ -56,6 +56,7 @@ std::string value_of(Session& session, MapAreas& areas, const Request& request, 
   if (request.call == "query") return session.query(request.coordinates);
   if (request.call == "area") return area_of(areas, session, request, progress);
   if (request.call == "flight") return session.flight(progress);
+  if (request.call == "volumes") return session.target_volumes(progress);
   if (request.call == "prove") return session.prove(progress);
   if (request.call == "slice") return session.slice(request.z_m);
   if (request.call == "save") return session.save(request.format);
@@ -64,6 +65,7 @@ std::string value_of(Session& session, MapAreas& areas, const Request& request, 
 
 const ViewMesh* mesh_of(const Session& session, const std::string& call) {
   if (call == "hello") return &session.scene_view();
+  if (call == "volumes") return &session.target_volumes_view();
   return call == "compute" || call == "shown" ? &session.volume_view() : nullptr;
 }
 

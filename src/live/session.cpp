@@ -253,12 +253,37 @@ void Session::show_flight(GivenFlight given, const Progress& progress) {
   flight_text_ = judged(*mission_, progress);
 }
 
-std::string Session::judged(const Mission& mission, const Progress& progress) const {
+Mission Session::for_each_target(const Mission& mission, const Progress& progress) const {
+  if (mission.as_written.targets.empty()) return mission;
   MissionFile file = mission.as_written;
-  if (file.targets.empty()) return judged_flight(*flight_, mission, scene_of(mission)->prepared, progress);
   file.combine = Combine::each;
-  const Mission each = resolve_mission(file, opened_->loaded, progress);
+  return resolve_mission(file, opened_->loaded, progress);
+}
+
+std::string Session::judged(const Mission& mission, const Progress& progress) const {
+  const Mission each = for_each_target(mission, progress);
   return judged_flight(*flight_, each, scene_of(each)->prepared, progress);
+}
+
+std::string Session::target_volumes(const Progress& progress) {
+  const Mission each = for_each_target(mission(), progress);
+  const ScenePointer scene = scene_of(each);
+  Mesh all;
+  std::vector<std::uint32_t> target_of;
+  Json volumes = Json::array();
+  for (std::uint32_t i = 0; i < volume_count(each); ++i) {
+    const Mission one = one_volume(each, i);
+    const Volume volume = run_mission(one, {.prepared = scene->prepared}, progress).volume;
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), volume.mesh.vertices.begin(), volume.mesh.vertices.end());
+    for (const auto& triangle : volume.mesh.triangles) {
+      all.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+      target_of.push_back(i);
+    }
+    volumes.push_back({{"name", one.target.name}, {"reason", volume.reason}});
+  }
+  target_volumes_view_ = view_of(all, target_of, origin_);
+  return text_of(Json{{"volumes", std::move(volumes)}});
 }
 
 std::string Session::flight(const Progress& progress) {

@@ -63,6 +63,10 @@ class Session {
   /// JSON of judged_flight: the flight that is shown, by the mission of the last volume, each of its targets by itself.
   std::string flight(const Progress& progress = {});
 
+  /// The volumes of the targets of the last volume's mission, each by itself: target_volumes_view() has them, labelled
+  /// by their targets. JSON: {volumes: [{name, reason: why it is empty, or ""}]}.
+  std::string target_volumes(const Progress& progress = {});
+
   /// Proves the last volume, or refutes it: once.
   std::string prove(const Progress& progress = {});
   const std::optional<ProofReport>& proof() const { return proof_; }  ///< of the last volume, if it was asked for
@@ -79,6 +83,7 @@ class Session {
 
   const ViewMesh& scene_view() const { return *scene_view_; }
   const ViewMesh& volume_view() const { return volume_view_; }
+  const ViewMesh& target_volumes_view() const { return target_volumes_view_; }
   const std::string& bytes() const { return bytes_; }
 
  private:
@@ -90,6 +95,8 @@ class Session {
   using ScenePointer = std::shared_ptr<const ReadyScene>;
 
   const Mission& mission() const;  ///< of the last volume
+  /// With a volume for each target.
+  Mission for_each_target(const Mission& mission, const Progress& progress) const;
   std::string judged(const Mission& mission, const Progress& progress) const;
   /// The scene that is open, or one with more ground, out to where the mission's target needs it.
   ScenePointer scene_of(const Mission& mission) const;
@@ -123,7 +130,7 @@ class Session {
   std::shared_ptr<const GivenFlight> flight_;  ///< null: none is shown
   std::string flight_text_;                    ///< judged by the mission that was opened
   double resolve_ms_ = 0, compute_ms_ = 0, view_ms_ = 0;
-  ViewMesh volume_view_;
+  ViewMesh volume_view_, target_volumes_view_;
   std::string bytes_;
 };
 

@@ -4,8 +4,9 @@ import { toldBy } from "./engine/client";
 import type { ServedFlight } from "./engine/messages";
 import { boundsOf, flightFrom, momentAt, type Flight, type Moment } from "./model/flight";
 import { missionText } from "./model/mission";
-import { metres } from "./ui/page";
+import { metres, say } from "./ui/page";
 import { FlightView } from "./view/flight";
+import { TargetVolumesView } from "./view/target_volumes";
 
 const PROFILE_PLACES = 400;
 const PLAY_S = 30; // a flight that takes longer is played faster
@@ -32,11 +33,15 @@ export class Flights {
   private judgedOf: string | null = null;
   private asked = 0;
   private playing: { from: number; since: number } | null = null;
+  /** the volumes of the targets are wanted */
+  hasVolumes = false;
   private readonly view: FlightView;
+  private readonly volumesView: TargetVolumesView;
   private readonly listeners: ((isOther: boolean) => void)[] = [];
 
   constructor(private readonly app: App) {
     this.view = new FlightView(app.stage.scene, app.city);
+    this.volumesView = new TargetVolumesView(app.stage.scene);
   }
 
   /** `isOther`: not the vehicle alone has changed. */
@@ -60,6 +65,7 @@ export class Flights {
     const flight = flightFrom(told, name);
     this.requireNear(flight);
     this.judgedOf = null;
+    this.hideVolumes();
     this.put(flight, 0);
     this.old = "";
     this.tell(true);
@@ -96,7 +102,45 @@ export class Flights {
     if (!this.flight) return;
     this.flight = this.profile = this.moment = this.ground = this.judgedOf = this.playing = null;
     ++this.asked;
+    this.hideVolumes();
     this.view.hide();
+    this.tell(true);
+  }
+
+  /** The program has more to say of it than a file. */
+  get isServed(): boolean {
+    return this.judgedOf !== null;
+  }
+
+  private hideVolumes(): void {
+    this.hasVolumes = false;
+    this.volumesView.hide();
+  }
+
+  /** The volumes of its targets, by the mission that is shown. */
+  async setVolumes(areWanted: boolean): Promise<void> {
+    if (!areWanted) {
+      this.hideVolumes();
+      return this.tell(true);
+    }
+    this.hasVolumes = true;
+    await this.showVolumes();
+  }
+
+  private async showVolumes(): Promise<void> {
+    const { app, asked } = this;
+    const { volume } = app;
+    try {
+      const { volumes, mesh } = await app.late(app.engine.volumes());
+      if (asked !== this.asked || !this.hasVolumes || app.engine.last !== volume) return;
+      this.volumesView.show(mesh);
+      const empty = volumes.filter(({ reason }) => reason !== "");
+      if (empty.length > 0) say(empty.map(({ name, reason }) => `${name} has no volume: ${reason}`).join("; "), true);
+    } catch (error) {
+      if (asked !== this.asked) return;
+      this.hideVolumes();
+      say(toldBy(error), true);
+    }
     this.tell(true);
   }
 
@@ -154,7 +198,10 @@ export class Flights {
     const asked = ++this.asked;
     if (app.isDraft) return this.setOld("the mission is being changed");
     const text = missionText(app.mission);
-    if (text === this.judgedOf) return this.setOld("");
+    if (text === this.judgedOf) {
+      if (this.hasVolumes && !this.volumesView.isShown) void this.showVolumes();
+      return this.setOld("");
+    }
     if (!app.engine.isIdle) return this.setOld("the mission is being changed"); // it is told of the next volume, too
     const { volume } = app;
     this.setOld("it is judged again");
@@ -166,6 +213,7 @@ export class Flights {
       this.playing = playing;
       this.judgedOf = text;
       this.setOld("");
+      if (this.hasVolumes) void this.showVolumes();
     } catch (error) {
       if (asked === this.asked) this.setOld(toldBy(error));
     }
@@ -176,6 +224,7 @@ export class Flights {
   setOld(why: string): void {
     if (this.old === why || this.judgedOf === null) return;
     this.old = why;
+    if (why !== "") this.volumesView.hide(); // they are of the mission as it was
     this.tell(true);
   }
 

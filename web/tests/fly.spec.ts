@@ -178,3 +178,36 @@ plain("a plan that the program was started with follows the mission", async ({ p
     viewer.kill("SIGINT");
   }
 });
+
+plain("of several targets each has a volume of its own", async ({ page }) => {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+  writeFileSync(join(folder, "plaza.obj"), plazaMesh.text);
+  writeFileSync(join(folder, "flight.csv"), TABLE);
+  writeFileSync(join(folder, "several.yaml"), "scene: {mesh: plaza.obj}\nsensor: {max_range: 60}\ntargets:\n" +
+    "  - {name: west, vertices: [[-40, -20, 0], [-36, -20, 0], [-36, -16, 0]]}\n  - {name: east, vertices: [[6, -6, 0], [9, -6, 0], [9, -3, 0]]}\n");
+  const viewer = spawn(program, ["view", join(folder, "several.yaml"), "--flight", join(folder, "flight.csv"), "--heights", "scene", "--no-browser",
+    "--page", join(root, "web/dist/index.html")]);
+  try {
+    await page.goto(await new Promise<string>((resolve) => viewer.stdout.once("data", (text: Buffer) => resolve(text.toString().trim()))));
+    await hasVolume(page);
+    await settled(page);
+    await expect(page.locator("#flight-rows .strip")).toHaveCount(2);
+    const drawn = () => page.evaluate(() => {
+      const { mesh } = (window as any).vantage.flights.volumesView;
+      return mesh.visible ? (mesh.geometry.getAttribute("position").count as number) : 0;
+    });
+    expect(await drawn()).toBe(0);
+    await page.check("#flight-volumes");
+    await expect.poll(drawn).toBeGreaterThan(100);
+    const first = await drawn();
+    await expect(page.locator("#flight-rows .row-name i")).toHaveCount(2);
+    // They follow the mission, as the flight does.
+    await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.maxRange = m.range = 5), true));
+    await expect.poll(async () => [0, first].includes(await drawn())).toBe(false);
+    await page.uncheck("#flight-volumes");
+    await expect.poll(drawn).toBe(0);
+    await expect(page.locator("#flight-rows .row-name i")).toHaveCount(0);
+  } finally {
+    viewer.kill("SIGINT");
+  }
+});

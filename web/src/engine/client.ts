@@ -1,5 +1,5 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Section, ServedFlight, ViewMesh, VolumeInfo } from "./messages";
+import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Section, ServedFlight, TargetVolume, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
@@ -110,6 +110,12 @@ export class Engine {
   /** The flight that the program was started with, by the mission of the last volume. */
   async flight(): Promise<ServedFlight> {
     return (await this.transport.ask({ call: "flight" })).value as ServedFlight;
+  }
+
+  /** A volume for each target of the mission of the last volume; `labels` of the mesh: which target. */
+  async volumes(): Promise<{ volumes: TargetVolume[]; mesh: ViewMesh }> {
+    const { value, mesh } = await this.transport.ask({ call: "volumes" });
+    return { volumes: (value as { volumes: TargetVolume[] }).volumes, mesh: mesh! };
   }
 
   async prove(): Promise<Proof> {

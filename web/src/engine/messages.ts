@@ -98,6 +98,12 @@ export interface ServedFlight {
   check: unknown;
 }
 
+/** Of a target of a flight; `reason`: why it has no volume; "": it has one. */
+export interface TargetVolume {
+  name: string;
+  reason: string;
+}
+
 /** What the program was started with. `mission`: text of the file `name`; `volume`: one that was given to be shown. */
 export interface Hello {
   about: About;
@@ -155,6 +161,7 @@ export type Request =
   | { call: "query"; points: Point[] }
   | { call: "area"; points: [Point] }
   | { call: "flight" }
+  | { call: "volumes" }
   | { call: "prove" }
   | { call: "slice"; z: number }
   | { call: "save"; format: string }

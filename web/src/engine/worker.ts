@@ -124,6 +124,7 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
     case "shown":
     case "area":
     case "flight":
+    case "volumes":
     case "stop":
       throw new Error("only the engine of the program answers this");
     case "slice":

@@ -2,7 +2,8 @@
 import type { App } from "../app";
 import type { Flight } from "../model/flight";
 import { ticks } from "../model/flight";
-import { button, element, input, metres } from "./page";
+import { colourOf } from "../view/target_volumes";
+import { button, element, hex, input, metres } from "./page";
 
 const SVG = "http://www.w3.org/2000/svg";
 const WIDE = 1000; // units of a chart across, whatever its width
@@ -44,6 +45,7 @@ export class FlightPanel {
     const { flights } = app;
     this.slider.oninput = () => flights.flyTo(Number(this.slider.value));
     button("play").onclick = () => flights.play();
+    input("flight-volumes").onchange = () => void flights.setVolumes(input("flight-volumes").checked);
     button("close-flight").onclick = () => flights.close();
     flights.onChange((isOther) => this.show(isOther));
     this.show(true);
@@ -62,7 +64,7 @@ export class FlightPanel {
     this.showVehicle(flight);
   }
 
-  private showVerdict({ name, failures, notes, tube_m }: Flight): void {
+  private showVerdict({ name, failures, notes, tube_m, targets }: Flight): void {
     const { old } = this.app.flights;
     element("flight-name").textContent = name;
     const verdict = element("flight-verdict");
@@ -79,6 +81,15 @@ export class FlightPanel {
       return item;
     }));
     element("flight-rows").classList.toggle("old", old !== "");
+    const { isServed, hasVolumes } = this.app.flights;
+    element("flight-volumes-label").hidden = !isServed || targets.length < 2; // of one, the page shows it anyway
+    input("flight-volumes").checked = hasVolumes;
+    element("flight-rows").querySelectorAll<HTMLElement>(".row-name[data-target]").forEach((name) => {
+      const swatch = document.createElement("i");
+      swatch.style.background = hex(colourOf(Number(name.dataset["target"])));
+      name.querySelector("i")?.remove();
+      if (hasVolumes) name.prepend(swatch);
+    });
   }
 
   private showVehicle(flight: Flight): void {
@@ -115,14 +126,16 @@ export class FlightPanel {
     this.slider.max = String(flight.end);
     this.slider.step = "any";
     this.slider.onkeydown = (event) => this.step(event, flight);
-    const rows = flight.targets.slice(0, ROWS_UP_TO).flatMap((target) => {
+    const rows = flight.targets.slice(0, ROWS_UP_TO).flatMap((target, index) => {
       const row = chart("strip", `${target.name}: ${seenText(flight, target.seen)}`);
       const at = (x: number) => (flight.end > 0 ? (x / flight.end) * WIDE : 0);
       row.append(svg("rect", { class: "not-seen", x: 0, y: 0, width: WIDE, height: HIGH }));
       for (const [begin, end] of target.seen) {
         row.append(svg("rect", { class: "seen", x: at(begin), y: 0, width: Math.max(1, at(end) - at(begin)), height: HIGH }));
       }
-      return [labelled(target.name, `${target.name}: ${seenText(flight, target.seen)}`), row];
+      const name = labelled(target.name, `${target.name}: ${seenText(flight, target.seen)}`);
+      name.dataset["target"] = String(index);
+      return [name, row];
     });
     const more = flight.targets.length - ROWS_UP_TO;
     if (more > 0) rows.push(labelled(`and ${more} more`), chart("strip", ""));
