@@ -14,6 +14,7 @@
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
 
@@ -89,6 +90,23 @@ struct TargetCheck {
                                          ///< all is seen and the line of sight to the centre turns no faster
 };
 
+/// A link of the mission along the flight: the line of sight from its point to the vehicle, and the zone of a radio
+/// link where the mission asks for one.
+struct LinkCheck {
+  std::string name;
+  Vec3 point = Vec3::Zero();                         ///< where it begins; scene frame
+  std::optional<double> max_range_m = std::nullopt;  ///< nothing: as far as it is free
+  std::optional<RadioLink> radio = std::nullopt;     ///< nothing: the line of sight alone
+  std::vector<FlightSpan> linked;                    ///< in range, and nothing is in the way; sorted, apart
+  std::vector<FlightSpan> lost;                      ///< all else; sorted, apart
+  std::vector<NotSeen> reasons;                      ///< why it is lost; the longest first
+  double farthest_m = 0;                             ///< from the point, of any position of the tube
+  double farthest_at_m = 0;                          ///< along the flight
+  Vec3 farthest_at = Vec3::Zero();                   ///< of the flight, scene frame
+
+  bool holds() const { return lost.empty(); }
+};
+
 /// A limit of navigation that the flight breaks.
 struct BrokenLimit {
   std::string name;               ///< as PointAnswer::outside_of has it
@@ -117,6 +135,7 @@ struct FlightCheck {
   std::vector<double> departure_s;   ///< likewise, after what it stays there
   std::vector<Vec3> positions;       ///< of the points of the flight, scene frame
   std::vector<TargetCheck> targets;  ///< of the mission, in its order
+  std::vector<LinkCheck> links;      ///< likewise
   std::vector<BrokenLimit> broken;   ///< of navigation
   NearestPass nearest;
   std::vector<std::string> failures;  ///< what is required and does not hold, a sentence each
@@ -125,8 +144,8 @@ struct FlightCheck {
 };
 
 /// Judges a flight by what a mission asks: each of its targets (one for each volume, volume_count) must be seen whole
-/// within the limits of the sensor, for the dwell without a break; and the flight must keep navigation's limits and the
-/// clearance everywhere.
+/// within the limits of the sensor, for the dwell without a break; and the flight must keep navigation's limits, the
+/// clearance and Mission::links everywhere.
 ///
 /// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/leg_query.h), which err on the safe side.
 /// With a tube of radius R, what is said holds for every position within R of the flight.
@@ -141,8 +160,9 @@ VANTAGE_API FlightCheck check_flight(const Mission& mission, const Flight& fligh
 /// With longitudes and latitudes where `georeference` is given.
 VANTAGE_API std::string json_text(const FlightCheck& check, const Georeference* georeference = nullptr);
 
-/// A table, a row for each stretch: target, state ("seen", "hidden", "out_of_range", "behind", "limit", "broken"), what
-/// (object or limit), begin_m, end_m, begin_s, end_s, and the coordinates of both ends.
+/// A table, a row for each stretch: target, state ("seen", "hidden", "out_of_range", "behind", "limit"; of a link,
+/// whose name stands for the target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (object or limit),
+/// begin_m, end_m, begin_s, end_s, and the coordinates of both ends.
 VANTAGE_API std::string csv_text(const FlightCheck& check);
 
 }  // namespace vantage

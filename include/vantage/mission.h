@@ -122,6 +122,27 @@ struct PilotSight {
   double eye_height_m = 0;  ///< over the target, a point: resolve_mission raises it by this
 };
 
+/// What the vehicle of a flight must stay in sight of, as a pilot, or in reach of, as an antenna: as a mission file
+/// gives it. One of the first two says where it is.
+struct MissionLink {
+  std::string name;
+  std::optional<Vec3> position = std::nullopt;                 ///< metres, scene frame, or as MissionFile::crs says; or
+  std::optional<std::array<double, 2>> at_deg = std::nullopt;  ///< latitude and longitude (WGS 84), on the ground
+  double height_m = 0;                                         ///< so much above that
+  std::optional<double> max_range_m = std::nullopt;            ///< nothing: as far as it is free
+  std::optional<PilotSight> vlos = std::nullopt;               ///< says what max_range_m is
+  std::optional<RadioLink> radio = std::nullopt;               ///< the zone that must be clear too
+  std::string place = {};                                      ///< in the mission file
+};
+
+/// The same in the scene frame: from one point to the vehicle.
+struct FlightLink {
+  std::string name;
+  Vec3 point = Vec3::Zero();
+  std::optional<double> max_range_m = std::nullopt;  ///< nothing: as far as it is free
+  std::optional<RadioLink> radio = std::nullopt;     ///< nothing: the line of sight alone must be free
+};
+
 /// A mesh to stay in, as a mission file names it.
 struct NavigationMeshFile {
   std::filesystem::path file;  ///< absolute
@@ -188,6 +209,8 @@ struct MissionFile {
   SpheresOptions spheres;  ///< likewise
   /// Of a flight that sees the targets, each by itself whatever `combine` says. Volumes do not depend on it.
   std::optional<TourSettings> tour = std::nullopt;
+  /// What flights must keep everywhere. Volumes do not depend on it.
+  std::vector<MissionLink> links = {};
   MissionPlaces places = {};
 };
 
@@ -237,6 +260,7 @@ struct Mission {
   double read_seconds = 0;                  ///< that reading and resolving took
   std::vector<Warning> notes = {};          ///< what resolving changed or left out
   std::optional<Vec3> home = std::nullopt;  ///< of the tour, where the mission file gives one
+  std::vector<FlightLink> links = {};       ///< what flights must stay in sight or in reach of
 
   const Scene& scene() const { return loaded->scene; }
 };

@@ -167,6 +167,9 @@ using GimbalRow = std::tuple<double, double, double, double, double>;
 /// Name, centre, seen, which of them is the longest, not_seen, gimbal, followed (one span or none).
 using TargetRow = std::tuple<std::string, std::vector<double>, SpanRows, std::optional<std::size_t>,
                              std::vector<NotSeenRow>, std::optional<GimbalRow>, SpanRows>;
+/// Name, point, max_range_m, linked, lost, reasons, farthest_m, farthest_at_m, farthest_at.
+using LinkRow = std::tuple<std::string, std::vector<double>, std::optional<double>, SpanRows, SpanRows,
+                           std::vector<NotSeenRow>, double, double, std::vector<double>>;
 /// Name, spans, worst, unit, worst_at_m, worst_at.
 using BrokenRow = std::tuple<std::string, SpanRows, double, std::string, double, std::vector<double>>;
 /// distance_m, at_m, position, point, object.
@@ -180,19 +183,30 @@ SpanRows rows_of(const std::vector<FlightSpan>& spans) {
   return rows;
 }
 
+std::vector<NotSeenRow> reason_rows(const std::vector<NotSeen>& reasons) {
+  std::vector<NotSeenRow> rows;
+  for (const NotSeen& reason : reasons) rows.emplace_back(name_of(reason.kind), reason.name, rows_of(reason.spans));
+  return rows;
+}
+
+std::vector<LinkRow> link_rows(const PyFlightCheck& of) {
+  std::vector<LinkRow> rows;
+  for (const LinkCheck& link : of->links) {
+    rows.emplace_back(link.name, list_of(link.point), link.max_range_m, rows_of(link.linked), rows_of(link.lost),
+                      reason_rows(link.reasons), link.farthest_m, link.farthest_at_m, list_of(link.farthest_at));
+  }
+  return rows;
+}
+
 std::vector<TargetRow> target_rows(const PyFlightCheck& of) {
   std::vector<TargetRow> rows;
   for (const TargetCheck& target : of->targets) {
-    std::vector<NotSeenRow> not_seen;
-    for (const NotSeen& reason : target.not_seen) {
-      not_seen.emplace_back(name_of(reason.kind), reason.name, rows_of(reason.spans));
-    }
     std::optional<GimbalRow> gimbal;
     if (const auto& use = target.gimbal) {
       gimbal = {use->min_pitch_deg, use->max_pitch_deg, use->begin_yaw_deg, use->end_yaw_deg, use->rate_deg_s};
     }
-    rows.emplace_back(target.name, list_of(target.centre), rows_of(target.seen), target.longest, std::move(not_seen),
-                      gimbal, target.followed ? rows_of({*target.followed}) : SpanRows());
+    rows.emplace_back(target.name, list_of(target.centre), rows_of(target.seen), target.longest,
+                      reason_rows(target.not_seen), gimbal, target.followed ? rows_of({*target.followed}) : SpanRows());
   }
   return rows;
 }
@@ -259,6 +273,7 @@ void bind_flights(nb::module_& module) {
       .def_prop_ro(
           "arrival_s", [](const PyFlightCheck& c) { return list_view(c->arrival_s, c.check); }, kKept)
       .def_prop_ro("targets", &target_rows)
+      .def_prop_ro("links", &link_rows)
       .def_prop_ro("broken", &broken_rows)
       .def_prop_ro("nearest", &nearest_row)
       .def_prop_ro("failures", [](const PyFlightCheck& c) { return c->failures; })

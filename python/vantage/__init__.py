@@ -23,7 +23,7 @@ if _refusal := getattr(_core, "refusal", None):  # in a subinterpreter
 
 from . import _arrays, _checks
 from ._areas import Area, Face, areas
-from ._check import BrokenLimit, FlightCheck, GimbalUse, NearestPass, NotSeen, Span, TargetCheck, check
+from ._check import BrokenLimit, FlightCheck, GimbalUse, LinkCheck, NearestPass, NotSeen, Span, TargetCheck, check
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
 from ._field import fraction_field
@@ -44,8 +44,8 @@ from ._volume import Volume, intersect, unite
 
 __all__ = [
     "Answers", "Area", "BrokenLimit", "CancelledError", "Cause", "Error", "Face", "Flight", "FlightCheck", "Found",
-    "Georeference", "GimbalUse", "InputError", "InternalError", "LeftOut", "Mission", "Navigation", "NearestPass",
-    "Note", "NotSeen", "Orbit", "Orbits", "OutputError", "Positions", "PositionView", "Result", "Results", "Scene",
+    "Georeference", "GimbalUse", "InputError", "InternalError", "LeftOut", "LinkCheck", "Mission", "Navigation",
+    "NearestPass", "Note", "NotSeen", "Orbit", "Orbits", "OutputError", "Positions", "PositionView", "Result", "Results", "Scene",
     "SceneObject", "Sensor", "Slice", "Span", "Standpoint", "Standpoints", "Target", "TargetCheck", "Tile", "Tiles",
     "Tour", "TourBound", "TourSettings", "View", "Visit", "Volume", "__version__", "areas", "cameras", "check",
     "compute", "compute_many", "devices", "error_codes", "fewest_positions", "fraction_field", "intersect",

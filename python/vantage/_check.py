@@ -101,6 +101,39 @@ class TargetCheck(NamedTuple):
         return np.array([(span.begin_s, span.end_s) for span in self.seen]).reshape(-1, 2)
 
 
+class LinkCheck(NamedTuple):
+    """A link of the mission along the flight: the line of sight from its point to the vehicle, and the zone of a radio link where
+    the mission asks for one."""
+
+    name: str
+    point: Numbers
+    """(3,), metres, scene frame: where it begins"""
+    max_range_m: float | None
+    """None: as far as it is free"""
+    linked: list[Span]
+    """in range, and nothing is in the way; sorted, apart"""
+    lost: list[Span]
+    """all else; sorted, apart"""
+    reasons: list[NotSeen]
+    """why it is lost: "hidden" by an object, or "out_of_range"; the longest first"""
+    farthest_m: float
+    """from the point, of any position of the tube"""
+    farthest_at_m: float
+    """along the flight"""
+    farthest_at: Numbers
+    """(3,), of the flight"""
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is lost nowhere."""
+        return not self.lost
+
+    @property
+    def linked_m(self) -> Numbers:
+        """(k, 2): where the stretches begin and end along the flight."""
+        return np.array([(span.begin_m, span.end_m) for span in self.linked]).reshape(-1, 2)
+
+
 class BrokenLimit(NamedTuple):
     """A limit of navigation that the flight breaks."""
 
@@ -138,6 +171,7 @@ class FlightCheck:
         mission: the mission, each of its targets by itself.
         flight: what was judged: its positions are (n, 3) metres in the scene's frame.
         targets: a `TargetCheck` for each target.
+        links: a `LinkCheck` for each of the mission's `links`.
         broken: limits of navigation that are broken, a `BrokenLimit` each.
         nearest: where it comes nearest to the scene, but for its ground; None where there is nothing to come near to.
         failures: what is required and does not hold, a sentence each.
@@ -151,6 +185,9 @@ class FlightCheck:
         self.mission = mission
         self.flight = flight
         self.targets: list[TargetCheck] = [_target(row) for row in core.targets]
+        self.links: list[LinkCheck] = [
+            LinkCheck(name, np.array(point), most, _spans(linked), _spans(lost), _reasons(reasons), farthest, at_m, np.array(at))
+            for name, point, most, linked, lost, reasons, farthest, at_m, at in core.links]
         self.broken: list[BrokenLimit] = [
             BrokenLimit(name, _spans(spans), worst, unit, at_m, np.array(at))
             for name, spans, worst, unit, at_m, at in core.broken]
@@ -184,8 +221,9 @@ class FlightCheck:
 
     def to_geodataframe(self) -> Any:
         """A row for each stretch, for geopandas: lines with z in the scene's frame (points where it hovers), its CRS where its
-        place is known, and target, state ("seen", "hidden", "out_of_range", "behind", "limit", "broken"), what (the object or
-        the limit), begin_m, end_m, begin_s, end_s."""
+        place is known, and target, state ("seen", "hidden", "out_of_range", "behind", "limit"; of a link, whose name stands for the
+        target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (the object or the limit), begin_m, end_m, begin_s,
+        end_s."""
         rows: list[dict[str, Any]] = []
         lines: list[Any] = []
         for target, state, what, span in self._stretches():
@@ -200,6 +238,9 @@ class FlightCheck:
         for target in self.targets:
             rows += [(target.name, "seen", "", span) for span in target.seen]
             rows += [(target.name, reason.kind, reason.name, span) for reason in target.not_seen for span in reason.spans]
+        for link in self.links:
+            rows += [(link.name, "linked", "", span) for span in link.linked]
+            rows += [(link.name, f"link_{reason.kind}", reason.name, span) for reason in link.reasons for span in reason.spans]
         return rows + [("", "broken", limit.name, span) for limit in self.broken for span in limit.spans]
 
     def plot(self, path: Path | None = None, *, size: tuple[int, int] = (1200, 800)) -> Any:
@@ -235,11 +276,15 @@ def _spans(rows: Any) -> list[Span]:
     return [Span(row[0], row[1], row[2], row[3], np.array(row[4]), np.array(row[5])) for row in rows]
 
 
+def _reasons(rows: Any) -> list[NotSeen]:
+    return [NotSeen(kind, what, _spans(where)) for kind, what, where in rows]
+
+
 def _target(row: Any) -> TargetCheck:
     name, centre, seen, longest, not_seen, gimbal, followed = row
     spans = _spans(seen)
     return TargetCheck(name, np.array(centre), spans, None if longest is None else spans[longest],
-                       [NotSeen(kind, what, _spans(where)) for kind, what, where in not_seen],
+                       _reasons(not_seen),
                        None if gimbal is None else GimbalUse(*gimbal), next(iter(_spans(followed)), None))
 
 

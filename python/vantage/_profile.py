@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from ._check import FlightCheck, Span
     from ._flight import Numbers
 
-COLORS = {"seen": "#54a24b", "hidden": "#4c78a8", "out_of_range": "#e0b84c", "behind": "#9d9d9d", "limit": "#b279a2",
+COLORS = {"seen": "#54a24b", "linked": "#72b7b2", "hidden": "#4c78a8", "out_of_range": "#e0b84c", "behind": "#9d9d9d", "limit": "#b279a2",
           "broken": "#e45756"}
 """As the facets of volumes have them, by the kind of their cause."""
 
-LABELS = {"seen": "seen whole", "hidden": "view hidden", "out_of_range": "out of range", "behind": "behind the target",
+LABELS = {"seen": "seen whole", "linked": "linked", "hidden": "view hidden", "out_of_range": "out of range", "behind": "behind the target",
           "limit": "limit of the sensor", "broken": "limit of flight broken"}
 
 _SAMPLES = 1500
@@ -90,21 +90,23 @@ def _bars(spans: list[Span], least_m: float) -> list[tuple[float, float]]:
 def _draw_strips(axes: Any, check: FlightCheck) -> None:
     least_m = 0.003 * check.length_m or 1.0
     used: dict[str, None] = {}
-    for row, target in enumerate(check.targets):
+    rows = [(target.name, target.seen, target.not_seen, "seen") for target in check.targets]
+    rows += [(f"link: {link.name}", link.linked, link.reasons, "linked") for link in check.links]
+    for row, (_, good, reasons, state) in enumerate(rows):
         axes.broken_barh([(0, check.length_m or 1.0)], (row - _STRIP / 2, _STRIP), color="#f2f2f2", linewidth=0)
         for kind in ("out_of_range", "behind", "limit", "hidden"):
-            for reason in target.not_seen:
+            for reason in reasons:
                 if reason.kind == kind:
                     axes.broken_barh(_bars(reason.spans, 0), (row - _REASON / 2, _REASON), color=COLORS[kind], linewidth=0)
                     used[kind] = None
-        if target.seen:
-            axes.broken_barh(_bars(target.seen, least_m), (row - _STRIP / 2, _STRIP), color=COLORS["seen"], linewidth=0)
-            used["seen"] = None
+        if good:
+            axes.broken_barh(_bars(good, least_m), (row - _STRIP / 2, _STRIP), color=COLORS[state], linewidth=0)
+            used[state] = None
     for kind in COLORS:
         if kind in used:
             axes.broken_barh([], (0, 0), color=COLORS[kind], label=LABELS[kind])
-    axes.set_yticks(range(len(check.targets)), [_short(target.name) for target in check.targets])
-    axes.set_ylim(len(check.targets) - 0.5, -0.5)  # the first one on top
+    axes.set_yticks(range(len(rows)), [_short(name) for name, *_ in rows])
+    axes.set_ylim(len(rows) - 0.5, -0.5)  # the first one on top
     axes.set_xlabel("distance along the flight, m")
     axes.margins(x=0)
     for side in ("top", "right", "left"):

@@ -81,15 +81,17 @@ class Mission:
            sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
            combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
            spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
-           tour: TourSettings | Mapping[str, Any] | None = None, progress: Progress = None) -> Mission:
-        """Of the arguments that `compute` takes, and `tour`: a `TourSettings`, or a dictionary of its keys, for flights."""
+           tour: TourSettings | Mapping[str, Any] | None = None, links: Sequence[Mapping[str, Any]] | None = None,
+           progress: Progress = None) -> Mission:
+        """Of the arguments that `compute` takes, and for flights `tour`: a `TourSettings`, or a dictionary of its keys; and
+        `links`: what they must stay in sight or in reach of, a dictionary of keys of a mission file's `links` for each."""
         checked_scene(scene)
         is_one = not is_several(target)
         targets = targets_of(target, scene, crs)
         names = ["target"] if is_one else [f"target[{number}]" for number in range(len(targets))]
         return resolved(scene, targets, names, is_one=is_one, max_range=max_range, sensor=sensor, navigation=navigation,
                         combine=combine, crs=crs, method=method, tolerance=tolerance, spheres=spheres, work_limit=work_limit,
-                        tour=tour, progress=progress)
+                        tour=tour, links=links, progress=progress)
 
     @property
     def scene(self) -> Scene:
@@ -381,7 +383,8 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
           sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
           combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
           spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
-          tour: TourSettings | Mapping[str, Any] | None = None) -> tuple[Text, Meshes]:
+          tour: TourSettings | Mapping[str, Any] | None = None,
+          links: Sequence[Mapping[str, Any]] | None = None) -> tuple[Text, Meshes]:
     """The text of a mission without its scene, and the meshes to stay in that are in memory."""
     checked_text(combine, "combine"), checked_text(method, "method")
     text = Text()
@@ -414,6 +417,9 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
         text.add("work_limit", work_limit)
     if tour is not None:
         text.add("tour", keys_of(tour, TourSettings, "tour"))
+    if links is not None:
+        entries = [instance(link, Mapping, f"links[{i}]", "pass a dictionary") for i, link in enumerate(links)]  # type: ignore[type-abstract]
+        text.add_items("links", entries, [f"links[{i}]" for i in range(len(entries))])
     return text, meshes
 
 

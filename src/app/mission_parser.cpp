@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/input_file.h"
+#include "app/links_section.h"
 #include "app/navigation_section.h"
 #include "app/places.h"
 #include "app/scene_section.h"
@@ -68,6 +69,7 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
     mission_.tour = parse_tour(*tour, *this);
     mission_.places.tour = place_in(file(), tour->place);
   }
+  if (const YamlNode* links = find(root, "links")) mission_.links = parse_links(*links, *this);
   if (const YamlNode* limit = find(root, "work_limit")) parse_work_limit(*limit);
   return std::move(mission_);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/links_section.h"
 #include "app/sensor_section.h"
 #include "app/tour_section.h"
 #include "app/value_reader.h"
@@ -76,6 +77,7 @@ class Writer {
     if (mission_.exact.work_limit != kWorkLimit) text += "work_limit: " + shortest(mission_.exact.work_limit) + "\n";
     text += spheres();
     if (mission_.tour) text += internal::app::tour_section_text(*mission_.tour);
+    text += internal::app::links_section_text(mission_.links);
     return text;
   }
 

@@ -7,6 +7,7 @@
 #include "app/georeferencing.h"
 #include "app/ground_room.h"
 #include "app/input_file.h"
+#include "app/links_section.h"
 #include "app/navigation_meshes.h"
 #include "app/places.h"
 #include "app/tour_home.h"
@@ -58,6 +59,7 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   internal::app::find_ground(mission);
   internal::app::find_obstacles(mission);
   internal::app::place_home(mission);
+  internal::app::place_links(mission);
   return mission;
 }
 

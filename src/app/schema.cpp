@@ -15,12 +15,12 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 22>& table() {
-  static const std::array<SectionKeys, 22> kTable = {{
+const std::array<SectionKeys, 23>& table() {
+  static const std::array<SectionKeys, 23> kTable = {{
       {Section::mission,
        "the mission",
        {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres", "tour",
-        "work_limit"}},
+        "links", "work_limit"}},
       {Section::scene,
        "scene",
        {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "attribution", "center", "radius",
@@ -54,6 +54,9 @@ const std::array<SectionKeys, 22>& table() {
       {Section::vehicle, "tour.vehicle", {"kind", "speed", "acceleration", "turn_radius", "climb"}},
       {Section::tour_view, "tour.view", {"dwell", "margin", "simultaneous"}},
       {Section::tour_gimbal, "tour.gimbal", {"rate"}},
+      {Section::flight_link,
+       "an entry of links",
+       {"name", "point", "at", "height", "max_range", "vlos", "frequency", "clear"}},
   }};
   return kTable;
 }

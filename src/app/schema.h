@@ -34,7 +34,8 @@ enum class Section {
   tour,
   vehicle,
   tour_view,
-  tour_gimbal
+  tour_gimbal,
+  flight_link
 };
 
 /// How messages call a section: "scene", "target"; "the mission" for the outermost one.

@@ -41,8 +41,6 @@ class SensorParser {
   void parse_pixel(const YamlNode& pixel);
   void parse_dori(const YamlNode& dori);
   void parse_sun(const YamlNode& sun);
-  void parse_vlos(const YamlNode& vlos);
-  void parse_link(const YamlNode& link);
   void parse_share();
   const YamlNode& require(const YamlNode& map, const char* key, const std::string& what, const std::string& fix) const;
   std::array<double, 2> two_angles(const YamlNode& node, const std::string& what, const std::string& form) const;
@@ -238,44 +236,6 @@ void SensorParser::parse_sun(const YamlNode& sun) {
   result_.sensor.sun = limit;
 }
 
-void SensorParser::parse_vlos(const YamlNode& vlos) {
-  check_keys(vlos, Section::vlos, reader_.file());
-  const char* const form = "write {aircraft_size: 0.35, kind: multirotor, visibility: 5000}: metres";
-  PilotSight sight;
-  sight.range.aircraft_size_m =
-      reader_.positive_length(require(vlos, "aircraft_size", "sensor.vlos", form), "sensor.vlos.aircraft_size");
-  sight.range.visibility_m =
-      reader_.positive_length(require(vlos, "visibility", "sensor.vlos", form), "sensor.vlos.visibility");
-  const YamlNode& kind = require(vlos, "kind", "sensor.vlos", form);
-  const std::string text = reader_.text(kind, "sensor.vlos.kind");
-  if (text != "multirotor" && text != "fixed_wing") {
-    reader_.fail(ErrorCode::unknown_choice, kind,
-                 "sensor.vlos.kind must be multirotor or fixed_wing, not " + in_quotes(text),
-                 "write multirotor also for a helicopter");
-  }
-  sight.range.kind = text == "multirotor" ? VisualRange::Kind::multirotor : VisualRange::Kind::fixed_wing;
-  if (const YamlNode* height = find(vlos, "eye_height")) {
-    sight.eye_height_m = reader_.positive_length(*height, "sensor.vlos.eye_height");
-  }
-  result_.sensor.max_range_m = visual_range_m(sight.range);
-  result_.vlos = sight;
-}
-
-void SensorParser::parse_link(const YamlNode& link) {
-  check_keys(link, Section::link, reader_.file());
-  RadioLink result;
-  const YamlNode& frequency = require(link, "frequency", "sensor.link", "write {frequency: 2.4, clear: 0.6}: GHz");
-  result.frequency_ghz = reader_.positive(frequency, "sensor.link.frequency");
-  if (const YamlNode* clear = find(link, "clear")) {
-    result.clear = reader_.positive(*clear, "sensor.link.clear");
-    if (result.clear > 1) {
-      reader_.fail(ErrorCode::value_out_of_range, *clear, "sensor.link.clear is more than all of the first zone",
-                   "write a share of the zone's radius: 0.6 is usual, 1 is all of it");
-    }
-  }
-  result_.sensor.link = result;
-}
-
 void SensorParser::parse_share() {
   const YamlNode* const share = find(node_, "visible");
   const YamlNode* const cells = find(node_, "cells");
@@ -307,7 +267,10 @@ SensorSection SensorParser::parse() {
   if (const YamlNode* range = find(node_, "max_range"))
     sensor.max_range_m = reader_.positive_length(*range, "sensor.max_range");
   refuse_both("max_range", "vlos", "keep the range, or let it follow from the aircraft");
-  if (const YamlNode* vlos = find(node_, "vlos")) parse_vlos(*vlos);
+  if (const YamlNode* vlos = find(node_, "vlos")) {
+    result_.vlos = parse_vlos(*vlos, "sensor.vlos", reader_);
+    sensor.max_range_m = visual_range_m(result_.vlos->range);
+  }
   if (const YamlNode* range = find(node_, "min_range"))
     sensor.min_range_m = reader_.positive_length(*range, "sensor.min_range");
   if (const YamlNode* angle = find(node_, "incidence")) {
@@ -330,7 +293,10 @@ SensorSection SensorParser::parse() {
   if (const YamlNode* pixel = find(node_, "pixel")) parse_pixel(*pixel);
   if (const YamlNode* dori = find(node_, "dori")) parse_dori(*dori);
   if (const YamlNode* sun = find(node_, "sun")) parse_sun(*sun);
-  if (const YamlNode* link = find(node_, "link")) parse_link(*link);
+  if (const YamlNode* link = find(node_, "link")) {
+    check_keys(*link, Section::link, reader_.file());
+    sensor.link = parse_radio_link(*link, "sensor.link", reader_);
+  }
   parse_share();
   if (!find(node_, "max_range") && !result_.vlos && !sensor.pixel) {
     reader_.fail(ErrorCode::missing_key, node_, "sensor lacks the key 'max_range'",
@@ -382,13 +348,17 @@ std::string mount_text(const Mount& mount) {
          ", roll: " + shortest(mount.roll_deg) + "}\n";
 }
 
+}  // namespace
+
 std::string vlos_text(const PilotSight& sight) {
   const auto& [aircraft_size_m, kind, visibility_m] = sight.range;
-  return "  vlos: {aircraft_size: " + shortest(aircraft_size_m) +
+  return "vlos: {aircraft_size: " + shortest(aircraft_size_m) +
          ", kind: " + (kind == VisualRange::Kind::multirotor ? "multirotor" : "fixed_wing") +
          ", visibility: " + shortest(visibility_m) +
-         (sight.eye_height_m > 0 ? ", eye_height: " + shortest(sight.eye_height_m) : "") + "}\n";
+         (sight.eye_height_m > 0 ? ", eye_height: " + shortest(sight.eye_height_m) : "") + "}";
 }
+
+namespace {
 
 std::string sun_text(const MissionFile& mission) {
   const SunLimit& sun = *mission.sensor.sun;
@@ -405,6 +375,48 @@ std::string sun_text(const MissionFile& mission) {
 
 }  // namespace
 
+PilotSight parse_vlos(const YamlNode& vlos, const std::string& what, const ValueReader& reader) {
+  check_keys(vlos, Section::vlos, reader.file());
+  const auto required = [&](const char* key) -> const YamlNode& {
+    if (const YamlNode* found = find(vlos, key)) return *found;
+    reader.fail(ErrorCode::missing_key, vlos, what + " lacks the key '" + key + "'",
+                "write {aircraft_size: 0.35, kind: multirotor, visibility: 5000}: metres");
+  };
+  PilotSight sight;
+  sight.range.aircraft_size_m = reader.positive_length(required("aircraft_size"), what + ".aircraft_size");
+  sight.range.visibility_m = reader.positive_length(required("visibility"), what + ".visibility");
+  const YamlNode& kind = required("kind");
+  const std::string text = reader.text(kind, what + ".kind");
+  if (text != "multirotor" && text != "fixed_wing") {
+    reader.fail(ErrorCode::unknown_choice, kind,
+                what + ".kind must be multirotor or fixed_wing, not " + in_quotes(text),
+                "write multirotor also for a helicopter");
+  }
+  sight.range.kind = text == "multirotor" ? VisualRange::Kind::multirotor : VisualRange::Kind::fixed_wing;
+  if (const YamlNode* height = find(vlos, "eye_height")) {
+    sight.eye_height_m = reader.positive_length(*height, what + ".eye_height");
+  }
+  return sight;
+}
+
+RadioLink parse_radio_link(const YamlNode& map, const std::string& what, const ValueReader& reader) {
+  RadioLink result;
+  const YamlNode* frequency = find(map, "frequency");
+  if (frequency == nullptr) {
+    reader.fail(ErrorCode::missing_key, map, what + " lacks the key 'frequency'",
+                "write {frequency: 2.4, clear: 0.6}: GHz");
+  }
+  result.frequency_ghz = reader.positive(*frequency, what + ".frequency");
+  if (const YamlNode* clear = find(map, "clear")) {
+    result.clear = reader.positive(*clear, what + ".clear");
+    if (result.clear > 1) {
+      reader.fail(ErrorCode::value_out_of_range, *clear, what + ".clear is more than all of the first zone",
+                  "write a share of the zone's radius: 0.6 is usual, 1 is all of it");
+    }
+  }
+  return result;
+}
+
 SensorSection parse_sensor_section(const YamlNode& node, const ValueReader& reader) {
   return SensorParser(node, reader).parse();
 }
@@ -414,7 +426,7 @@ std::string sensor_section_text(const MissionFile& mission) {
   const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = mission.sensor;
   std::string text = "sensor:\n";
   if (mission.vlos) {
-    text += vlos_text(*mission.vlos);
+    text += "  " + vlos_text(*mission.vlos) + "\n";
   } else if (std::isfinite(max_range_m)) {
     text += "  max_range: " + shortest(max_range_m) + "\n";
   }

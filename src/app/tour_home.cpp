@@ -13,39 +13,40 @@
 namespace vantage::internal::app {
 namespace {
 
-const Georeference& place_of(const Mission& mission, const std::string& where) {
+const Georeference& earth_of(const Mission& mission, const PlaceOfFlight& place) {
   if (mission.scene().georeference) return *mission.scene().georeference;
-  throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", where,
-              "give tour.home as [x, y, z] in the scene frame, or a scene with a place: a map, or a mesh with 'crs'");
+  throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", place.where,
+              "give " + place.instead + " in the scene frame, or a scene with a place: a map, or a mesh with 'crs'");
 }
 
-Vec3 on_the_ground(const Mission& mission, const std::array<double, 2>& at_deg, const std::string& where) {
-  const Eigen::Vector2d at = scene_position(place_of(mission, where), at_deg[1], at_deg[0]);
+}  // namespace
+
+Vec3 on_the_ground(const Mission& mission, const std::array<double, 2>& at_deg, const PlaceOfFlight& place) {
+  const Eigen::Vector2d at = scene_position(earth_of(mission, place), at_deg[1], at_deg[0]);
   const std::optional<GroundLevels::Range> ground = GroundLevels(ground_of(mission)).at(at.x(), at.y());
   if (!ground) {
-    throw Error(ErrorCode::target_off_ground, "there is no ground under tour.home", where,
-                "check the order: [latitude, longitude]; or give [x, y, z]");
+    throw Error(ErrorCode::target_off_ground, "there is no ground under " + place.name, place.where,
+                "check the order: [latitude, longitude]; or give " + place.instead);
   }
   return {at.x(), at.y(), ground->highest_m};
 }
 
-Vec3 in_the_frame(const Mission& mission, const Vec3& position, const std::string& where) {
+Vec3 in_the_frame(const Mission& mission, const Vec3& position, const PlaceOfFlight& place) {
   const std::string& crs = mission.as_written.crs;
   if (crs.empty()) return position;
   const std::vector<Eigen::Vector2d> given = {position.head<2>()};
-  const Eigen::Vector2d at = scene_positions(place_of(mission, where), crs, given).front();
+  const Eigen::Vector2d at = scene_positions(earth_of(mission, place), crs, given).front();
   return {at.x(), at.y(), position.z() * vertical_unit_m(crs)};
 }
-
-}  // namespace
 
 void place_home(Mission& mission) {
   if (!mission.as_written.tour || !mission.as_written.tour->home) return;
   const TourHome& home = *mission.as_written.tour->home;
   const std::string& where = mission.as_written.places.tour;
+  const PlaceOfFlight place{"tour.home", "tour.home as [x, y, z]", where};
   mission.home = with_place(where, [&]() -> std::optional<Vec3> {
-    if (home.at_deg) return on_the_ground(mission, *home.at_deg, where);
-    if (home.position) return in_the_frame(mission, *home.position, where);
+    if (home.at_deg) return on_the_ground(mission, *home.at_deg, place);
+    if (home.position) return in_the_frame(mission, *home.position, place);
     return std::nullopt;
   });
 }

@@ -33,13 +33,12 @@ constexpr const char* kCheckExamples =
     "  home, above the ellipsoid. What a plan does not say has to be given.\n"
     "\n"
     "FOUND\n"
-    "  For each target from where on the flight all of it is seen, within the limits of the sensor, exactly; what "
-    "hides\n"
-    "  it elsewhere; which limits of navigation are broken, where and by how much; how near the flight comes to the\n"
-    "  scene, but for its ground. The exit code is 1 where a target is not seen, or not for the dwell, a limit is\n"
-    "  broken, the clearance is not kept, or the camera would have to turn too fast. Dwell, clearance, speed and "
-    "gimbal\n"
-    "  are those of the mission's 'tour', unless they are given here.\n"
+    "  For each target from where on the flight all of it is seen, within the limits of the sensor, exactly; what\n"
+    "  hides it elsewhere; where the links of the mission hold, and what is in their way; which limits of navigation\n"
+    "  are broken, where and by how much; how near the flight comes to the scene, but for its ground. The exit code\n"
+    "  is 1 where a target is not seen, or not for the dwell, a link is lost anywhere, a limit is broken, the\n"
+    "  clearance is not kept, or the camera would have to turn too fast. Dwell, clearance, speed and gimbal are those\n"
+    "  of the mission's 'tour', unless they are given here.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage check mission.yaml flight.plan\n"
@@ -75,6 +74,15 @@ std::string spans_text(const std::vector<FlightSpan>& spans) {
   return text;
 }
 
+void add_reasons(TextTable& table, const std::vector<NotSeen>& reasons) {
+  for (const NotSeen& reason : reasons) {
+    std::string name = name_of(reason.kind);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.row(name, fixed(reason.length_m(), 2) + " m",
+              (reason.name.empty() ? "" : reason.name + ": ") + spans_text(reason.spans));
+  }
+}
+
 void add_target(TextTable& table, const TargetCheck& target) {
   table.heading(target.name);
   if (target.seen.empty()) table.row("seen whole", "nowhere", "");
@@ -93,12 +101,24 @@ void add_target(TextTable& table, const TargetCheck& target) {
                        ? "; turns by up to " + fixed(target.gimbal->rate_deg_s, 1) + " degrees per second"
                        : ""));
   }
-  for (const NotSeen& reason : target.not_seen) {
-    std::string name = name_of(reason.kind);
-    std::replace(name.begin(), name.end(), '_', ' ');
-    table.row(name, fixed(reason.length_m(), 2) + " m",
-              (reason.name.empty() ? "" : reason.name + ": ") + spans_text(reason.spans));
+  add_reasons(table, target.not_seen);
+}
+
+void add_link(TextTable& table, const LinkCheck& link) {
+  table.heading("link to " + link.name);
+  if (link.holds()) {
+    table.row("linked", "everywhere", "");
+  } else if (link.linked.empty()) {
+    table.row("linked", "nowhere", "");
+  } else {
+    double length = 0;
+    for (const FlightSpan& span : link.linked) length += span.length_m();
+    table.row("linked", fixed(length, 2) + " m", spans_text(link.linked));
   }
+  table.row("farthest", fixed(link.farthest_m, 2) + " m",
+            "at " + fixed(link.farthest_at_m, 2) + " m along the flight" +
+                (link.max_range_m ? "; its range is " + fixed(*link.max_range_m, 2) + " m" : ""));
+  add_reasons(table, link.reasons);
 }
 
 std::string table_text(const FlightCheck& check, const std::string& plan) {
@@ -111,6 +131,7 @@ std::string table_text(const FlightCheck& check, const std::string& plan) {
     table.row("tube", fixed(check.tube_radius_m, 2), "m: all holds for every position so near to the flight");
   }
   for (const TargetCheck& target : check.targets) add_target(table, target);
+  for (const LinkCheck& link : check.links) add_link(table, link);
   table.heading("limits");
   if (check.broken.empty()) table.row("broken", "none", "");
   for (const BrokenLimit& limit : check.broken) {

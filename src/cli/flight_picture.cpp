@@ -60,6 +60,11 @@ Picture profile_picture(const FlightPicture& picture, const Progress& progress) 
     for (const FlightSpan& span : target.seen) strip.spans_m.push_back({span.begin_m, span.end_m});
     request.strips.push_back(std::move(strip));
   }
+  for (const LinkCheck& link : picture.check->links) {
+    ProfileStrip strip{"link: " + link.name, {}};
+    for (const FlightSpan& span : link.linked) strip.spans_m.push_back({span.begin_m, span.end_m});
+    request.strips.push_back(std::move(strip));
+  }
   return render_profile(picture.mission->scene(), request, progress);
 }
 

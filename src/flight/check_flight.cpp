@@ -14,6 +14,7 @@
 #include "core/progress_reporter.h"
 #include "core/text.h"
 #include "flight/along.h"
+#include "flight/check_links.h"
 #include "flight/gimbal.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
@@ -41,6 +42,7 @@ struct TargetOnLeg {
 struct OnLeg {
   std::vector<TargetOnLeg> targets;
   std::vector<LegBreak> broken;
+  std::vector<LegView> links;
 };
 
 Intervals joined(Intervals a, const Intervals& b) {
@@ -137,6 +139,13 @@ class JudgedTarget {
   std::vector<std::vector<One>> lists_;
 };
 
+/// What is judged on every leg.
+struct Judges {
+  std::vector<JudgedTarget> targets;
+  std::vector<flight::JudgedLink> links;
+  LegLimits limits;
+};
+
 void require_number(const std::optional<double>& value, bool may_be_zero, const char* what, const char* fix) {
   if (!value || (std::isfinite(*value) && (*value > 0 || (may_be_zero && *value == 0)))) return;
   throw Error(
@@ -162,16 +171,16 @@ FlightCheckOptions filled(const Mission& mission, FlightCheckOptions options) {
 }
 
 /// What was found on the legs, leg after leg.
-std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const std::vector<JudgedTarget>& targets,
-                              const LegLimits& limits, double radius_m,
+std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const Judges& judges, double radius_m,
                               const internal::core::ProgressReporter& reporter) {
   std::vector<OnLeg> found(legs.size());
   std::atomic<std::size_t> done = 0;
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       reporter.report(done.load(), legs.size());
-      for (const JudgedTarget& target : targets) found[i].targets.push_back(target.look(legs[i], radius_m));
-      found[i].broken = limits.broken(legs[i], radius_m);
+      for (const JudgedTarget& target : judges.targets) found[i].targets.push_back(target.look(legs[i], radius_m));
+      for (const flight::JudgedLink& link : judges.links) found[i].links.push_back(link.look(legs[i], radius_m));
+      found[i].broken = judges.limits.broken(legs[i], radius_m);
       ++done;
     }
   });
@@ -333,6 +342,9 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
                  target.name, number_text(followed_s), number_text(*options.gimbal_rate_deg_s), number_text(dwell)));
     }
   }
+  for (const LinkCheck& link : check.links) {
+    if (const auto failure = flight::failure_of(link)) failures.push_back(*failure);
+  }
   for (const BrokenLimit& limit : check.broken) {
     failures.push_back(std::isfinite(limit.worst)
                            ? format("{} is broken by {} {}, {} m along the flight", limit.name,
@@ -398,16 +410,21 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   for (const FlightPoint& point : flight.points) check.positions.push_back(point.position);
 
   const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
-  std::vector<JudgedTarget> targets;
-  for (std::size_t i = 0; i < volume_count(mission); ++i) targets.emplace_back(one_volume(mission, i), scene);
   const std::vector<Leg> legs = legs_of(flight);
+  Judges judges{{}, {}, LegLimits(mission.navigation)};
+  for (std::size_t i = 0; i < volume_count(mission); ++i) judges.targets.emplace_back(one_volume(mission, i), scene);
+  for (const FlightLink& link : mission.links) judges.links.emplace_back(link, scene, legs, check.tube_radius_m);
   const internal::core::ProgressReporter reporter(progress);
   reporter.begin("checking the flight");
-  const std::vector<OnLeg> found =
-      judge_legs(legs, targets, LegLimits(mission.navigation), check.tube_radius_m, reporter);
+  const std::vector<OnLeg> found = judge_legs(legs, judges, check.tube_radius_m, reporter);
   reporter.finish();
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    check.targets.push_back(check_target(targets[i], i, found, flight, along, options));
+  for (std::size_t i = 0; i < judges.targets.size(); ++i) {
+    check.targets.push_back(check_target(judges.targets[i], i, found, flight, along, options));
+  }
+  for (std::size_t i = 0; i < judges.links.size(); ++i) {
+    std::vector<LegView> views;
+    for (const OnLeg& on : found) views.push_back(on.links[i]);
+    check.links.push_back(judges.links[i].check(views, legs, along, check.tube_radius_m));
   }
   check.broken = broken_limits(found, along);
   check.nearest =

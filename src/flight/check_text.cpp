@@ -50,6 +50,17 @@ Json spans_json(const std::vector<FlightSpan>& spans, const PositionJson& positi
   return json;
 }
 
+Json reasons_json(const std::vector<NotSeen>& reasons, const PositionJson& position) {
+  Json json = Json::array();
+  for (const NotSeen& reason : reasons) {
+    json.push_back({{"kind", name_of(reason.kind)},
+                    {"name", reason.name},
+                    {"length_m", reason.length_m()},
+                    {"spans", spans_json(reason.spans, position)}});
+  }
+  return json;
+}
+
 Json target_json(const TargetCheck& target, const PositionJson& position) {
   Json json;
   json["name"] = target.name;
@@ -70,13 +81,24 @@ Json target_json(const TargetCheck& target, const PositionJson& position) {
                       {"end_yaw_deg", target.gimbal->end_yaw_deg},
                       {"rate_deg_s", number_json(target.gimbal->rate_deg_s)}};
   }
-  json["not_seen"] = Json::array();
-  for (const NotSeen& reason : target.not_seen) {
-    json["not_seen"].push_back({{"kind", name_of(reason.kind)},
-                                {"name", reason.name},
-                                {"length_m", reason.length_m()},
-                                {"spans", spans_json(reason.spans, position)}});
-  }
+  json["not_seen"] = reasons_json(target.not_seen, position);
+  return json;
+}
+
+Json link_json(const LinkCheck& link, const PositionJson& position) {
+  Json json;
+  json["name"] = link.name;
+  json["point"] = position(link.point);
+  json["max_range_m"] = link.max_range_m ? Json(*link.max_range_m) : Json(nullptr);
+  json["frequency_ghz"] = link.radio ? Json(link.radio->frequency_ghz) : Json(nullptr);
+  json["clear"] = link.radio ? Json(link.radio->clear) : Json(nullptr);
+  json["holds"] = link.holds();
+  json["linked"] = spans_json(link.linked, position);
+  json["lost"] = spans_json(link.lost, position);
+  json["reasons"] = reasons_json(link.reasons, position);
+  json["farthest_m"] = link.farthest_m;
+  json["farthest_at_m"] = link.farthest_at_m;
+  json["farthest_at"] = position(link.farthest_at);
   return json;
 }
 
@@ -112,6 +134,8 @@ std::string json_text(const FlightCheck& check, const Georeference* georeference
   json["tube_radius_m"] = check.tube_radius_m;
   json["targets"] = Json::array();
   for (const TargetCheck& target : check.targets) json["targets"].push_back(target_json(target, position));
+  json["links"] = Json::array();
+  for (const LinkCheck& link : check.links) json["links"].push_back(link_json(link, position));
   json["broken"] = Json::array();
   for (const BrokenLimit& limit : check.broken) {
     json["broken"].push_back({{"limit", limit.name},
@@ -147,6 +171,12 @@ std::string csv_text(const FlightCheck& check) {
     append_rows(table, target.name, "seen", "", target.seen);
     for (const NotSeen& reason : target.not_seen) {
       append_rows(table, target.name, name_of(reason.kind), reason.name, reason.spans);
+    }
+  }
+  for (const LinkCheck& link : check.links) {
+    append_rows(table, link.name, "linked", "", link.linked);
+    for (const NotSeen& reason : link.reasons) {
+      append_rows(table, link.name, std::string("link_") + name_of(reason.kind), reason.name, reason.spans);
     }
   }
   for (const BrokenLimit& limit : check.broken) append_rows(table, "", "broken", limit.name, limit.spans);
