@@ -51,6 +51,16 @@ double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s) {
   return speed_m_s * e.cross(d).norm() / (length * nearest2) * kDegreesPerRadian;
 }
 
+double fastest_turn_near_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, double reach_m) {
+  const Vec3 e = piece.to - piece.from, d = to - piece.from;
+  const double length = e.norm();
+  if (!(length > 0)) return 0;
+  const double t = std::clamp(d.dot(e) / (length * length), 0.0, 1.0);
+  const double nearest = (d - t * e).norm() - reach_m, aside = e.cross(d).norm() / length + reach_m;
+  if (!(nearest > 0)) return std::numeric_limits<double>::infinity();
+  return speed_m_s * aside / (nearest * nearest) * kDegreesPerRadian;
+}
+
 std::vector<LegInterval> slow_turns(const Leg& piece, const Vec3& to, double speed_m_s, double rate_deg_s) {
   const Vec3 e = piece.to - piece.from, d = to - piece.from;
   const double length = e.norm();

@@ -26,6 +26,9 @@ PitchRange pitch_range(const Leg& piece, const Vec3& to);
 /// through the point.
 double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s);
 
+/// The same for every position within `reach_m` of the piece that flies in its direction: never less.
+double fastest_turn_near_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, double reach_m);
+
 /// Where along the piece, flown at this speed, the line of sight turns no faster than `rate_deg_s`: sorted, apart;
 /// never too long.
 std::vector<LegInterval> slow_turns(const Leg& piece, const Vec3& to, double speed_m_s, double rate_deg_s);

@@ -147,7 +147,10 @@ class MultirotorPlan {
       if (stops[i].region < 0) continue;
       const auto target = static_cast<std::size_t>(stops[i].region);
       viewings.push_back({target, way.station(i), {}});
-      if (!hovers_only) viewings.back().stretches = stretches_in(*regions_[target], way);
+      if (!hovers_only) {
+        viewings.back().stretches =
+            stretches_followed(stretches_in(*regions_[target], way), way, request_.targets[target], request_.settings);
+      }
     }
     Scheduling scheduling = flight_of(way, schedule(viewings, request_.settings), request_);
     tour.flight = std::move(scheduling.flight);

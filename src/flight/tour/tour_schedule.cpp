@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/portable_math.h"
+#include "flight/gimbal.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
@@ -146,6 +147,36 @@ std::vector<Stretch> stretches_in(const TourRegion& region, const Way& way) {
     goes_on = ends_inside;
   }
   return found;
+}
+
+std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Way& way, const TourTarget& target,
+                                        const TourSettings& settings) {
+  if (!target.look_at) return stretches;
+  // A plan rounds positions by a little, so the camera turns a little more slowly than it could.
+  constexpr double kReserve = 0.99;
+  std::vector<Stretch> slow;
+  for (std::size_t i = 0; i + 1 < way.points().size(); ++i) {
+    const double begin = way.station(i), length = way.station(i + 1) - begin;
+    for (const LegInterval& part :
+         flight::slow_turns({way.points()[i], way.points()[i + 1]}, *target.look_at, settings.vehicle.speed_m_s,
+                            kReserve * settings.gimbal_rate_deg_s)) {
+      const Stretch next = {begin + part.begin * length,
+                            part.end == 1 ? way.station(i + 1) : begin + part.end * length};
+      if (!slow.empty() && slow.back().end_m == next.begin_m) {
+        slow.back().end_m = next.end_m;
+      } else {
+        slow.push_back(next);
+      }
+    }
+  }
+  std::vector<Stretch> both;
+  for (const Stretch& one : stretches) {
+    for (const Stretch& other : slow) {
+      const Stretch common = {std::max(one.begin_m, other.begin_m), std::min(one.end_m, other.end_m)};
+      if (common.begin_m <= common.end_m) both.push_back(common);
+    }
+  }
+  return both;
 }
 
 std::vector<Scheduled> schedule(const std::vector<Viewing>& viewings, const TourSettings& settings) {

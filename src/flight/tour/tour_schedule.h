@@ -33,6 +33,10 @@ struct Stretch {
 /// The parts of the way that are in a region for sure. Sorted.
 std::vector<Stretch> stretches_in(const TourRegion& region, const Way& way);
 
+/// Of those, what is flown so slowly, at the vehicle's speed, that the camera can follow the target.
+std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Way& way, const TourTarget& target,
+                                        const TourSettings& settings);
+
 /// A target to be viewed, and where its stop is.
 struct Viewing {
   std::size_t target = 0;

@@ -142,11 +142,26 @@ class WingPlan {
         no_place_.push_back({TourProblem::Kind::no_place, static_cast<std::size_t>(stop.region), {}, obstacle});
         continue;
       }
+      if (turns_too_fast(stop.region, hint)) {
+        throw Error(ErrorCode::limits_empty,
+                    core::format("on every stretch of {:.3g} m that fits in the volume of a target the camera would "
+                                 "have to turn by more than {:g} degrees per second",
+                                 space_.view_m(), request_.settings.gimbal_rate_deg_s),
+                    target.name, "give a larger tour.gimbal.rate or a slower vehicle, or let it be seen from farther");
+      }
       throw Error(ErrorCode::limits_empty,
                   core::format("no stretch of {:.3g} m, and no circle of radius {:g} m, fits in the volume of a target",
                                space_.view_m(), space_.limits().turn_radius_m),
                   target.name, "ask for a shorter dwell, a slower vehicle or a smaller margin");
     }
+  }
+
+  /// Whether there are views of a region where the camera may turn as fast as it takes.
+  bool turns_too_fast(int region, const ViewHint& hint) {
+    TourRequest any_rate = request_;
+    any_rate.airspace = nullptr;
+    any_rate.settings.gimbal_rate_deg_s = std::numeric_limits<double>::infinity();
+    return !WingSpace(any_rate, regions_).draw_views(region, hint, 1, draw_).empty();
   }
 
   std::vector<View> home_views() const {
@@ -372,10 +387,15 @@ class WingPlan {
           first = kNowhere;
           continue;
         }
+        if (first != kNowhere && !space_.can_follow(region, {way.points()[i - 1], way.points()[i]}, {})) first = i;
         if (first == kNowhere || overlaps(way.station(first), station, taken)) first = i;
         // Chords are shorter than the curve: on the safe side.
         if (station - way.station(first) < space_.view_m()) continue;
         if (overlaps(way.station(first), station, taken)) continue;
+        if (first == i && i + 1 < way.points().size()) {
+          const Vec3 along = (way.points()[i + 1] - way.points()[i]).normalized();
+          if (!space_.can_follow(region, {way.points()[i]}, along)) continue;
+        }
         return TourVisit{target, first, i, way.station(first), station, request_.settings.dwell_s};
       }
     }
@@ -414,7 +434,9 @@ class WingPlan {
     return std::all_of(visits.begin(), visits.end(), [&](const TourVisit& visit) {
       const TourRegion& region = *regions_[visit.target];
       for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
-        if (!region.holds_leg(flight.leg(i))) return false;
+        const Leg leg = flight.leg(i);
+        if (!region.holds_leg(leg)) return false;
+        if (!space_.can_follow(static_cast<int>(visit.target), {leg.from, leg.to}, {})) return false;
       }
       return region.holds(flight.points[visit.first_point].position);
     });

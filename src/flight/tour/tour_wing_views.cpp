@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/portable_math.h"
+#include "flight/gimbal.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
@@ -84,7 +85,26 @@ bool WingSpace::is_valid(const View& view) const {
       if (!region.holds_leg({points[i], points[i + 1]})) return false;
     }
   }
+  if (!can_follow(view.region, points, direction_of_flight(view.enter))) return false;
   return is_allowed(points, request_.chord_error_m);
+}
+
+bool WingSpace::can_follow(int region, const std::vector<Vec3>& points, const Vec3& direction) const {
+  if (region == Stop::kFixed) return true;
+  const std::optional<Vec3>& to = request_.targets[static_cast<std::size_t>(region)].look_at;
+  if (!to) return true;
+  // A plan rounds positions, and a curve lies beside its chords.
+  constexpr double kRounded = 0.01, kPoint = 1e-3;
+  const double reach = request_.chord_error_m + kRounded;
+  const auto is_slow = [&](const Leg& leg) {
+    return flight::fastest_turn_near_deg_s(leg, *to, request_.settings.vehicle.speed_m_s, reach) <=
+           request_.settings.gimbal_rate_deg_s;
+  };
+  if (points.size() == 1) return is_slow({points[0] - kPoint * direction, points[0] + kPoint * direction});
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (!is_slow({points[i], points[i + 1]})) return false;
+  }
+  return true;
 }
 
 View WingSpace::drawn(int region, const ViewHint& hint, Draw& draw) const {

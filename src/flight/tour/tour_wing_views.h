@@ -40,7 +40,9 @@ class WingSpace {
   const Regions& regions() const { return regions_; }
   const TourRequest& request() const { return request_; }
 
-  /// Whether it is in its region and in the airspace.
+  /// Whether the camera can follow the target of a region along chords, or past the one place where a view is a point.
+  bool can_follow(int region, const std::vector<Vec3>& points, const Vec3& direction) const;
+  /// Whether it is in its region and in the airspace, and slow enough for the camera.
   bool is_valid(const View& view) const;
   /// Up to `count` valid views. Straight ones, and circles where there are none. None: no room was found.
   std::vector<View> draw_views(int region, const ViewHint& hint, std::size_t count, Draw& draw) const;

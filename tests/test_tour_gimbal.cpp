@@ -1,0 +1,126 @@
+// Tours keep the rate of the gimbal: what is planned passes the check of flights.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "flight/gimbal.h"
+#include "flight/tour/tour_schedule.h"
+#include "support/flight_cases.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/flight_check.h"
+#include "vantage/mission_tour.h"
+
+namespace vantage::testing {
+namespace {
+
+/// Squares on a plane, apart, and a few boxes between them.
+Mission drawn_squares(Random& random, TourVehicle::Kind kind) {
+  SceneBuilder scene;
+  scene.ground("ground", 400, -0.5);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 middle(random.uniform(-150, 150), random.uniform(-60, -30), -0.5);
+    scene.box("box " + std::to_string(i), middle - Vec3(4, 4, 0), middle + Vec3(4, 4, random.uniform(5, 20)));
+  }
+  const bool is_wing = kind == TourVehicle::Kind::fixed_wing;
+  const int count = is_wing ? random.integer(1, 3) : 3;
+  std::vector<std::vector<Target>> views;
+  for (int i = 0; i < count; ++i) {
+    // A multirotor passes over the middle one on its way.
+    const Vec3 at = is_wing ? Vec3(random.uniform(-150, 150), 60.0 * i + random.uniform(0, 20), 0)
+                            : Vec3(150.0 * (i - 1), random.uniform(-5, 5), 0);
+    Target target = target_of({at + Vec3(-2, -2, 0), at + Vec3(2, -2, 0), at + Vec3(2, 2, 0), at + Vec3(-2, 2, 0)});
+    target.name = "square " + std::to_string(i);
+    views.push_back({target});
+  }
+  Mission mission = mission_in(scene, views[0][0], is_wing ? random.uniform(60, 120) : random.uniform(60, 75));
+  if (count > 1) {
+    mission.views = views;
+    mission.as_written.combine = Combine::each;
+  }
+  mission.navigation.altitude = {{.min_m = 10, .max_m = 100}};
+  TourSettings tour;
+  tour.vehicle.kind = kind;
+  tour.vehicle.speed_m_s = random.uniform(10, 22);
+  tour.vehicle.turn_radius_m = random.uniform(15, 40);
+  tour.dwell_s = is_wing ? random.uniform(0.5, 2.5) : random.uniform(2, 3);
+  tour.gimbal_rate_deg_s = random.uniform(8, 25);
+  tour.clearance_m = 3;
+  tour.time_limit_s = 1;
+  mission.as_written.tour = tour;
+  return mission;
+}
+
+struct Outcome {
+  int planned = 0, refused = 0, would_fail = 0;
+};
+
+void fly(std::uint64_t seed, TourVehicle::Kind kind, Outcome& outcome) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Random random(seed);
+  Mission mission = drawn_squares(random, kind);
+  try {
+    const MissionTour tour = plan_mission_tour(mission, {.threads = 1, .with_bound = false});
+    if (!tour.is_complete()) return;
+    const FlightCheck check = check_flight(mission, tour.tour.flight);
+    ++outcome.planned;
+    for (const std::string& failure : check.failures) ADD_FAILURE() << failure;
+  } catch (const Error& error) {
+    ASSERT_EQ(error.code(), ErrorCode::limits_empty) << message_of(error);
+    ++outcome.refused;
+  }
+  // Is the rate a limit at all?
+  const double rate = mission.as_written.tour->gimbal_rate_deg_s;
+  mission.as_written.tour->gimbal_rate_deg_s = 36'000;
+  const MissionTour fast = plan_mission_tour(mission, {.threads = 1, .with_bound = false});
+  if (!fast.is_complete()) return;
+  if (!check_flight(mission, fast.tour.flight, {.gimbal_rate_deg_s = rate}).passes()) ++outcome.would_fail;
+}
+
+TEST(TourGimbal, FixedWingsTurnTheCameraSlowlyEnough) {
+  Outcome outcome;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) fly(seed, TourVehicle::Kind::fixed_wing, outcome);
+  EXPECT_GE(outcome.planned, 5);
+  EXPECT_GE(outcome.would_fail, 2);
+}
+
+TEST(TourGimbal, MultirotorsDoSoInPassing) {
+  Outcome outcome;
+  for (std::uint64_t seed = 101; seed <= 112; ++seed) fly(seed, TourVehicle::Kind::multirotor, outcome);
+  EXPECT_EQ(outcome.refused, 0);
+  EXPECT_GE(outcome.planned, 10);
+  EXPECT_GE(outcome.would_fail, 1);
+}
+
+TEST(TourGimbal, WhatPassesTooFastIsRefusedByName) {
+  Random random(7);
+  Mission mission = drawn_squares(random, TourVehicle::Kind::fixed_wing);
+  mission.as_written.tour->gimbal_rate_deg_s = 0.5;
+  try {
+    plan_mission_tour(mission, {.threads = 1, .with_bound = false});
+    ADD_FAILURE() << "a camera that hardly turns follows nothing";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::limits_empty);
+    EXPECT_NE(error.where().find(mission.target.name.substr(0, 6)), std::string::npos) << error.where();
+  }
+}
+
+TEST(TourGimbal, TurnsNearALegAreNoFaster) {
+  Random random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 from = 30 * random.direction(), along = random.uniform(1, 20) * random.direction();
+    const double reach = random.uniform(0.001, 1);
+    const double most = internal::flight::fastest_turn_near_deg_s({from, from + along}, Vec3::Zero(), 10, reach);
+    const Vec3 beside = reach * random.uniform(0, 1) * random.direction();
+    const double turn = internal::flight::fastest_turn_deg_s({from + beside, from + along + beside}, Vec3::Zero(), 10);
+    ASSERT_LE(turn, most * (1 + 1e-9)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace vantage::testing
