@@ -29,6 +29,9 @@ struct TourLowerBound {
   std::string kind = {};             ///< "insertion", "pairs": docs/theory.md, "Tours"
   std::vector<std::string> ignored;  ///< what makes tours longer, and the bound does not know
   std::shared_ptr<const TourProof> proof = {};
+  /// No tour takes less time: the bound's length at full speed or, where targets are viewed one after the other, all
+  /// dwells, whichever is more. It ignores speeding up, hovering besides, and what the length ignores.
+  double time_s = 0;
 };
 
 /// A target of a tour.

@@ -40,7 +40,7 @@ using VisitRow = std::tuple<std::size_t, std::size_t, std::size_t, double, doubl
 /// Target, kind, neighbour, obstacle.
 using ProblemRow = std::tuple<std::size_t, std::string, std::optional<std::size_t>, std::string>;
 /// length_m, gap, kind, ignored.
-using BoundRow = std::tuple<double, double, std::string, std::vector<std::string>>;
+using BoundRow = std::tuple<double, double, std::string, std::vector<std::string>, double>;
 
 PyTour plan(const PyMission& mission, bool with_bound, const std::optional<PointArray>& positions, int threads,
             nb::object progress) {
@@ -76,7 +76,7 @@ std::vector<ProblemRow> problem_rows(const PyTour& of) {
 
 std::optional<BoundRow> bound_row(const PyTour& of) {
   if (!of->bound) return std::nullopt;
-  return BoundRow{of->bound->length_m, of->bound->gap, of->bound->kind, of->bound->ignored};
+  return BoundRow{of->bound->length_m, of->bound->gap, of->bound->kind, of->bound->ignored, of->bound->time_s};
 }
 
 std::vector<std::string> names_of(const PyTour& of) {

@@ -62,6 +62,9 @@ class TourBound(NamedTuple):
     """"insertion" or "pairs": docs/theory.md"""
     ignored: list[str]
     """what makes tours longer, and the bound does not know"""
+    time_s: float
+    """no tour takes less time: the length at full speed or, where targets are viewed one after the other, all dwells, whichever
+    is more; speeding up and hovering besides are ignored"""
 
 
 class Tour:

@@ -73,6 +73,7 @@ std::string table_text(const MissionTour& tour) {
   table.row("time", fixed(tour.tour.time_s, 1), "s");
   if (tour.bound) {
     table.row("bound", fixed(tour.bound->length_m, 1), "m: no tour is shorter; by " + tour.bound->kind);
+    table.row("", fixed(tour.bound->time_s, 1), "s: none takes less time");
     table.row("gap", fixed(kPercent * tour.bound->gap, 2) + " %",
               tour.reaches_gap() ? "" : "more than the " + fixed(kPercent * tour.settings.gap, 2) + " % asked for");
     for (const std::string& ignored : tour.bound->ignored) table.row("it ignores", "", ignored);

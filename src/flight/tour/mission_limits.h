@@ -20,6 +20,10 @@ double least_width_m(const Navigation& navigation);
 /// as wide in each direction as the smallest circle, whatever its course is.
 void check_room_to_turn(const Mission& mission, const TourSettings& settings);
 
+/// Of an open flight of a fixed wing in such zones, which cannot turn round in them: throws Error(input) where no
+/// target is visited, and returns a note where some are left out. Nothing else.
+std::optional<std::string> note_of_narrow_zones(const Mission& mission, const TourSettings& settings, const Tour& tour);
+
 /// Straight above the home that is given, the lowest place where the airspace allows to be, with all within
 /// `deviation_m`. Throws Error(input) where there is none, where something stands on the way up, and for a home inside
 /// a solid, or more than 2 m under the ground.

@@ -153,6 +153,10 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   const tour::TourBound& found = proof->bound;
   if (!options.certificate.empty()) tour::write_tour_certificate(found, options.certificate);
   TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored, proof};
+  bound.time_s = found.length_m / settings.vehicle.speed_m_s;
+  if (!settings.simultaneous) {
+    bound.time_s = std::max(bound.time_s, static_cast<double>(visited.size()) * settings.dwell_s);
+  }
   if (!options.positions.empty()) {
     bound.ignored.emplace_back("the positions that are given");
   } else if (settings.margin_m > 0) {
@@ -190,6 +194,12 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   }
   if (!options.positions.empty()) view_from(options.positions, request);
   result.tour = plan_tour(request, progress);
+  if (const auto note = tour::note_of_narrow_zones(mission, result.settings, result.tour)) {
+    result.notes.push_back(*note);
+  }
+  if (!mission.links.empty()) {
+    result.notes.emplace_back("the mission has links, and tours are not planned for them: check the plan");
+  }
   if (!options.with_bound || result.tour.order.empty() || result.tour.end == Tour::End::cancelled) return result;
   try {
     result.bound = bound_of(mission, scene, result, request.home, options, progress);
@@ -259,6 +269,7 @@ std::string json_text(const MissionTour& of) {
   json["bound"] = nullptr;
   if (of.bound) {
     json["bound"] = {{"length_m", of.bound->length_m},
+                     {"time_s", of.bound->time_s},
                      {"gap", of.bound->gap},
                      {"kind", of.bound->kind},
                      {"ignored", of.bound->ignored}};
