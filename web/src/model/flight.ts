@@ -168,7 +168,10 @@ export function stretch({ points }: Flight, [begin, end]: Span): Point[] {
     const [from, to] = [points[i]!, points[i + 1]];
     return to && place > from.at_m ? mixed(from.at, to.at, (place - from.at_m) / (to.at_m - from.at_m)) : from.at;
   };
-  return [at(begin), ...points.filter(({ at_m }) => at_m > begin && at_m < end).map((point) => point.at), at(end)];
+  // There may be a million points and thousands of stretches.
+  const first = lastAt(points, begin, ({ at_m }) => at_m);
+  const inside = points.slice(first, lastAt(points, end, ({ at_m }) => at_m) + 1);
+  return [at(begin), ...inside.filter(({ at_m }) => at_m > begin && at_m < end).map((point) => point.at), at(end)];
 }
 
 /** Lowest and highest coordinates. */
