@@ -155,8 +155,7 @@ export class Flights {
     if (!flight) return;
     this.x = Math.min(Math.max(x, 0), flight.end);
     this.moment = momentAt(flight, this.x);
-    const ground = this.app.city.heightsBelow([this.moment.at]).ground[0]!;
-    this.ground = Number.isNaN(ground) ? null : ground;
+    this.ground = this.app.city.groundBelow(this.moment.at);
     this.view.fly(flight, this.moment);
   }
 
@@ -234,7 +233,6 @@ export class Flights {
     const own = flight.points.length > PROFILE_PLACES ? [] : flight.points.flatMap(({ arrival, departure }) => [arrival, departure]);
     const x = [...new Set([...between, ...own])].sort((a, b) => a - b);
     const places = x.map((at) => momentAt(flight, at).at);
-    const { surface } = this.app.city.heightsBelow(places);
-    return { x, z: places.map(([, , z]) => z), surface: [...surface] };
+    return { x, z: places.map(([, , z]) => z), surface: [...this.app.city.surfaceBelow(places)] };
   }
 }

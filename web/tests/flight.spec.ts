@@ -84,15 +84,14 @@ test("an axis has round numbers", () => {
   expect(ticks(0, 6)).toEqual([0]);
 });
 
-test("heights below are those of the highest triangle, and of the highest ground", () => {
-  // A slope z = x / 10 of ground, and a roof at 20 over a part of it.
+test("heights below are those of the highest triangle", () => {
+  // A slope z = x / 10, and a roof at 20 over a part of it.
   const slope = [[0, 0, 0], [100, 0, 10], [100, 100, 10], [0, 100, 0]], roof = [[10, 10, 20], [30, 10, 20], [10, 30, 20]];
   const positions = [...slope, ...roof].flat();
   const triangles = [0, 1, 2, 0, 2, 3, 4, 5, 6];
   const places = [[50, 50], [15, 15], [200, 5], [0, 0], [29, 29], [-1e-3, 50]];
-  const { surface, ground } = heightsBelow({ positions, triangles }, (i) => i < 2, places);
-  expect([...surface]).toEqual([5, 20, NaN, 0, 2.9, NaN]);
-  expect([...ground]).toEqual([5, 1.5, NaN, 0, 2.9, NaN]);
-  const alone = places.map((place) => heightsBelow({ positions, triangles }, (i) => i < 2, [place]).surface[0]);
-  expect(alone).toEqual([...surface]); // whatever the other places are
+  expect([...heightsBelow({ positions, triangles }, places)]).toEqual([5, 20, NaN, 0, 2.9, NaN]);
+  expect([...heightsBelow({ positions, triangles: triangles.slice(0, 6) }, places)]).toEqual([5, 1.5, NaN, 0, 2.9, NaN]);
+  const alone = places.map((place) => heightsBelow({ positions, triangles }, [place])[0]);
+  expect(alone).toEqual([5, 20, NaN, 0, 2.9, NaN]); // whatever the other places are
 });

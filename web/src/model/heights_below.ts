@@ -1,14 +1,8 @@
-// What lies below places: the highest surface, and the highest ground.
+// How high the highest surface below a place is.
 
 export interface Triangles {
   positions: ArrayLike<number>;
   triangles: ArrayLike<number>;
-}
-
-/** Of each place; NaN: nothing lies there. */
-export interface HeightsBelow {
-  surface: Float64Array;
-  ground: Float64Array;
 }
 
 /** z of a triangle's plane at a place, within the triangle's own heights; NaN: it does not lie there, or stands upright. */
@@ -58,10 +52,9 @@ class Squares {
   }
 }
 
-/** `isGround`: of a triangle, by its index. Triangles and places are in the same frame. */
-export function heightsBelow({ positions: p, triangles }: Triangles, isGround: (triangle: number) => boolean,
-  places: readonly (readonly number[])[]): HeightsBelow {
-  const [surface, ground] = [new Float64Array(places.length).fill(NaN), new Float64Array(places.length).fill(NaN)];
+/** z for each place; NaN: nothing lies there. Triangles and places are in the same frame. */
+export function heightsBelow({ positions: p, triangles }: Triangles, places: readonly (readonly number[])[]): Float64Array {
+  const heights = new Float64Array(places.length).fill(NaN);
   const squares = new Squares(places);
   for (let i = 0; i < triangles.length; i += 3) {
     const [a, b, c] = [3 * triangles[i]!, 3 * triangles[i + 1]!, 3 * triangles[i + 2]!];
@@ -71,10 +64,8 @@ export function heightsBelow({ positions: p, triangles }: Triangles, isGround: (
       const [x, y] = places[index] as [number, number];
       if (x < left || x > right || y < bottom || y > top) return;
       const z = heightAt(p, a, b, c, x, y);
-      if (Number.isNaN(z)) return;
-      if (!(surface[index]! >= z)) surface[index] = z;
-      if (isGround(i / 3) && !(ground[index]! >= z)) ground[index] = z;
+      if (!Number.isNaN(z) && !(heights[index]! >= z)) heights[index] = z;
     });
   }
-  return { surface, ground };
+  return heights;
 }

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import type { Point, SceneInfo, ViewMesh } from "../engine/messages";
 import { flatPlace } from "../model/flat_place";
-import { heightsBelow, type HeightsBelow } from "../model/heights_below";
+import { heightsBelow } from "../model/heights_below";
 import type { Plane } from "../model/polygon";
 
 export interface Hit {
@@ -25,6 +25,15 @@ const LIT = new THREE.MeshBasicMaterial({
   color: LIT_COLOUR, transparent: true, opacity: 0.6, side: THREE.DoubleSide, depthWrite: false,
 });
 
+/** The triangles of what the file or the map calls ground, or else surface: as ground_of() of the library has it. */
+function groundOf({ objects }: SceneInfo, triangles: ArrayLike<number>, labels: Uint32Array): number[] {
+  const wanted = objects.some(({ kind }) => kind === "ground") ? "ground" : "surface";
+  const isGround = objects.map(({ kind }) => kind === wanted);
+  const ground: number[] = [];
+  for (let i = 0; i < triangles.length; ++i) if (isGround[labels[Math.floor(i / 3)]!]) ground.push(triangles[i]!);
+  return ground;
+}
+
 export class City {
   private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material> | null = null;
   private edges: THREE.LineSegments<THREE.BufferGeometry, THREE.Material> | null = null;
@@ -32,6 +41,8 @@ export class City {
   private litNames = "";
   private labels = new Uint32Array();
   private info: SceneInfo | null = null;
+  /** triangles of the ground; null: they were not asked for yet */
+  private ground: number[] | null = null;
 
   constructor(private readonly parent: THREE.Object3D) {
     this.lit.frustumCulled = false;
@@ -42,6 +53,7 @@ export class City {
   show(info: SceneInfo, view: ViewMesh): void {
     this.clear();
     this.info = info;
+    this.ground = null;
     this.labels = view.labels as Uint32Array<ArrayBuffer>;
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(view.positions, 3));
@@ -121,17 +133,22 @@ export class City {
     return corners.map((corner) => this.toScene(new THREE.Vector3(...corner)));
   }
 
-  /** Scene frame. What the file or the map calls ground is ground. */
-  heightsBelow(places: Point[]): HeightsBelow {
-    const { mesh, info, labels } = this;
-    if (!mesh || !info) return heightsBelow({ positions: [], triangles: [] }, () => false, places);
-    const kinds = info.objects.map(({ kind }) => kind);
-    const isGround = kinds.map((kind) => kind === (kinds.includes("ground") ? "ground" : "surface")); // as ground_of() has it
+  /** z of the highest surface below each place, scene frame; NaN: there is none. */
+  surfaceBelow(places: Point[]): Float64Array {
+    const { mesh, info } = this;
+    if (!mesh || !info) return new Float64Array(places.length).fill(NaN);
     const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: mesh.geometry.getIndex()!.array };
-    const inView = places.map((place) => this.toView(place).toArray());
-    const { surface, ground } = heightsBelow(triangles, (i) => isGround[labels[i]!] ?? false, inView);
-    const toScene = (z: number) => z + info.origin[2];
-    return { surface: surface.map(toScene), ground: ground.map(toScene) };
+    return heightsBelow(triangles, places.map((place) => this.toView(place).toArray())).map((z) => z + info.origin[2]);
+  }
+
+  /** z of the highest ground below a place, scene frame; null: none is known there. */
+  groundBelow(place: Point): number | null {
+    const { mesh, info } = this;
+    if (!mesh || !info) return null;
+    this.ground ??= groundOf(info, mesh.geometry.getIndex()!.array, this.labels);
+    const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: this.ground };
+    const z = heightsBelow(triangles, [this.toView(place).toArray()])[0]!;
+    return Number.isNaN(z) ? null : z + info.origin[2];
   }
 
   toScene(p: THREE.Vector3): Point {
