@@ -140,6 +140,9 @@ TEST_F(PlanMissionTour, ItsJsonSaysAllOfIt) {
   EXPECT_EQ(answer["time_s"], tour.tour.time_s);
   EXPECT_EQ(answer["bound"]["length_m"], tour.bound->length_m);
   EXPECT_EQ(answer["bound"]["gap"], tour.bound->gap);
+  EXPECT_EQ(answer["bound"]["time_s"], tour.bound->time_s);
+  EXPECT_EQ(tour.bound->time_s, std::max(tour.bound->length_m / 8, 3 * 2.0));
+  EXPECT_LE(tour.bound->time_s, tour.tour.time_s);
   EXPECT_EQ(answer["bound"]["kind"], tour.bound->kind);
   EXPECT_EQ(answer["bound"]["ignored"].size(), tour.bound->ignored.size());
   ASSERT_EQ(answer["visits"].size(), 3U);
@@ -237,6 +240,27 @@ TEST(MissionTourLimits, TheWidthOfZonesIsThatOfTheNarrowestStrip) {
     EXPECT_LE(width, slow + 1e-12);
     EXPECT_GE(width, slow - 10 * std::numbers::pi / 3000);
   }
+}
+
+TEST(MissionTourLimits, OpenFlightsInNarrowZonesSayWhatTheyLack) {
+  Mission mission;
+  TourSettings settings;
+  settings.closed = false;
+  settings.vehicle.kind = TourVehicle::Kind::fixed_wing;
+  Tour tour;
+  tour.order = {0};
+  tour.problems = {{TourProblem::Kind::no_way, 1, 0, ""}};
+  using internal::flight::tour::note_of_narrow_zones;
+  EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
+  mission.navigation.keep_in = {{{0, 0, 0}, {300, 79, 90}}};
+  EXPECT_TRUE(note_of_narrow_zones(mission, settings, tour));
+  tour.order.clear();
+  expect_error([&] { note_of_narrow_zones(mission, settings, tour); }, ErrorCode::limits_empty, "");
+  mission.navigation.keep_in[0].max.y() = 81;
+  EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
+  mission.navigation.keep_in[0].max.y() = 79;
+  tour.problems.clear();
+  EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
 }
 
 TEST(MissionTourLimits, ClosedFlightsAreAsWideAsACircle) {

@@ -285,6 +285,17 @@ TEST(Tour, RefusesWhatCannotBeFlown) {
   request.settings.vehicle.speed_m_s = 0;
   testing::expect_error([&] { plan_tour(request); }, ErrorCode::value_out_of_range, "tour.vehicle.speed");
   request.settings.vehicle.speed_m_s = 8;
+  const auto refuses = [&](double TourSettings::*member, double value, const char* where) {
+    TourRequest absurd = request;
+    absurd.settings.*member = value;
+    testing::expect_error([&] { plan_tour(absurd); }, ErrorCode::value_out_of_range, where);
+  };
+  refuses(&TourSettings::dwell_s, 1e308, "tour.view.dwell");
+  refuses(&TourSettings::dwell_s, 86'401, "tour.view.dwell");
+  refuses(&TourSettings::margin_m, 1e5, "tour.view.margin");
+  refuses(&TourSettings::clearance_m, 1e300, "tour.clearance");
+  refuses(&TourSettings::gimbal_rate_deg_s, 1e-9, "tour.gimbal.rate");
+  refuses(&TourSettings::time_limit_s, 1e9, "tour.time_limit");
   request.chord_error_m = 0;
   testing::expect_error([&] { plan_tour(request); }, ErrorCode::value_out_of_range, "tour");
 }

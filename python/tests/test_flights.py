@@ -84,6 +84,24 @@ def test_each_target_is_judged_by_itself():
     assert vt.check(results[1], path).targets[0].seen_m.tolist() == judged.targets[1].seen_m.tolist()
 
 
+def test_links_are_judged():
+    """Below the tower's roof a pilot at its foot loses sight behind it."""
+    links = [{"name": "pilot", "point": [-60, 5, 2]}, {"name": "mast", "point": [0, -40, 60], "max_range": 90, "frequency": 2.4}]
+    mission = vt.Mission.of(yard(), SQUARE, max_range=60, links=links)
+    check = vt.check(mission, PAST_THE_TOWER, speed_m_s=5)
+    pilot, mast = check.links
+    assert pilot.name == "pilot" and pilot.max_range_m is None and mast.max_range_m == 90
+    for link, told in zip(check.links, check.to_dict()["links"]):
+        assert link.holds == told["holds"] == (not link.lost) and link.farthest_m == told["farthest_m"]
+        assert link.holds or any(link.name in failure for failure in check.failures)
+        whole = sum(span.length_m for span in link.linked + link.lost)
+        assert whole == pytest.approx(check.length_m)
+    assert not mast.holds and {reason.kind for reason in mast.reasons} >= {"out_of_range"}
+    assert pilot.farthest_m == pytest.approx(np.linalg.norm(np.subtract([90, 5, 20], [-60, 5, 2])))
+    assert "link_out_of_range" in check._core.csv()
+    assert refused(lambda: vt.Mission.of(yard(), SQUARE, max_range=60, links=[3])).where == "links[0]"
+
+
 def test_plans_are_read(tmp_path):
     plan = tmp_path / "flight.csv"
     plan.write_text("x,y,z,hold,speed\n-40,-30,45,0,\n40,-30,45,2,5\n40,30,45,0,8\n")
