@@ -69,6 +69,28 @@ double distance_between_segments(const Vec3& a, const Vec3& b, const Vec3& c, co
   return least;
 }
 
+/// Whether a place within `aside` of the position may be hidden from a point: a triangle of the radius stands for it
+/// (docs/theory.md, "A single point"), and all of the ball that holds this is asked for. At a share of the line of
+/// sight something hides where it is as near as the ball's cone is wide there. Distances from a triangle are convex, so
+/// this is one over a linear function, and has one minimum.
+bool may_be_hidden_from_point(const Vec3& point, double radius, const Vec3& position, const Corners& triangle,
+                              double aside) {
+  const Vec3 along = position - point;
+  const auto room = [&](double share) {
+    return (distance_to_triangle(point + share * along, triangle) - radius * (1 - share)) / share;
+  };
+  double low = 1e-9, high = 1;
+  for (int i = 0; i < 120; ++i) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    if (room(a) < room(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  return std::min(room(low), room(1)) <= aside;
+}
+
 }  // namespace
 
 double distance_from_leg(const vantage::Leg& leg, const Corners& t) {
@@ -137,6 +159,11 @@ bool OneTarget::surely_seen(const Vec3& position, double aside_m, double room_m)
         if (!larger.clear(place)) return false;
       }
     }
+    if (!part.is_point()) continue;
+    const double radius = point_radius(range_limit_m(sensor_));
+    for (const Blocker& blocker : blockers_.triangles) {
+      if (may_be_hidden_from_point(part.corners[0], radius, at, blocker.corners, aside_m)) return false;
+    }
   }
   return true;
 }
@@ -161,6 +188,12 @@ bool OneTarget::may_be_hidden_by(const Vec3& position, std::uint32_t object, dou
           if (blockers_.triangles[i].object == object && larger.hides(i, place)) return true;
         }
       }
+    }
+    if (!part.is_point()) continue;
+    const double radius = point_radius(range_limit_m(sensor_));
+    for (const Blocker& blocker : blockers_.triangles) {
+      const bool is_of_object = blocker.object == object;
+      if (is_of_object && may_be_hidden_from_point(part.corners[0], radius, at, blocker.corners, aside_m)) return true;
     }
   }
   return false;

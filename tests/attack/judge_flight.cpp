@@ -26,6 +26,10 @@ std::string place_text(const Vec3& p) {
   return text;
 }
 
+/// Places of each leg that are judged between those at which something may change: the ends of what is told are judged
+/// 1 cm to either side, or nearer.
+constexpr int kDense = 50;
+
 /// A place of a flight.
 struct FlightPlace {
   std::size_t leg = 0;
@@ -84,12 +88,14 @@ class FlightJudge {
   double slack_m() const { return 8 * kRoundoff * check_.length_m; }
 
   /// The ends of legs, places at random, and beside the ends of spans.
-  std::vector<FlightPlace> places(const std::vector<const std::vector<FlightSpan>*>& of, int at_random) {
+  std::vector<FlightPlace> places(const std::vector<const std::vector<FlightSpan>*>& of, int at_random,
+                                  int evenly = 0) {
     std::vector<FlightPlace> result;
     for (std::size_t i = 0; i < leg_count(); ++i) {
       std::vector<double> shares{0, 1};
       const double metres = length(i);
       if (metres > 0) {
+        for (int k = 1; k < evenly; ++k) shares.push_back(static_cast<double>(k) / evenly);
         for (int k = 0; k < at_random; ++k) shares.push_back(random_.uniform(0, 1));
         for (const auto* spans : of) {
           for (const FlightSpan& span : *spans) {
@@ -191,7 +197,7 @@ class FlightJudge {
     for (const FlightSpan& span : target.seen) {
       for (const Vec3& end : {span.begin, span.end}) claim(oracle, end, target, "at an end");
     }
-    std::vector<FlightPlace> judged = places({&target.seen}, 10);
+    std::vector<FlightPlace> judged = places({&target.seen}, 10, kDense);
     if (const OneTarget* single = oracle.single()) add_hidden(*single, target, judged);
     for (const FlightPlace& at : judged) {
       if (holds(target.seen, at.at_m, 0)) {
