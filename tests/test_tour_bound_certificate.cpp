@@ -112,6 +112,35 @@ TEST(TourBoundCertificate, IsAcceptedAndProvesNoMore) {
   EXPECT_EQ(above, 12);
 }
 
+// One position sees all: no search is needed, and the certificate says so in a form that is read.
+TEST(TourBoundCertificate, OfATourWithoutLengthIsAccepted) {
+  for (const bool closed : {true, false}) {
+    for (const double dwell_m : {0.0, 1.0}) {
+      SCOPED_TRACE(closed);
+      SCOPED_TRACE(dwell_m);
+      BoundProblem problem;
+      problem.regions = {OuterRegion::given(make_box_mesh({0, 0, 0}, {3, 3, 3}), "a"),
+                         OuterRegion::given(make_box_mesh({1, 1, 1}, {4, 4, 4}), "b")};
+      problem.dwell_m = {dwell_m, dwell_m};
+      problem.start = Vec3(2, 2, 2);
+      problem.closed = closed;
+      BoundOptions options;
+      options.by_pairs = false;
+      Incumbent incumbent;
+      incumbent.length_m = 0;
+      const TourBound bound = bound_tour(problem, incumbent, options);
+      EXPECT_EQ(bound.length_m, 0);
+      const TemporaryDirectory folder;
+      const std::filesystem::path file = folder / "tour.cert";
+      write_tour_certificate(bound, file);
+      const testing::ProgramRun run = checked(file);
+      EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+      const TourCertificateCheck check = verify_tour_certificate(file);
+      EXPECT_TRUE(check.is_accepted) << check.reason;
+    }
+  }
+}
+
 TEST(TourBoundCertificate, OfAComputedVolumeIsRefused) {
   BoundProblem problem;
   problem.regions = {OuterRegion::given(make_box_mesh({0, 0, 0}, {1, 1, 1}), "a"),

@@ -149,6 +149,11 @@ class InsertionSearch {
     return point - 1;
   }
 
+  std::size_t leg_count(const std::vector<std::uint32_t>& sequence) const {
+    const std::size_t points = last_point(sequence, sequence.size() - 1) + 1;
+    return space_.closed && points > 1 ? points : points - 1;
+  }
+
   std::vector<std::uint32_t> sequence_of(const Node& node) const {
     if (node.solved || node.origin == Origin::root) return node.sequence;
     std::vector<std::uint32_t> sequence = nodes_[node.parent].sequence;
@@ -572,6 +577,8 @@ class InsertionSearch {
       out.kind = InsertionNode::Kind::empty;
     } else if (node.own >= result_.bound_m || node.children.empty()) {
       out.directions = directions_of(node);
+      // A root that was not looked at, as where a tour of no length was found: these prove nothing, as they should.
+      if (!node.solved && node.origin == Origin::root) out.directions.assign(leg_count(node.sequence), Direction{});
     } else {
       const Node& child = nodes_[node.children.front()];
       const bool is_cut = child.origin == Origin::cut;
