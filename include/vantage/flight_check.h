@@ -59,6 +59,7 @@ struct NotSeen {
     out_of_range,  ///< farther than the range
     behind,        ///< not in front of the target
     limit,         ///< a limit of the sensor
+    outside,       ///< of a target that is a volume
   };
   Kind kind = Kind::hidden;
   std::string name;               ///< of the object, or of the limit as PointAnswer::outside_of has it; else empty
@@ -67,7 +68,7 @@ struct NotSeen {
   VANTAGE_API double length_m() const;  ///< of all spans
 };
 
-/// "hidden", "out_of_range", "behind", "limit".
+/// "hidden", "out_of_range", "behind", "limit", "outside".
 VANTAGE_API const char* name_of(NotSeen::Kind kind);
 
 /// How the camera must look to keep a target's centre, along one stretch.
@@ -80,6 +81,7 @@ struct GimbalUse {
 /// One target along the flight.
 struct TargetCheck {
   std::string name;
+  bool is_volume = false;                ///< then `seen` is where the flight is inside it, and there is no gimbal
   Vec3 centre = Vec3::Zero();            ///< scene frame
   std::vector<std::vector<Vec3>> parts;  ///< the corners of its convex polygons, scene frame
   std::vector<FlightSpan> seen;          ///< all of it is seen, within all limits of the sensor; sorted, apart
@@ -145,7 +147,9 @@ struct FlightCheck {
 
 /// Judges a flight by what a mission asks: each of its targets (one for each volume, volume_count) must be seen whole
 /// within the limits of the sensor, for the dwell without a break; and the flight must keep navigation's limits, the
-/// clearance and Mission::links everywhere.
+/// clearance and Mission::links everywhere. A target that is a volume (Target::volume) is seen where the flight, with
+/// all of the tube, is inside it: exactly, and shorter by what rounding may do, never longer. It needs a volume of its
+/// own, as with Combine::each.
 ///
 /// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/leg_query.h), which err on the safe side.
 /// With a tube of radius R, what is said holds for every position within R of the flight.
@@ -160,9 +164,9 @@ VANTAGE_API FlightCheck check_flight(const Mission& mission, const Flight& fligh
 /// With longitudes and latitudes where `georeference` is given.
 VANTAGE_API std::string json_text(const FlightCheck& check, const Georeference* georeference = nullptr);
 
-/// A table, a row for each stretch: target, state ("seen", "hidden", "out_of_range", "behind", "limit"; of a link,
-/// whose name stands for the target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (object or limit),
-/// begin_m, end_m, begin_s, end_s, and the coordinates of both ends.
+/// A table, a row for each stretch: target, state ("seen", "hidden", "out_of_range", "behind", "limit", "outside"; of a
+/// link, whose name stands for the target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (object or
+/// limit), begin_m, end_m, begin_s, end_s, and the coordinates of both ends.
 VANTAGE_API std::string csv_text(const FlightCheck& check);
 
 }  // namespace vantage

@@ -62,12 +62,14 @@ struct GroundTarget {
   double above_ground_m = 0;                                       ///< raised by so much along z
 };
 
-/// A target that a file has: GeoJSON, KML or KMZ. Positions are WGS 84. Corners with heights lie at these (docs:
-/// mission-file.md), others on the ground.
+/// A target that a file has. An area: GeoJSON, KML or KMZ. Positions are WGS 84. Corners with heights lie at these
+/// (docs: mission-file.md), others on the ground. Or a volume: a closed mesh, in the scene frame unless it says
+/// where on the earth it lies.
 struct TargetFile {
   std::filesystem::path file;  ///< absolute
   std::string name;            ///< as written in the mission, for messages
   std::string feature = {};    ///< name, id or number of what counts of the file; empty: all that it has, which is one
+  bool is_volume = false;      ///< what becomes Target::volume
 };
 
 /// A target that is given by faces of objects of the scene (vantage/faces.h): one of the first three says of which.

@@ -16,6 +16,7 @@
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/tour.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 
@@ -39,6 +40,7 @@ struct MissionTourTarget {
   std::string name;
   Vec3 centre = Vec3::Zero();  ///< the camera looks there; scene frame
   Mesh volume;                 ///< computed: from its inside the target is seen
+  bool is_volume = false;      ///< the target is a volume itself: `volume` is that, within the limits of navigation
 };
 
 struct MissionTour {
@@ -54,6 +56,10 @@ struct MissionTour {
   /// Whether the gap that the settings ask for was reached.
   bool reaches_gap() const { return bound && bound->gap <= settings.gap; }
 };
+
+/// Of a mission whose one target is a volume (Target::volume): what the limits of navigation leave of it. Throws
+/// Error(not_applicable) for another target, and as cut_to_navigation does.
+VANTAGE_API Volume volume_to_fly_through(const Mission& mission, const Progress& progress = {});
 
 struct MissionTourOptions {
   int threads = 0;         ///< at most; 0: as many as the machine has
@@ -71,6 +77,10 @@ struct MissionTourOptions {
 /// airspace. From the home it climbs straight up to where flying is allowed. The bound is over outer volumes
 /// (vantage/outer.h), in which every position lies from which a target is seen: so no tour is shorter, whatever its
 /// order and its positions.
+///
+/// A target that is a volume (Target::volume) is visited inside it, within the limits of navigation; the camera looks
+/// at nothing there. The bound is over its mesh as it is. Where its file states a rounding, which may have taken
+/// something away, the bound is less by four roundings for each.
 ///
 /// The time limit is that of the search for the tour, and once more that of the bound; volumes come on top.
 ///

@@ -1,6 +1,8 @@
-// What must be seen, whole: one or more convex polygons, or a single point.
+// What must be seen, whole: one or more convex polygons, or a single point. Or, for flights alone, a volume to fly
+// through.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,12 @@
 #include "vantage/geometry.h"
 
 namespace vantage {
+
+/// A region to fly through: a target of tours and of checked flights, of which nothing is there to be seen.
+struct TargetVolume {
+  Mesh mesh;              ///< closed, outward oriented, does not pass through itself; scene frame, metres
+  double rounding_m = 0;  ///< how far the numbers of its file may have moved its surface, as the file says
+};
 
 /// As the user states it, in the scene frame, metres. See docs/theory.md for what "seen" means.
 struct VANTAGE_API Target {
@@ -26,9 +34,13 @@ struct VANTAGE_API Target {
   bool front_by_order = false;  ///< without `front`: each part is seen from the side from which its vertices run
                                 ///< counter-clockwise, also one that faces down. Not for a point
 
+  /// Instead of parts, of which there is one without vertices then: null for all that is to be seen.
+  std::shared_ptr<const TargetVolume> volume = nullptr;
+
   static Target polygon(std::vector<Vec3> vertices);
   static Target point(const Vec3& place);
 
+  bool is_volume() const { return volume != nullptr; }
   bool is_point() const { return parts.size() == 1 && parts[0].size() == 1; }
 
   /// A target of that part alone; the second goes by the name of "NAME, part 2".
@@ -60,10 +72,10 @@ struct TargetFrame {
 /// where it lies inside the line between the corners beside it, by at most 1e-9 of the extent (and 2^-50 of the largest
 /// coordinate); so much larger the polygon may be than what its vertices bound.
 ///
-/// Throws Error(input) for: no such part, no vertices, 2 or more than 64, one vertex beside other parts, a coordinate
-/// that is not finite, repeated vertices (which; those nearer to each other than 1e-9 of the extent), zero area, not
-/// planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex by more than said above (which vertex),
-/// a `front` that is zero or lies in the plane.
+/// Throws Error(not_applicable) for a target that is a volume, and Error(input) for: no such part, no vertices, 2 or
+/// more than 64, one vertex beside other parts, a coordinate that is not finite, repeated vertices (which; those nearer
+/// to each other than 1e-9 of the extent), zero area, not planar (by how much; allowed: 1e-6 of the extent, at least 1
+/// mm), not convex by more than said above (which vertex), a `front` that is zero or lies in the plane.
 VANTAGE_API TargetFrame make_target_frame(const Target& target, std::size_t part = 0);
 
 }  // namespace vantage

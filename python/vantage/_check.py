@@ -48,7 +48,8 @@ class NotSeen(NamedTuple):
     """Why all of a target is not seen, and where."""
 
     kind: str
-    """"hidden" by an object of the scene, "out_of_range", "behind" the target, or a "limit" of the sensor"""
+    """"hidden" by an object of the scene, "out_of_range", "behind" the target, a "limit" of the sensor, or "outside" a
+    volume to fly through"""
     name: str
     """of the object, or of the limit; else empty"""
     spans: list[Span]

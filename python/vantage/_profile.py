@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from ._flight import Numbers
 
 COLORS = {"seen": "#54a24b", "linked": "#72b7b2", "hidden": "#4c78a8", "out_of_range": "#e0b84c", "behind": "#9d9d9d", "limit": "#b279a2",
-          "broken": "#e45756"}
+          "outside": "#9d9d9d", "broken": "#e45756"}
 """As the facets of volumes have them, by the kind of their cause."""
 
 LABELS = {"seen": "seen whole", "linked": "linked", "hidden": "view hidden", "out_of_range": "out of range", "behind": "behind the target",
-          "limit": "limit of the sensor", "broken": "limit of flight broken"}
+          "limit": "limit of the sensor", "outside": "outside the volume", "broken": "limit of flight broken"}
 
 _SAMPLES = 1500
 """Places along the flight where the ground is asked for: more than a picture has pixels."""
@@ -94,7 +94,7 @@ def _draw_strips(axes: Any, check: FlightCheck) -> None:
     rows += [(f"link: {link.name}", link.linked, link.reasons, "linked") for link in check.links]
     for row, (_, good, reasons, state) in enumerate(rows):
         axes.broken_barh([(0, check.length_m or 1.0)], (row - _STRIP / 2, _STRIP), color="#f2f2f2", linewidth=0)
-        for kind in ("out_of_range", "behind", "limit", "hidden"):
+        for kind in ("out_of_range", "behind", "outside", "limit", "hidden"):
             for reason in reasons:
                 if reason.kind == kind:
                     axes.broken_barh(_bars(reason.spans, 0), (row - _REASON / 2, _REASON), color=COLORS[kind], linewidth=0)

@@ -49,7 +49,7 @@ class _Request:
 class Target(_Request):
     """What must be seen whole: a convex polygon, several of them, or a point. Coordinates are metres in the scene's frame.
 
-    One of `vertices`, `parts`, `point`, `outline`, `osm`, `file`, `object`, `at` and `center` says which it is.
+    One of `vertices`, `parts`, `point`, `outline`, `osm`, `file`, `object`, `at`, `center` and `volume` says which it is.
 
     Attributes:
         name: for messages and reports.
@@ -62,6 +62,7 @@ class Target(_Request):
         osm: an area of the scene's map, "way/123" or its name; with `part` a building of it.
         file: a GeoJSON, KML or KMZ file with the polygon, in longitude and latitude; `feature` is its name, id or number
             there, where the file has several.
+        volume: the file of a closed mesh to fly through, for `vt.tour` and `vt.check` alone; only `name` stands beside it.
         object: an object of the scene, by name or id; with `part`.
         at: (latitude, longitude): the highest object there; with `part`.
         part: "roof" or "facade".
@@ -86,6 +87,7 @@ class Target(_Request):
     osm: str | None = None
     file: Path | None = None
     feature: str | None = None
+    volume: Path | None = None
     object: str | None = None
     at: Vector | None = None
     part: str | None = None

@@ -404,7 +404,8 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
     limits = _sensor(sensor, max_range)
     if isinstance(limits.get("camera"), str):
         limits["camera"] = {"model": limits["camera"]}
-    text.add("sensor", limits)
+    if limits or any(one.volume is None for one in targets):  # what is only flown through needs none
+        text.add("sensor", limits)
     meshes: Meshes = []
     if navigation is not None:
         keys_of_limits, meshes = _navigation(navigation)
@@ -424,7 +425,8 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
 
 
 def _with_true_path(keys: dict[str, Any], name: str) -> dict[str, Any]:
-    return {**keys, "file": checked_path(keys["file"], f"{name}['file']")} if "file" in keys else keys
+    paths = {key: checked_path(keys[key], f"{name}['{key}']") for key in ("file", "volume") if key in keys}
+    return {**keys, **paths}
 
 
 def _sensor(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:

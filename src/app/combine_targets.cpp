@@ -91,8 +91,9 @@ void combine_targets(const std::vector<MissionTarget>& given, std::vector<std::v
   std::vector<std::vector<Target>> views;
   for (std::size_t i = 0; i < given.size(); ++i) {
     for (Target& target : targets[i]) {
-      if (!target.is_point()) drawn.push_back(target);
-      const bool is_plain = combine == Combine::all && !given[i].both_sides && !target.is_point();
+      const bool has_area = !target.is_point() && !target.is_volume();
+      if (has_area) drawn.push_back(target);
+      const bool is_plain = combine == Combine::all && !given[i].both_sides && has_area;
       if (is_plain) {
         plain.push_back(std::move(target));
       } else if (given[i].both_sides) {

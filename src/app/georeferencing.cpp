@@ -345,6 +345,7 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
   for (std::size_t i = 0; i < given.size(); ++i) {
     with_place(given[i].place, [&] {
       for (const Target& target : targets[i]) {
+        if (target.is_volume()) continue;
         for (std::size_t part = 0; part < target.parts.size(); ++part) make_target_frame(target, part);
       }
       return 0;
@@ -361,7 +362,8 @@ void georeference(Mission& mission, const Progress& progress) {
   std::vector<MissionTarget> given = given_targets(file);
   const bool needs_frame =
       !file.crs.empty() || std::any_of(given.begin(), given.end(), [](const MissionTarget& target) {
-        return (target.ground_target && target.ground_target->outlines.empty()) || target.target_file ||
+        return (target.ground_target && target.ground_target->outlines.empty()) ||
+               (target.target_file && !target.target_file->is_volume) ||
                (target.face_target && target.face_target->at_deg);
       });
   std::optional<geo::LocalFrame> frame;
@@ -377,7 +379,11 @@ void georeference(Mission& mission, const Progress& progress) {
   for (MissionTarget& target : given) {
     if (!target.target_file) continue;
     with_place(target.place, [&] {
-      read_target_file(mission, *frame, reporter, target);
+      if (target.target_file->is_volume) {
+        read_target_volume(mission, reporter, target);
+      } else {
+        read_target_file(mission, *frame, reporter, target);
+      }
       return 0;
     });
   }

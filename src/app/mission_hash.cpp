@@ -111,6 +111,7 @@ SortedJson sorted_json_of(const Target& target) {
                      {"offset_m", number_text(target.offset_m)},
                      {"front", target.front ? sorted_json_of(*target.front) : SortedJson()}};
   if (target.front_by_order) json["front_by_order"] = true;
+  if (target.volume) json["volume"] = volume_hash(target.volume->mesh);
   return json;
 }
 

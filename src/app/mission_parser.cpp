@@ -24,6 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool has_volumes_alone(const MissionFile& mission) {
+  const auto is_volume = [](const std::optional<TargetFile>& file) { return file && file->is_volume; };
+  if (mission.targets.empty()) return is_volume(mission.target_file);
+  return std::all_of(mission.targets.begin(), mission.targets.end(),
+                     [&](const MissionTarget& one) { return is_volume(one.target_file); });
+}
+
 class MissionParser : private ValueReader {
  public:
   /// `source`: of a scene that is loaded already; null where the text says it.
@@ -60,8 +67,11 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   if (const YamlNode* crs = find(root, "crs")) mission_.crs = text(*crs, "crs");
   parse_scene(root);
   parse_targets(root);
-  parse_sensor(
-      require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
+  // What is only flown through needs no sensor.
+  if (find(root, "sensor") || !has_volumes_alone(mission_)) {
+    parse_sensor(
+        require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
+  }
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
   if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
   if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, mission_.spheres);

@@ -195,7 +195,7 @@ class Writer {
     const Target& target = given.target;
     if (!target.name.empty()) section.add("name", quoted(target.name));
     if (const auto& from = given.target_file) {
-      section.add("file", path(from->file));
+      section.add(from->is_volume ? "volume" : "file", path(from->file));
       if (!from->feature.empty()) section.add("feature", quoted(from->feature));
     } else if (given.face_target) {
       add_faces(*given.face_target, section);

@@ -45,7 +45,7 @@ void check_scene(MissionFile& mission) {
 void check_target_files(MissionFile& mission) {
   const auto check = [](std::optional<TargetFile>& target, const std::string& place) {
     if (!target) return;
-    check_readable(target->file, "the target's file", place);
+    check_readable(target->file, target->is_volume ? "the target's volume" : "the target's file", place);
     target->file = with_true_folder(target->file);
   };
   check(mission.target_file, mission.places.target);

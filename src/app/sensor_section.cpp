@@ -443,6 +443,7 @@ std::string sensor_section_text(const MissionFile& mission) {
   if (visible) {
     text += "  visible: " + shortest(visible->share) + "\n  cells: " + std::to_string(visible->cells) + "\n";
   }
+  if (text.ends_with("sensor:\n")) return "";  // of targets that are volumes
   return text;
 }
 

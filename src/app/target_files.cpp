@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,9 +16,12 @@
 #include "app/target_section.h"
 #include "app/zone_file.h"
 #include "app/zone_files.h"
+#include "core/solid_check.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
+#include "vantage/hash.h"
 #include "vantage/input.h"
+#include "vantage/result.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -193,6 +198,30 @@ void read_target_file(const Mission& mission, const geo::LocalFrame& frame, cons
     const ListedZone& first = polygons.front();
     given.target.name = first.names.empty() ? from.file.stem().string() : first.names.front();
   }
+}
+
+void read_target_volume(Mission& mission, const core::ProgressReporter& progress, MissionTarget& given) {
+  const TargetFile from = *given.target_file;
+  const Scene& scene = mission.scene();
+  VolumeFile read = read_volume(from.file, scene);
+  auto volume = std::make_shared<TargetVolume>();
+  volume->mesh = core::checked_solid(read.volume.mesh, from.name, progress);
+  volume->rounding_m = read.rounding_m;
+  const auto note = [&](WarningCode code, const std::string& text) {
+    mission.notes.push_back({code, in_quotes(from.name) + " " + text});
+  };
+  if (read.volume.georeference && !scene.georeference) {
+    note(WarningCode::volume_of_other_scene,
+         "says where on the earth it lies, and the scene does not: it is taken to be in the frame of the scene");
+  }
+  const auto& made = read.volume.provenance;
+  if (made && !made->scene_hash.empty() && made->scene_hash != scene_hash(scene)) {
+    note(WarningCode::volume_of_other_scene, "says that it was computed in another scene than the mission's");
+  }
+  std::move(read.notes.begin(), read.notes.end(), std::back_inserter(mission.notes));
+  given.target.volume = std::move(volume);
+  given.target_file.reset();
+  if (given.target.name.empty()) given.target.name = from.file.stem().string();
 }
 
 }  // namespace vantage::internal::app

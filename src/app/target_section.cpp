@@ -43,6 +43,7 @@ class TargetParser : private ValueReader {
   const YamlNode& parse_outline(const YamlNode& node, const YamlNode& outline);
   void parse_holes(const YamlNode& node, std::vector<TargetOutline>& outlines) const;
   const YamlNode& parse_file(const YamlNode& node, const YamlNode& named);
+  const YamlNode& parse_volume(const YamlNode& node, const YamlNode& named);
   const YamlNode& parse_faces(const YamlNode& node, const YamlNode& part);
   double heading(const YamlNode& node) const;
   const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
@@ -95,8 +96,10 @@ MissionTarget TargetParser::parse(const YamlNode& node) {
   const YamlNode* outline = find(node, "outline");
   if (part == nullptr) refuse_without_part(node);
   const YamlNode* from = find(node, "file");
-  if (from == nullptr) refuse_without_file(node);
-  const YamlNode& place = part           ? parse_faces(node, *part)
+  const YamlNode* volume = find(node, "volume");
+  if (from == nullptr && volume == nullptr) refuse_without_file(node);
+  const YamlNode& place = volume         ? parse_volume(node, *volume)
+                          : part         ? parse_faces(node, *part)
                           : from         ? parse_file(node, *from)
                           : point        ? parse_point(node, *point)
                           : parts        ? parse_parts(node, *parts)
@@ -277,6 +280,21 @@ const YamlNode& TargetParser::parse_file(const YamlNode& node, const YamlNode& n
   from.name = text(named, "target.file");
   from.file = mission_.file.parent_path() / from.name;
   if (const YamlNode* feature = find(node, "feature")) from.feature = text(*feature, "target.feature");
+  if (find(node, "name") == nullptr) section_.target.name.clear();
+  return named;
+}
+
+/// Which mesh it is is found out when the scene is read.
+const YamlNode& TargetParser::parse_volume(const YamlNode& node, const YamlNode& named) {
+  for (const YamlEntry& entry : node.entries) {
+    if (entry.key == "volume" || entry.key == "name") continue;
+    fail(ErrorCode::conflicting_keys, entry.value, "target has both 'volume' and '" + entry.key + "'",
+         "keep 'volume', with a 'name' alone, for a region to fly through, or give what is to be seen");
+  }
+  TargetFile& from = section_.target_file.emplace();
+  from.is_volume = true;
+  from.name = text(named, "target.volume");
+  from.file = mission_.file.parent_path() / from.name;
   if (find(node, "name") == nullptr) section_.target.name.clear();
   return named;
 }

@@ -32,15 +32,17 @@ constexpr const char* kLonLatAdvice = "check the file: is it of another place, o
 
 /// No viewpoint is farther from the scene's origin.
 double farthest_viewpoint_m(const Mission& mission) {
-  double farthest = 0;
+  double farthest = geo::kFarthestM;
+  const auto take = [&](const std::vector<Vec3>& corners, double reach_m) {
+    for (const Vec3& corner : corners) farthest = std::max(farthest, corner.head<2>().norm() + reach_m);
+  };
   for (const std::vector<Target>& view : views_of(mission)) {
     for (const Target& target : view) {
-      for (const std::vector<Vec3>& part : target.parts) {
-        for (const Vec3& corner : part) farthest = std::max(farthest, corner.head<2>().norm());
-      }
+      for (const std::vector<Vec3>& part : target.parts) take(part, range_limit_m(mission.sensor));
+      if (target.volume) take(target.volume->mesh.vertices, 0);
     }
   }
-  return std::max(farthest + range_limit_m(mission.sensor), geo::kFarthestM);
+  return farthest;
 }
 
 class FileZones {

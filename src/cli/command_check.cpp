@@ -85,12 +85,12 @@ void add_reasons(TextTable& table, const std::vector<NotSeen>& reasons) {
 
 void add_target(TextTable& table, const TargetCheck& target) {
   table.heading(target.name);
-  if (target.seen.empty()) table.row("seen whole", "nowhere", "");
+  const char* const inside = target.is_volume ? "inside" : "seen whole";
+  if (target.seen.empty()) table.row(inside, "nowhere", "");
   for (std::size_t i = 0; i < target.seen.size(); ++i) {
     const FlightSpan& span = target.seen[i];
     const bool is_longest = target.longest == i && target.seen.size() > 1;
-    table.row("seen whole",
-              std::isnan(span.end_s) ? fixed(span.length_m(), 2) + " m" : fixed(span.duration_s(), 1) + " s",
+    table.row(inside, std::isnan(span.end_s) ? fixed(span.length_m(), 2) + " m" : fixed(span.duration_s(), 1) + " s",
               span_text(span) + (is_longest ? ", the longest" : ""));
   }
   if (target.gimbal) {

@@ -32,6 +32,8 @@ constexpr const char* kTourExamples =
     "  bound: no flight that sees all targets is shorter. The bound is over outer volumes, which hold every position\n"
     "  from which a target is seen. docs/flight.md says more.\n"
     "\n"
+    "  A target may also be a volume to fly through: 'targets: [{volume: region.ply}]', any closed mesh.\n"
+    "\n"
     "  The exit code is 1 where a target is left out, and 4 where the gap between the flight and the bound stays "
     "larger\n"
     "  than 'tour.gap'. The plan is written all the same.\n"

@@ -33,8 +33,11 @@ Picture scene_picture(const FlightPicture& picture, const Progress& progress) {
     targets.push_back(one_volume(*picture.mission, i).target);
   }
   PictureRequest request;
-  for (const Target& target : targets) request.others.push_back(&target);
   request.solids = picture.volumes;
+  for (const Target& target : targets) {
+    if (!target.is_volume()) request.others.push_back(&target);
+    if (target.is_volume() && picture.volumes.empty()) request.solids.push_back(&target.volume->mesh);
+  }
   PicturePath path{"flight", positions(*picture.flight), {}, "a target is seen whole"};
   for (const TargetCheck& target : picture.check->targets) {
     for (const FlightSpan& span : target.seen) {

@@ -1,12 +1,34 @@
 #include "cli/judged_volume.h"
 
 #include <utility>
+#include <vector>
 
 #include "cli/chosen_target.h"
 #include "cli/standard_streams.h"
+#include "vantage/error.h"
 #include "vantage/input.h"
+#include "vantage/target.h"
 
 namespace vantage::cli {
+namespace {
+
+/// There is nothing to judge of a target that is flown through.
+void refuse_volumes(const Mission& mission) {
+  const auto refuse = [&](const Target& target) {
+    if (!target.is_volume()) return;
+    try {
+      make_target_frame(target);
+    } catch (const Error& error) {
+      throw error.with_where(mission.as_written.places.target + ", " + error.where());
+    }
+  };
+  refuse(mission.target);
+  for (const std::vector<Target>& view : mission.views) {
+    for (const Target& target : view) refuse(target);
+  }
+}
+
+}  // namespace
 
 void add_judge_options(CLI::App& command, JudgeArguments& arguments) {
   command
@@ -29,6 +51,7 @@ JudgedVolume read_judged(const JudgeArguments& arguments, ProgressLine& progress
   const Mission resolved = resolve_mission(file, progress.callback());
   VolumeFile read = read_volume(arguments.volume_file, resolved.scene(), progress.callback());
   Mission mission = of_volume(resolved, arguments.target, read);
+  refuse_volumes(mission);
   if (!arguments.common.quiet) {
     notes(mission_warnings(mission));
     notes(read.notes);

@@ -57,11 +57,37 @@ const Intervals& whole() {
 
 Intervals common(const Intervals& a, const Intervals& b) { return flight::without(a, flight::without(whole(), b)); }
 
+/// Of a volume to fly through, as a limit that is kept inside it. A little within its surface: more than what rounding
+/// does to the ends of intervals.
+struct JudgedVolume {
+  explicit JudgedVolume(const TargetVolume& volume) : limits(inside(volume.mesh)) {
+    const Box box = bounding_box(volume.mesh);
+    constexpr double kOfSize = 1e-10, kRoundings = 16 * std::numeric_limits<double>::epsilon();
+    const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+    depth_m = kOfSize * (box.max - box.min).norm() + kRoundings * largest;
+    centre = (box.min + box.max) / 2;
+  }
+  static Navigation inside(const Mesh& mesh) {
+    Navigation limits;
+    limits.meshes.push_back({mesh, "volume"});
+    return limits;
+  }
+
+  LegLimits limits;
+  double depth_m = 0;
+  Vec3 centre = Vec3::Zero();
+};
+
 /// A position sees it that sees, of each list, one target or more, each within its limits.
 class JudgedTarget {
  public:
-  JudgedTarget(const Mission& mission, const PreparedScene& scene)
-      : name_(mission.target.name), parts_(mission.target.parts) {
+  JudgedTarget(const Mission& mission, const PreparedScene& scene) : name_(mission.target.name) {
+    if (mission.target.is_volume() && mission.views.empty()) {
+      volume_.emplace(*mission.target.volume);
+      centre_ = volume_->centre;
+      return;
+    }
+    parts_ = mission.target.parts;
     for (const std::vector<PreparedTarget>& list : prepare_views(mission, scene)) {
       std::vector<One>& judged = lists_.emplace_back();
       for (const PreparedTarget& target : list) judged.push_back({LegViews(target), LegLimits(target, {})});
@@ -75,10 +101,12 @@ class JudgedTarget {
   }
 
   const std::string& name() const { return name_; }
+  bool is_volume() const { return volume_.has_value(); }
   const Vec3& centre() const { return centre_; }
   const std::vector<std::vector<Vec3>>& parts() const { return parts_; }
 
   TargetOnLeg look(const Leg& leg, double radius_m) const {
+    if (volume_) return look_inside(*volume_, leg, radius_m);
     TargetOnLeg result{whole(), {}};
     for (const std::vector<One>& list : lists_) {
       const TargetOnLeg any = look_at_any(list, leg, radius_m);
@@ -95,6 +123,15 @@ class JudgedTarget {
     LegViews views;
     LegLimits limits;
   };
+
+  static TargetOnLeg look_inside(const JudgedVolume& volume, const Leg& leg, double radius_m) {
+    TargetOnLeg result{whole(), {}};
+    for (LegBreak& outside : volume.limits.broken(leg, radius_m + volume.depth_m)) {
+      result.seen = flight::without(result.seen, outside.intervals);
+      result.reasons[{NotSeen::Kind::outside, ""}] = std::move(outside.intervals);
+    }
+    return result;
+  }
 
   /// What hides any of them is told; out of range, behind and limits only where that holds for all.
   static TargetOnLeg look_at_any(const std::vector<One>& list, const Leg& leg, double radius_m) {
@@ -137,6 +174,7 @@ class JudgedTarget {
   Vec3 centre_ = Vec3::Zero();
   std::vector<std::vector<Vec3>> parts_;
   std::vector<std::vector<One>> lists_;
+  std::optional<JudgedVolume> volume_;  ///< instead of lists
 };
 
 /// What is judged on every leg.
@@ -234,6 +272,7 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
                          const Flight& path, const Along& along, const FlightCheckOptions& options) {
   TargetCheck check;
   check.name = target.name();
+  check.is_volume = target.is_volume();
   check.centre = target.centre();
   check.parts = target.parts();
   std::vector<Stretch> seen;
@@ -249,8 +288,8 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
     const auto measure = [&](const FlightSpan& span) { return by_time ? span.duration_s() : span.length_m(); };
     if (!check.longest || measure(check.seen[i]) > measure(check.seen[*check.longest])) check.longest = i;
   }
-  if (check.longest) check.gimbal = gimbal_along(along, seen[*check.longest], check.centre);
-  if (options.gimbal_rate_deg_s) {
+  if (check.longest && !check.is_volume) check.gimbal = gimbal_along(along, seen[*check.longest], check.centre);
+  if (options.gimbal_rate_deg_s && !check.is_volume) {
     check.followed = followed(legs, index, path, along, check.centre, *options.gimbal_rate_deg_s);
   }
   for (const auto& [reason, stretches] : reasons) {
@@ -327,14 +366,16 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
   const double dwell = options.dwell_s.value_or(0);
   for (const TargetCheck& target : check.targets) {
     if (!target.longest) {
-      failures.push_back(target.name + " is nowhere seen whole");
+      failures.push_back(target.name + (target.is_volume ? " is not flown through" : " is nowhere seen whole"));
       continue;
     }
     const double longest_s = target.seen[*target.longest].duration_s();
     if (dwell > 0 && !(longest_s >= dwell)) {
-      failures.push_back(format("{} is seen whole for {} s without a break, and {} s are asked for", target.name,
-                                number_text(longest_s), number_text(dwell)));
-    } else if (options.gimbal_rate_deg_s && !(target.followed && target.followed->duration_s() >= dwell)) {
+      failures.push_back(format("{} {} for {} s without a break, and {} s are asked for", target.name,
+                                target.is_volume ? "is flown through" : "is seen whole", number_text(longest_s),
+                                number_text(dwell)));
+    } else if (options.gimbal_rate_deg_s && !target.is_volume &&
+               !(target.followed && target.followed->duration_s() >= dwell)) {
       const double followed_s = target.followed ? target.followed->duration_s() : 0;
       failures.push_back(
           format("{} is seen whole for {} s without a break while the camera turns by at most {} degrees "
@@ -386,6 +427,8 @@ const char* name_of(NotSeen::Kind kind) {
       return "behind";
     case NotSeen::Kind::limit:
       return "limit";
+    case NotSeen::Kind::outside:
+      return "outside";
   }
   return "";
 }

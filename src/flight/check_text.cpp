@@ -64,6 +64,7 @@ Json reasons_json(const std::vector<NotSeen>& reasons, const PositionJson& posit
 Json target_json(const TargetCheck& target, const PositionJson& position) {
   Json json;
   json["name"] = target.name;
+  if (target.is_volume) json["volume"] = true;
   json["parts"] = Json::array();
   for (const std::vector<Vec3>& part : target.parts) {
     Json corners = Json::array();

@@ -15,6 +15,7 @@
 #include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
+#include "vantage/mission_tour.h"
 #include "vantage/slice.h"
 #include "vantage/temporary_folder.h"
 #include "vantage/version.h"
@@ -273,7 +274,9 @@ std::string Session::target_volumes(const Progress& progress) {
   Json volumes = Json::array();
   for (std::uint32_t i = 0; i < volume_count(each); ++i) {
     const Mission one = one_volume(each, i);
-    const Volume volume = run_mission(one, {.prepared = scene->prepared}, progress).volume;
+    const Volume volume = one.target.is_volume() && one.views.empty()
+                              ? volume_to_fly_through(one, progress)
+                              : run_mission(one, {.prepared = scene->prepared}, progress).volume;
     const auto first = static_cast<std::uint32_t>(all.vertices.size());
     all.vertices.insert(all.vertices.end(), volume.mesh.vertices.begin(), volume.mesh.vertices.end());
     for (const auto& triangle : volume.mesh.triangles) {

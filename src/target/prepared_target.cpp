@@ -69,6 +69,7 @@ Part cell_part(const Part& whole, const std::vector<Eigen::Vector2d>& polygon, c
 }  // namespace
 
 PreparedTarget::PreparedTarget(const PreparedScene& scene, const Target& target, const Sensor& sensor) {
+  if (target.is_volume() || target.parts.empty()) make_target_frame(target);  // throws
   check_sensor(sensor);
   const bool needs_normal = sensor.incidence_deg || (sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::worst);
   if (needs_normal && target.is_point() && !target.front) {
@@ -84,7 +85,6 @@ PreparedTarget::PreparedTarget(const PreparedScene& scene, const Target& target,
                 "leave 'visible' out, or give the target a polygon");
   }
   auto data = std::make_shared<Data>(Data{scene, target, sensor, {}, {}});
-  if (target.parts.empty()) make_target_frame(target);  // throws
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
     if (target.parts.size() > 1) make_target_frame(target, i);  // a point among parts
     data->parts.push_back(prepare(scene.data(), target.part(i), sensor, data->notes));

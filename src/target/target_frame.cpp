@@ -211,6 +211,11 @@ Target Target::part(std::size_t index) const {
 }
 
 TargetFrame make_target_frame(const Target& target, std::size_t part) {
+  if (target.is_volume()) {
+    refuse(
+        ErrorCode::not_applicable, target, "the target is a volume to fly through, and nothing of it is to be seen",
+        "volumes are targets of 'vantage tour' and 'vantage check' alone: give a polygon or a point, or leave it out");
+  }
   if (part >= target.parts.size()) {
     refuse(ErrorCode::target_parts_invalid, target, "the target has no part " + std::to_string(part + 1),
            "give one polygon or more");

@@ -113,7 +113,7 @@ def _of_key(key: Any, value: Any) -> Any:
         return None
     if key == "meshes":
         return _meshes(value)
-    return _file_hash(value) if key in ("file", "mesh") else _plain(value)
+    return _file_hash(value) if key in ("file", "mesh", "volume") else _plain(value)
 
 
 def _meshes(meshes: Any) -> list[Any]:

@@ -13,6 +13,7 @@
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 #include "vantage/outer.h"
 #include "vantage/solid_index.h"
 
@@ -41,27 +42,54 @@ Vec3 middle_of(const Target& target) {
   return corners == 0 ? sum : Vec3(sum / static_cast<double>(corners));
 }
 
+bool is_volume(const Mission& one) { return one.views.empty() && one.target.is_volume(); }
+
+/// The missions of all targets, each by itself.
+std::vector<Mission> each_of(const Mission& mission) {
+  std::vector<Mission> each;
+  for (std::size_t i = 0; i < volume_count(mission); ++i) each.push_back(one_volume(mission, i));
+  return each;
+}
+
+/// The mission without the targets that are volumes: nothing of these is computed.
+Mission of_what_is_seen(const Mission& mission, const std::vector<Mission>& each) {
+  if (std::none_of(each.begin(), each.end(), is_volume)) return mission;
+  Mission seen = mission;
+  std::vector<MissionTarget>& written = seen.as_written.targets;
+  const bool are_in_step = written.size() == seen.views.size();
+  for (std::size_t i = each.size(); i-- > 0;) {
+    if (!is_volume(each[i])) continue;
+    seen.views.erase(seen.views.begin() + static_cast<std::ptrdiff_t>(i));
+    if (are_in_step) written.erase(written.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return seen;
+}
+
 std::vector<MissionTourTarget> volumes_of(const Mission& mission, const PreparedScene& scene, int threads,
                                           const Progress& progress) {
   RunOptions options;
   options.threads = threads;
   options.prepared = scene;
+  const std::vector<Mission> each = each_of(mission);
   std::vector<Result> results;
-  if (volume_count(mission) == 1) {
-    results.push_back(run_mission(mission, options, progress));
-  } else {
-    results = run_missions(mission, options, progress);
+  if (!std::all_of(each.begin(), each.end(), is_volume)) {
+    const Mission seen = of_what_is_seen(mission, each);
+    results = run_missions(volume_count(seen) == 1 ? one_volume(seen, 0) : seen, options, progress);
   }
   std::vector<MissionTourTarget> targets;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const Mission one = one_volume(mission, i);
-    Volume& volume = results[i].volume;
+  std::size_t next = 0;
+  for (const Mission& one : each) {
+    const bool is_given = is_volume(one);
+    Volume volume = is_given ? volume_to_fly_through(one, progress) : std::move(results.at(next++).volume);
     if (volume.mesh.empty()) {
       throw Error(ErrorCode::nothing_given,
-                  "the target '" + one.target.name + "' can be seen from nowhere: " + volume.reason,
-                  mission.as_written.places.target, volume.hint.empty() ? "take it out" : volume.hint);
+                  "the target '" + one.target.name + "' can be " + (is_given ? "reached" : "seen") +
+                      " from nowhere: " + volume.reason,
+                  one.as_written.places.target, volume.hint.empty() ? "take it out" : volume.hint);
     }
-    targets.push_back({one.target.name, middle_of(one.target), std::move(volume.mesh)});
+    const Box box = bounding_box(volume.mesh);
+    const Vec3 centre = is_given ? Vec3((box.min + box.max) / 2) : middle_of(one.target);
+    targets.push_back({one.target.name, centre, std::move(volume.mesh), is_given});
   }
   return targets;
 }
@@ -130,15 +158,26 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   run.prepared = scene;
   std::vector<std::size_t> visited = of.tour.order;
   std::sort(visited.begin(), visited.end());
+  // What visits a volume that was larger by its rounding comes by the volume itself with a detour of two roundings;
+  // where it has to stay there, both ends of the stay move by that.
+  double rounded_away_m = 0;
+  bool is_limited = false;
   for (const std::size_t target : visited) {
     const Mission one = volume_count(mission) == 1 ? mission : one_volume(mission, target);
+    if (is_volume(one)) {
+      problem.regions.push_back(tour::OuterRegion::given(one.target.volume->mesh, of.targets[target].name));
+      rounded_away_m += 4 * one.target.volume->rounding_m;
+      is_limited = is_limited || !mission.navigation.empty();
+      continue;
+    }
     problem.regions.push_back(tour::OuterRegion::of(outer_volume(one, run, {}, progress), of.targets[target].name));
   }
   const TourSettings& settings = of.settings;
   problem.closed = settings.closed;
   problem.start = start;
   if (settings.vehicle.kind == TourVehicle::Kind::fixed_wing) {
-    problem.turn_radius_m = settings.vehicle.turn_radius_m;
+    // The detours to what was rounded away are no turns that it could fly.
+    if (rounded_away_m == 0) problem.turn_radius_m = settings.vehicle.turn_radius_m;
     // A multirotor may hover: its dwell is no length.
     if (!settings.simultaneous) {
       problem.dwell_m.assign(problem.regions.size(), settings.vehicle.speed_m_s * settings.dwell_s);
@@ -153,10 +192,15 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   const tour::TourBound& found = proof->bound;
   if (!options.certificate.empty()) tour::write_tour_certificate(found, options.certificate);
   TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored, proof};
-  bound.time_s = found.length_m / settings.vehicle.speed_m_s;
+  if (rounded_away_m > 0) {
+    bound.length_m = std::max(0.0, bound.length_m - rounded_away_m);
+    bound.gap = of.tour.length_m > 0 ? (of.tour.length_m - bound.length_m) / of.tour.length_m : 0;
+  }
+  bound.time_s = bound.length_m / settings.vehicle.speed_m_s;
   if (!settings.simultaneous) {
     bound.time_s = std::max(bound.time_s, static_cast<double>(visited.size()) * settings.dwell_s);
   }
+  if (is_limited) bound.ignored.emplace_back("the limits of navigation in targets that are volumes");
   if (!options.positions.empty()) {
     bound.ignored.emplace_back("the positions that are given");
   } else if (settings.margin_m > 0) {
@@ -171,6 +215,15 @@ Vec3 view_position(const Flight& flight, const TourVisit& visit) {
 }
 
 }  // namespace
+
+Volume volume_to_fly_through(const Mission& mission, const Progress& progress) {
+  if (!is_volume(mission)) {
+    throw Error(ErrorCode::not_applicable, "the target '" + mission.target.name + "' is no volume",
+                mission.as_written.places.target, "compute its volume with run_mission");
+  }
+  const Volume all = volume_of_mesh(mission.target.volume->mesh, mission.target.name);
+  return cut_to_navigation(all, mission.navigation, progress, mission.as_written.exact.work_limit);
+}
 
 MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options, const Progress& progress) {
   MissionTour result;
@@ -190,7 +243,8 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   }
   result.targets = volumes_of(mission, scene, options.threads, progress);
   for (const MissionTourTarget& target : result.targets) {
-    request.targets.push_back({target.name, target.volume, target.centre});
+    request.targets.push_back({target.name, target.volume, std::nullopt});
+    if (!target.is_volume) request.targets.back().look_at = target.centre;
   }
   if (!options.positions.empty()) view_from(options.positions, request);
   result.tour = plan_tour(request, progress);
@@ -218,11 +272,12 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   for (const TourVisit& visit : of.tour.visits) {
     const MissionTourTarget& target = of.targets[visit.target];
     FlightAction& action = out.actions[visit.first_point];
+    action.sees = target.name;
+    if (target.is_volume) continue;
     const internal::flight::Aim aim = internal::flight::aim_at(view_position(flight, visit), target.centre);
     action.yaw_deg = aim.yaw_deg;
     action.gimbal_pitch_deg = aim.pitch_deg;
     action.photo = true;
-    action.sees = target.name;
   }
   if (mission.scene().georeference) {
     out.georeference = *mission.scene().georeference;
