@@ -425,7 +425,7 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
 
 
 def _with_true_path(keys: dict[str, Any], name: str) -> dict[str, Any]:
-    paths = {key: checked_path(keys[key], f"{name}['{key}']") for key in ("file", "volume") if key in keys}
+    paths: dict[str, Any] = {key: checked_path(keys[key], f"{name}['{key}']") for key in ("file", "volume") if key in keys}
     return {**keys, **paths}
 
 
