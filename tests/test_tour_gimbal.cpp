@@ -1,8 +1,10 @@
 // Tours keep the rate of the gimbal: what is planned passes the check of flights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -112,14 +114,57 @@ TEST(TourGimbal, WhatPassesTooFastIsRefusedByName) {
 
 TEST(TourGimbal, TurnsNearALegAreNoFaster) {
   Random random(8);
-  for (int i = 0; i < 2000; ++i) {
-    const Vec3 from = 30 * random.direction(), along = random.uniform(1, 20) * random.direction();
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 along = random.uniform(1, 20) * random.direction(), from = random.uniform(3, 30) * random.direction();
     const double reach = random.uniform(0.001, 1);
     const double most = internal::flight::fastest_turn_near_deg_s({from, from + along}, Vec3::Zero(), 10, reach);
-    const Vec3 beside = reach * random.uniform(0, 1) * random.direction();
+    // Somewhere near, or as near to the point as may be.
+    const double share = std::clamp(-from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    Vec3 beside = reach * random.uniform(0, 1) * random.direction();
+    if (random.chance(0.5)) beside = -reach * (from + share * along).normalized();
     const double turn = internal::flight::fastest_turn_deg_s({from + beside, from + along + beside}, Vec3::Zero(), 10);
     ASSERT_LE(turn, most * (1 + 1e-9)) << i;
   }
+}
+
+TEST(TourGimbal, StretchesInPassingAreThoseThatAreSlow) {
+  namespace tour = internal::flight::tour;
+  Random random(9);
+  std::size_t slow = 0, fast = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Vec3> points;
+    for (int k = random.integer(2, 5); k > 0; --k) {
+      points.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), random.uniform(5, 40));
+    }
+    const tour::Way way(points);
+    TourTarget target;
+    target.look_at = Vec3::Zero();
+    TourSettings settings;
+    settings.gimbal_rate_deg_s = random.uniform(5, 60);
+    const std::vector<tour::Stretch> all = {{0.1 * way.length_m(), 0.6 * way.length_m()}};
+    const std::vector<tour::Stretch> found = tour::stretches_followed(all, way, target, settings);
+    for (int k = 0; k < 100; ++k) {
+      constexpr double kStep = 1e-4;  // metres
+      const double station = random.uniform(0, way.length_m() - kStep);
+      const Vec3 a = way.at(station), b = way.at(station + kStep);
+      const double angle = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+      const double rate = angle / (kStep / settings.vehicle.speed_m_s);
+      const bool is_in = std::any_of(found.begin(), found.end(), [&](const tour::Stretch& one) {
+        return one.begin_m <= station && station + kStep <= one.end_m;
+      });
+      if (is_in) {
+        ++slow;
+        ASSERT_GE(station, all[0].begin_m);
+        ASSERT_LE(station, all[0].end_m);
+        ASSERT_LE(rate, settings.gimbal_rate_deg_s) << i;
+      } else if (station > all[0].begin_m + 0.01 && station < all[0].end_m - 0.01) {
+        fast += rate > settings.gimbal_rate_deg_s ? 1 : 0;
+        ASSERT_GE(rate, 0.97 * settings.gimbal_rate_deg_s) << i;
+      }
+    }
+  }
+  EXPECT_GT(slow, 1000U);
+  EXPECT_GT(fast, 200U);
 }
 
 }  // namespace
