@@ -28,7 +28,7 @@ PreparedTarget antenna(const FlightLink& link, const PreparedScene& scene, const
   constexpr double kMore = 1.01;
   Sensor sensor{.max_range_m = link.max_range_m.value_or(kMore * farthest)};
   sensor.link = link.radio;
-  return {scene, std::move(target), sensor};
+  return {scene, target, sensor};
 }
 
 }  // namespace
