@@ -86,6 +86,10 @@ nightly: tested benchmarks package  ## what takes too long for every change: lin
 	python3 tests/forge/forge_certificates.py --mutants $(or $(MUTANTS),5000) --seed $(or $(SEED),$(shell date +%Y%m%d))
 	build/bin/vantage_attack --missions $(or $(MISSIONS),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
+	build/bin/vantage_attack --flights $(or $(FLIGHTS),500) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
+	  --seconds 300 --jobs $(JOBS) --out build/attack
+	build/bin/vantage_attack --tours $(or $(TOURS),200) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
+	  --seconds 300 --jobs $(JOBS) --out build/attack
 	VANTAGE_BATCH_KILLS=20 PYTHONPATH=build/python .deps/python/bin/python -m pytest -q python/tests/test_batch_faults.py
 
 .PHONY: install

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -20,6 +21,7 @@
 #include "missions.h"
 #include "self_test.h"
 #include "summary.h"
+#include "tours.h"
 
 namespace attack {
 namespace {
@@ -31,7 +33,7 @@ struct Options {
   unsigned seconds = 60;
   std::filesystem::path out, mission;
   std::size_t meshes = 0;
-  bool self_test = false, told = false, only = false, missions = false, flights = false;
+  bool self_test = false, told = false, only = false, missions = false, flights = false, tours = false;
 };
 
 constexpr const char* kUsage =
@@ -40,9 +42,10 @@ constexpr const char* kUsage =
   --meshes N     draw so many meshes instead, and judge what the proof says of them
   --missions N   draw N missions instead, of every kind of target, side, combination and limit
   --flights N    draw N flights instead, and judge what check_flight says of them
-  --first I      the number of the first scene, mesh, mission or flight (0)
+  --tours N      draw N tours instead, and judge whether they are what was asked for
+  --first I      the number of the first scene, mesh, mission, flight or tour (0)
   --seed S       of all draws (1)
-  --only I       that scene, mesh, mission or flight alone, and all that is found in it
+  --only I       that scene, mesh, mission, flight or tour alone, and all that is found in it
   --mission FILE a mission of a mesh scene instead of draws
   --out DIR      write what fails there, made small: scene.obj, mission.yaml
   --minimised N  how many of each class are made small and written (3)
@@ -82,6 +85,9 @@ Options parse(int count, char** words) {
       options.scenes = number();
     } else if (word == "--flights") {
       options.flights = true;
+      options.scenes = number();
+    } else if (word == "--tours") {
+      options.tours = true;
       options.scenes = number();
     } else if (word == "--first") {
       options.first = number();
@@ -200,8 +206,9 @@ int judge_mission(const Options& options) {
 int main(int count, char** words) {
   const attack::Options options = attack::parse(count, words);
   if (options.self_test) {
-    const bool are_right[] = {attack::self_test(), attack::mesh_self_test(), attack::mission_self_test()};
-    return are_right[0] && are_right[1] && are_right[2] ? 0 : 1;
+    const bool are_right[] = {attack::self_test(), attack::mesh_self_test(), attack::mission_self_test(),
+                              attack::flight_self_test(), attack::tour_self_test()};
+    return std::all_of(std::begin(are_right), std::end(are_right), [](bool is) { return is; }) ? 0 : 1;
   }
   if (options.missions) {
     return attack::run_drawn_missions({.seed = options.seed,
@@ -213,14 +220,14 @@ int main(int count, char** words) {
                ? 0
                : 1;
   }
-  if (options.flights) {
-    return attack::run_drawn_flights({.seed = options.seed,
-                                      .first = options.first,
-                                      .count = options.scenes,
-                                      .jobs = options.jobs,
-                                      .seconds = options.seconds,
-                                      .out = options.out.string(),
-                                      .written = options.minimised})
+  if (options.flights || options.tours) {
+    return (options.tours ? attack::run_drawn_tours : attack::run_drawn_flights)({.seed = options.seed,
+                                                                                  .first = options.first,
+                                                                                  .count = options.scenes,
+                                                                                  .jobs = options.jobs,
+                                                                                  .seconds = options.seconds,
+                                                                                  .out = options.out.string(),
+                                                                                  .written = options.minimised})
                ? 0
                : 1;
   }

@@ -1,0 +1,83 @@
+// Where limits are broken along a flight.
+#include <map>
+
+#include "judge_flight.h"
+
+namespace attack {
+
+void FlightJudge::judge_limit(const std::string& limit, const std::vector<FlightSpan>& spans, const RoomsAt& rooms,
+                              bool is_measured, bool is_searched) {
+  const auto room_at = [&](const Vec3& p) {
+    for (const Room& room : rooms(p)) {
+      if (room.limit == limit) return room;
+    }
+    return Room{limit, 1, -1};  // not known
+  };
+  for (const FlightPlace& at : places({&spans}, 6)) {
+    result_.count("positions and limits");
+    const Room room = room_at(at.position);
+    const double rounding = rounding_of(at.position);
+    const bool is_told = holds(spans, at.at_m, slack_m());
+    if (!is_told) {
+      const double least = is_measured ? radius_ : 0;
+      if (room.high < least - rounding - 1e-9 * radius_) {
+        wrong("limit", limit + " is not told at " + place_text(at.position) + ", where " + std::to_string(room.high) +
+                           " m are left");
+      }
+      for (int i = 0; i < 2 && radius_ > 0; ++i) {
+        const Vec3 beside = in_tube(at.position);
+        if (room_at(beside).high < -rounding) wrong("limit of a tube", limit + " is not told at " + place_text(beside));
+      }
+    } else if (!is_near_end(spans, at.at_m) && (is_measured || !(radius_ > 0))) {
+      double slack = 4 * rounding + 1e-9 * radius_;
+      if (is_searched) slack += 2.5 * std::min(1e-3, 1e-5 * length(at.leg)) + 1e-6 * drawn_.scale;
+      if (room.low > radius_ + slack) {
+        wrong("limit without need",
+              limit + " is told at " + place_text(at.position) + ", where " + std::to_string(room.low) + " m are left");
+      }
+    }
+  }
+}
+
+void FlightJudge::judge_navigation() {
+  const NavigationRooms limits(drawn_.mission.navigation);
+  const auto rooms = [&](const Vec3& p) { return limits.at(p); };
+  std::map<std::string, const vantage::BrokenLimit*> told;
+  for (const vantage::BrokenLimit& limit : check_.broken) told[limit.name] = &limit;
+  for (const Room& room : limits.at(leg(0).from)) {
+    const auto found = told.find(room.limit);
+    const std::vector<FlightSpan> none;
+    // Above ground, heights count, not distances.
+    const bool is_measured =
+        room.limit.find("agl") == std::string::npos && room.limit != "ground edge" && !has_agl(room.limit);
+    judge_limit(room.limit, found == told.end() ? none : found->second->spans, rooms, is_measured || !(radius_ > 0),
+                false);
+    if (found != told.end()) judge_worst(*found->second, rooms, is_measured);
+    told.erase(room.limit);
+  }
+  for (const auto& [name, limit] : told) wrong("limit", "there is none of the name " + name);
+}
+
+bool FlightJudge::has_agl(const std::string& limit) const {
+  const auto has = [](const std::vector<vantage::Zone>& zones) {
+    return std::any_of(zones.begin(), zones.end(),
+                       [](const vantage::Zone& zone) { return zone.above_ground.has_value(); });
+  };
+  const vantage::Navigation& navigation = drawn_.mission.navigation;
+  return limit.starts_with("keep_out zone") ? has(navigation.keep_out_zones)
+                                            : limit == "keep_in" && has(navigation.keep_in_zones);
+}
+
+void FlightJudge::judge_worst(const vantage::BrokenLimit& limit, const RoomsAt& rooms, bool is_measured) {
+  if (!is_measured || !std::isfinite(limit.worst)) return;
+  for (const Room& room : rooms(limit.worst_at)) {
+    if (room.limit != limit.name) continue;
+    const double there = std::max(0.0, radius_ - room.low);
+    if (std::abs(limit.worst - there) > 1e-9 * drawn_.scale + 8 * rounding_of(limit.worst_at)) {
+      wrong("worst", limit.name + " " + std::to_string(limit.worst) + " at " + place_text(limit.worst_at) +
+                         ", where it is " + std::to_string(there));
+    }
+  }
+}
+
+}  // namespace attack
