@@ -70,6 +70,17 @@ combine: any
 sensor: {max_range: 20}
 exact: {tolerance: 0.5}
 """]
+FLIGHT_MISSION = """scene: {mesh: city.obj, origin: [48.0, 11.0], sea_level: -100}
+targets:
+  - {name: square, vertices: [[-3, -3, 0], [3, -3, 0], [3, 3, 0], [-3, 3, 0]]}
+  - {name: wall, vertices: [[14, 4, 1], [14, -4, 1], [14, -4, 6], [14, 4, 6]], front: [1, 0, 0]}
+combine: each
+sensor: {max_range: 30}
+navigation: {altitude: {agl: [2, 60]}, ground: 0}
+tour: {home: [48.0001, 10.9999], view: {dwell: 1, margin: 0.2}, clearance: 1, gap: 0.5, time_limit: 5}
+exact: {tolerance: 0.5}
+"""
+PLANS = ("plan", "waypoints", "kml", "kmz", "gpx", "csv", "geojson")
 TOWN_MISSION = """scene: {osm: town.osm, center: [48.0, 11.0], radius: 100}
 target: {osm: way/1}
 sensor: {max_range: 40}
@@ -231,6 +242,10 @@ def prepare(folder: pathlib.Path, run: Callable[[list[str]], None]) -> None:
         (folder / f"{zones}.yaml").write_text(mission, encoding="utf-8")
     run(["compute", "mission.yaml", "-q", *(word for end in ("ply", "obj", "glb", "stl")
                                             for word in ("-o", f"good.{end}"))])
+    (folder / "fly.yaml").write_text(FLIGHT_MISSION, encoding="utf-8")
+    for end in PLANS:
+        run(["tour", "fly.yaml", "-q", "--no-bound", "--undulation", "45", "--aircraft", "77,0,66", "-o", f"good.{end}"])
+    run(["tour", "fly.yaml", "-q", "-o", "fly.plan", "--certificate", "fly.cert"])
     run(["prove", "mission.yaml", "good.ply", "-q", "--certificate", "good.cert"])
 
 
@@ -328,8 +343,35 @@ def certificate_readers(folder: pathlib.Path) -> list[Reader]:
     return [checked("itself", "good.cert"), checked("its volume", "good.ply"), checked("its scene", scene)]
 
 
+def plan_readers(folder: pathlib.Path) -> list[Reader]:
+    """Plans of flights, as vantage writes them, and those of others that are seeds of the fuzzer: these lie elsewhere."""
+    def judged(file: str) -> list[str]:
+        return ["check", "fly.yaml", file, "--undulation", "45", "--heights", "scene" if file.endswith("csv") else "ground",
+                "--threads", "1"]
+
+    readers = [Reader(f"plan, {end}", f"flown.{end}", judged(f"flown.{end}"), [(folder / f"good.{end}").read_bytes()])
+               for end in PLANS]
+    inside = (folder / "good.kmz").read_bytes()
+    with zipfile.ZipFile(io.BytesIO(inside)) as archive:
+        name = next(name for name in archive.namelist() if name.endswith("waylines.wpml"))
+        waylines = archive.read(name)
+    return readers + [Reader("plan, kmz inside", "flown.kmz", judged("flown.kmz"), [waylines], zipped(name))]
+
+
+def tour_readers(folder: pathlib.Path) -> list[Reader]:
+    """Bounds of tours: the program's judge and the checker, on certificates and on the regions beside them."""
+    checker = str(ROOT / "tools" / "check_tour.py")
+    readers = []
+    for name, file in (("itself", "fly.cert"), ("its region", "fly.region0.ply")):
+        data = [(folder / file).read_bytes()]
+        readers.append(Reader(f"tour certificate, {name}", file, ["verify-tour", "fly.cert"], data))
+        readers.append(Reader(f"tour checker, {name}", file, [checker, "fly.cert"], data, program=sys.executable))
+    return readers
+
+
 def all_readers(folder: pathlib.Path) -> list[Reader]:
-    return mesh_readers() + map_readers() + raster_readers() + mission_readers() + volume_readers(folder) + certificate_readers(folder)
+    return (mesh_readers() + map_readers() + raster_readers() + mission_readers() + volume_readers(folder)
+            + certificate_readers(folder) + plan_readers(folder) + tour_readers(folder))
 
 
 def to_json(value: object) -> bytes:

@@ -48,7 +48,9 @@ class Run(NamedTuple):
                     return f"prints what a terminal obeys: {line[:200]!r}"
         if b"Traceback (most recent call last)" in self.err:
             return f"prints a traceback: {self.err[-200:]!r}"
-        if self.was_refused and not self.err.startswith((b"REFUSED: ", b"error: ") if self.is_checker else b"vantage: "):
+        is_told = (self.err.startswith((b"REFUSED: ", b"error: ")) or len(self.err.splitlines()) == 1 if self.is_checker
+                   else self.err.startswith(b"vantage: "))  # that of tours says it in one line
+        if self.was_refused and not is_told:
             return f"refuses without a message: {self.err[:200]!r}"
         return ""
 
