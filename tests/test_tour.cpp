@@ -83,8 +83,7 @@ TEST(Tour, TouchesConvexVolumesWhereItIsShortest) {
     Vec3 low = Vec3::Constant(-inner), high = Vec3::Constant(inner), best = Vec3::Zero();
     for (int round = 0; round < 14; ++round) {
       for (int k = 0; k < 343; ++k) {
-        const int x = k % 7, y = k / 7 % 7, z = k / 49;
-        const Vec3 share(x / 6.0, y / 6.0, z / 6.0);
+        const Vec3 share(k % 7 / 6.0, k / 7 % 7 / 6.0, k / 49 / 6.0);
         const Vec3 p = low + share.cwiseProduct(high - low);
         const double way = (a - p).norm() + (p - b).norm();
         if (way < least) {
