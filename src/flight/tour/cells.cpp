@@ -117,6 +117,26 @@ bool Cells::meets_segment(std::size_t region, const Vec3& from, const Vec3& to) 
   return shape.tree->any_near(box, meets) || distance_m(region, from) == 0;
 }
 
+std::vector<std::size_t> Cells::three_far_apart() const {
+  const std::size_t count = region_count();
+  std::vector<std::size_t> three;
+  for (std::size_t r = 0; r < std::min<std::size_t>(count, 3); ++r) three.push_back(r);
+  std::vector<Vec3> at;
+  for (std::size_t r = 0; r < count; ++r) at.push_back(cells_[r]->hull->inside());
+  double longest = -1;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      for (std::size_t k = j + 1; k < count; ++k) {
+        const double length = (at[i] - at[j]).norm() + (at[j] - at[k]).norm() + (at[k] - at[i]).norm();
+        if (length <= longest) continue;
+        longest = length;
+        three = {i, j, k};
+      }
+    }
+  }
+  return three;
+}
+
 /// Of the true cell: the plane is moved back by more than all that rounding does to corners and heights. So the cell
 /// that is kept holds the true one, but for how far its points were rounded along the way: Hull::moved_m.
 std::unique_ptr<Cell> Cells::cut(std::size_t number, const CellPlane& plane) const {

@@ -52,6 +52,9 @@ class Cells {
   double distance_m(std::size_t region, const Vec3& point) const;
   bool meets_segment(std::size_t region, const Vec3& from, const Vec3& to) const;
 
+  /// Three regions between which it is far; all of them where there are fewer. Cost: cubic.
+  std::vector<std::size_t> three_far_apart() const;
+
   /// Two cells that together cover `cell`, and of which, if that can be had, neither hull holds `point` (about the
   /// origin). Either may be empty.
   std::array<std::size_t, 2> halves(std::size_t cell, const Vec3& point);

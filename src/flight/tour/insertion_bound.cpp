@@ -103,23 +103,7 @@ class InsertionSearch {
       if (space_.last) sequence.push_back(static_cast<std::uint32_t>(*space_.last));
       return sequence;
     }
-    const auto count = static_cast<std::uint32_t>(cells_.region_count());
-    for (std::uint32_t r = 0; r < std::min(count, 3U); ++r) sequence.push_back(r);
-    if (count <= 3) return sequence;
-    std::vector<Vec3> at;
-    for (std::uint32_t r = 0; r < count; ++r) at.push_back(cells_[r].hull->inside());
-    double longest = -1;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      for (std::uint32_t j = i + 1; j < count; ++j) {
-        for (std::uint32_t k = j + 1; k < count; ++k) {
-          const double length = (at[i] - at[j]).norm() + (at[j] - at[k]).norm() + (at[k] - at[i]).norm();
-          if (length > longest) {
-            longest = length;
-            sequence = {i, j, k};
-          }
-        }
-      }
-    }
+    for (const std::size_t region : cells_.three_far_apart()) sequence.push_back(static_cast<std::uint32_t>(region));
     return sequence;
   }
 
