@@ -307,6 +307,29 @@ class Tours(unittest.TestCase):
             self.both(lambda c: c.update(turn_radius_m="3"))
             self.both(lambda c: c.update(turn_radius_m=float("nan")))
 
+    def test_turning_needs_every_home(self):
+        """At a home a flight begins in another direction than it ends in: where it is no stop, that may be anywhere."""
+        self.three(0.0)
+        without = self.proved()
+        self.three(3.0)
+        self.assertGreater(self.proved(), without + 1)
+        home = {"name": "home", "kind": "point", "dwell_m": 0.0, "at": [1, 1, 1]}
+        self.refused(lambda c: c["regions"].append(home), "less is proved")
+        self.refused(lambda c: (c["regions"].append(home), c.update(bound_m=without + 1e-6)), "less is proved")
+        certificate = json.loads(self.file.read_text(encoding="ascii"))
+        certificate["regions"].append(home)
+        self.write(certificate)
+        self.assertEqual(self.proved(), without)
+        self.assertEqual(self.accepted(), Fraction(without))
+        certificate["proof"] = {"kind": "insertion", "root": [3, 1, 2],
+                                "tree": [["leaf", self.leaf([[1, 1, 1], middle(1), middle(2)])[1]]]}
+        certificate["turn_radius_m"] = 0.0
+        self.write(certificate)
+        without = self.proved()
+        certificate["turn_radius_m"] = 3.0
+        self.write(certificate)
+        self.assertGreater(self.accepted(), without + 1)
+
     def test_bounds_are_below_tours(self):
         """Random points of the boxes in random orders."""
         numbers = random.Random(20261126)

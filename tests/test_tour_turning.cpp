@@ -104,8 +104,8 @@ TEST(TourTurning, IsNeverAboveATourThatTurns) {
     }
     problem.turn_radius_m = radius;
     problem.closed = ends != Ends::open;
-    if (ends != Ends::none) {  // a place to begin at, in any direction
-      const Vec3 home = boxes[0].min;
+    if (ends != Ends::none) {  // a place to begin at, in any direction: now and then between two boxes
+      const Vec3 home = random.chance(0.5) ? boxes[0].min : Vec3((boxes[0].min + boxes[1].min) / 2);
       boxes.insert(boxes.begin(), Box{});
       boxes[0].min = boxes[0].max = home;
       problem.start = origin + home;
@@ -163,6 +163,35 @@ TEST(TourTurning, IsFreeWhereToursBeginAndEnd) {
   problem.start.reset();
   problem.regions.push_back(OuterRegion::given(make_box_mesh({0, 0, 0}, {0.001, 0.001, 0.001}), "box"));
   EXPECT_GE(bound_tour(problem).length_m, 2000 + 1.8 * turn);
+}
+
+/// A home inside the first of three boxes: a flight from it need not close smoothly, so no turn there may count,
+/// whether the search had to visit the home or meets it on the way.
+TEST(TourTurning, KnowsNothingOfAHomeThatIsMetOnTheWay) {
+  const double radius = 100;
+  std::vector<Box> boxes(1);
+  boxes[0].min = boxes[0].max = Vec3(0, 0, 100);
+  BoundProblem problem;
+  problem.start = boxes[0].min;
+  problem.turn_radius_m = radius;
+  for (const Vec3& at : {Vec3(0, 0, 100), Vec3(1000, 0, 100), Vec3(500, 800, 100)}) {
+    Box box;
+    box.min = at - Vec3(0.5, 0.5, 0.5);
+    box.max = at + Vec3(0.5, 0.5, 0.5);
+    boxes.push_back(box);
+    problem.regions.push_back(OuterRegion::given(make_box_mesh(box.min, box.max), "box"));
+  }
+  Random random(5);
+  // At the first box it is at home: nothing is flown there.
+  std::vector<Box> flown = {boxes[0], boxes[2], boxes[3]};
+  const double tour = short_tour(flown, radius, Ends::home, random);
+  BoundOptions options;
+  options.by_pairs = false;
+  const double bound = bound_tour(problem, {}, options).length_m;
+  EXPECT_LE(bound, tour);
+  EXPECT_GT(bound, 0.99 * tour);
+  const double closed = short_tour({boxes[1], boxes[2], boxes[3]}, radius, Ends::none, random);
+  EXPECT_GT(closed, tour + 10) << "so that a bound of tours without a home would be told apart";
 }
 
 TEST(TourTurning, NeedsRoom) {

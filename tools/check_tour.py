@@ -7,8 +7,8 @@ All is decided with whole numbers; nothing of the program that found the bound i
 the proofs. In short, a leg with a vector u, not longer than 1, is no shorter than its progress along u, so that a tour
 is no shorter than the sum over its stops of the least (u before - u behind) . v over the corners v of its region. The
 tree covers all tours: "insert" puts a region behind each stop, "cut" takes both sides of a plane, "edge" fixes an edge
-in the tour, then out of it. That regions hold all that is to be visited only their files say ("outer" or "given").
-Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
+in and out. That regions hold all that is to be visited only their files say. Exit code: 0 accepted, 1 refused, 2 a file
+that cannot be read."""
 
 import argparse, hashlib, json, math, re, struct, sys  # noqa: E401
 from fractions import Fraction
@@ -180,8 +180,7 @@ def room(start, u, end):
     return start.least((-u[0], -u[1], 0)) + end.least((u[0], u[1], 0))
 
 def leaf_of_insertion(tour, stops, vectors):
-    """A stop with a dwell is two points, with a leg between that counts as so long at least."""
-    points, stays = [], []
+    points, stays = [], []  # a stop with a dwell is two points, with a leg between that counts as so long at least
     for cell, stay in ((cell, tour.dwell[cell.region]) for cell in stops):
         points, stays = (points + [cell, cell], stays + [stay, 0]) if stay else (points + [cell], stays + [0])
     demand(len(vectors) == len(points) - (not tour.closed or len(points) == 1), "vectors for another number of legs")
@@ -189,7 +188,8 @@ def leaf_of_insertion(tour, stops, vectors):
     ends = vectors[-1:] + vectors if tour.closed else [(0, 0, 0)] + vectors + [(0, 0, 0)]
     around = list(zip(points if vectors else [], ends, ends[1:]))  # a stop, the vectors of its legs
     total = sum(cell.least(tuple(a - b for a, b in zip(before, behind))) for cell, before, behind in around)
-    turns = [(c, u, v) for c, u, v in around if u != v or c.region in tour.places] if tour.radius else []
+    turned = tour.radius and tour.places <= {c.region for c in points}  # elsewhere a flight could begin on the way
+    turns = [(c, u, v) for c, u, v in around if u != v or c.region in tour.places] if turned else []
     rooms = [room(turns[k - 1][0], u, c) for k, (c, u, v) in enumerate(turns)]
     total += sum(turning(tour, *turn, both) for turn, both in zip(turns, zip(rooms, rooms[1:] + rooms[:1])))
     return total + sum(s * (UNIT - 1 - math.isqrt(dot(v, v) - 1) if any(v) else UNIT) for v, s in zip(vectors, stays))
@@ -274,7 +274,7 @@ def check_pairs(tour, proof):
 
 def check(path, say=print):
     try:
-        certificate = json.loads(path.read_text(encoding="ascii"), parse_constant=float,
+        certificate = json.loads(path.read_text(encoding="ascii") if path.is_file() else "", parse_constant=float,
                                  object_pairs_hook=lambda p: demand(len(dict(p)) == len(p), "a key twice") or dict(p),
                                  parse_float=lambda t: parsed(t, float, 40), parse_int=lambda t: parsed(t, int, 16))
         tour, proof = Tour(certificate, path.parent), certificate["proof"]

@@ -16,6 +16,8 @@ namespace vantage {
 struct TargetVolume {
   Mesh mesh;              ///< closed, outward oriented, does not pass through itself; scene frame, metres
   double rounding_m = 0;  ///< how far the numbers of its file may have moved its surface, as the file says
+  /// Its file says that vantage computed it: it lies inside of where its target is seen, and may be smaller.
+  bool is_computed = false;
 };
 
 /// As the user states it, in the scene frame, metres. See docs/theory.md for what "seen" means.

@@ -215,6 +215,7 @@ void read_target_volume(Mission& mission, const core::ProgressReporter& progress
          "says where on the earth it lies, and the scene does not: it is taken to be in the frame of the scene");
   }
   const auto& made = read.volume.provenance;
+  volume->is_computed = made.has_value();
   if (made && !made->scene_hash.empty() && made->scene_hash != scene_hash(scene)) {
     note(WarningCode::volume_of_other_scene, "says that it was computed in another scene than the mission's");
   }

@@ -34,6 +34,15 @@ struct Stop {
   Direction before, behind;  // vectors of its legs
 };
 
+/// At a place a flight may begin in another direction than it ends in. If it is no stop, that may happen on any leg.
+bool has_all_places(const JudgedTour& tour, const std::vector<Cell*>& stops) {
+  for (std::size_t region = 0; region < tour.is_place.size(); ++region) {
+    const auto is_it = [&](const Cell* cell) { return cell->region() == region; };
+    if (tour.is_place[region] && std::none_of(stops.begin(), stops.end(), is_it)) return false;
+  }
+  return true;
+}
+
 /// Where the vector stays the same, it does not matter where along the track the stop is.
 Whole turning_of(const JudgedTour& tour, const std::vector<Stop>& stops) {
   std::vector<Stop> turns;
@@ -78,7 +87,7 @@ Whole leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::v
     around.push_back({points[k], before, has_behind ? vectors[k] : Direction{}});
     total += points[k]->least(difference(before, around.back().behind));
   }
-  if (tour.turn_radius.sign() > 0) total += turning_of(tour, around);
+  if (tour.turn_radius.sign() > 0 && has_all_places(tour, stops)) total += turning_of(tour, around);
   for (std::size_t k = 0; k < vectors.size(); ++k) {
     // A stay may be longer than the way between its points: what the vector leaves of it counts.
     if (stays[k].sign() > 0) total += stays[k] * Whole(kUnit - root_up(square_of(vectors[k])));

@@ -123,12 +123,16 @@ std::vector<std::size_t> Cells::three_far_apart() const {
   for (std::size_t r = 0; r < std::min<std::size_t>(count, 3); ++r) three.push_back(r);
   std::vector<Vec3> at;
   for (std::size_t r = 0; r < count; ++r) at.push_back(cells_[r]->hull->inside());
+  const auto is_point = [&](std::size_t r) { return cells_[r]->hull->is_point() ? 1 : 0; };
+  int most_points = 0;
   double longest = -1;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
       for (std::size_t k = j + 1; k < count; ++k) {
         const double length = (at[i] - at[j]).norm() + (at[j] - at[k]).norm() + (at[k] - at[i]).norm();
-        if (length <= longest) continue;
+        const int points = is_point(i) + is_point(j) + is_point(k);
+        if (points < most_points || (points == most_points && length <= longest)) continue;
+        most_points = points;
         longest = length;
         three = {i, j, k};
       }

@@ -52,7 +52,8 @@ class Cells {
   double distance_m(std::size_t region, const Vec3& point) const;
   bool meets_segment(std::size_t region, const Vec3& from, const Vec3& to) const;
 
-  /// Three regions between which it is far; all of them where there are fewer. Cost: cubic.
+  /// Three regions between which it is far, points among them before all others; all of them where there are fewer.
+  /// Cost: cubic.
   std::vector<std::size_t> three_far_apart() const;
 
   /// Two cells that together cover `cell`, and of which, if that can be had, neither hull holds `point` (about the

@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "flight/tour/tour_detour.h"
 #include "flight/tour/turning.h"
 
 namespace vantage::internal::flight::tour {
@@ -20,19 +21,6 @@ constexpr std::size_t kAtOnce = 4;  // programs that are solved at once
 constexpr std::size_t kMostOrders = 20;
 constexpr double kPrecision = 0.01;  // of a program, in parts of the gap that is asked for
 constexpr double kTouches = 1e-6;    // of the size: a region so near to the polyline is met
-
-/// Lengths of a detour by a point at distance d from a leg are not less than this.
-double least_detour(double distance, double leg) {
-  const double half = 0.5 * leg;
-  return 2 * (std::sqrt(distance * distance + half * half) - half);
-}
-
-double distance_to_leg(const Vec3& point, const Vec3& from, const Vec3& to) {
-  const Vec3 along = to - from;
-  const double squared = along.squaredNorm();
-  const double place = squared > 0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (from + place * along - point).norm();
-}
 
 enum class Origin : std::uint8_t { root, inserted, cut };
 
@@ -56,7 +44,10 @@ class InsertionSearch {
                   const core::ProgressReporter& progress)
       : cells_(cells), space_(space), options_(options), progress_(progress) {
     Box all;
-    for (std::size_t r = 0; r < cells_.region_count(); ++r) all.extend(cells_[r].hull->box());
+    for (std::size_t r = 0; r < cells_.region_count(); ++r) {
+      all.extend(cells_[r].hull->box());
+      if (cells_[r].hull->is_point()) points_.push_back(static_cast<std::uint32_t>(r));
+    }
     size_ = (all.max - all.min).norm();
     precision_ = std::clamp(kPrecision * options_.gap, 1e-7, 1e-4);
   }
@@ -124,6 +115,13 @@ class InsertionSearch {
     program.at_least_m.resize(program.leg_count());
     if (!any_dwell) program.at_least_m.clear();
     return program;
+  }
+
+  /// At a point a flight may begin in another direction than it ends in. If it is no stop, that may happen on any leg.
+  bool has_all_points(const std::vector<std::uint32_t>& sequence) const {
+    return std::all_of(points_.begin(), points_.end(), [&](std::uint32_t point) {
+      return std::find(sequence.begin(), sequence.end(), point) != sequence.end();  // points are never cut
+    });
   }
 
   /// Of the points of a sequence, the last one of a stop.
@@ -211,7 +209,7 @@ class InsertionSearch {
     const TouringProgram program = program_of(outcome.sequence);
     TouringSolution& solution = outcome.solution;
     solution = solve_touring(program, options);
-    if (space_.turn_radius_m > 0) {
+    if (space_.turn_radius_m > 0 && has_all_points(outcome.sequence)) {
       solution.directions = straightened(program, std::move(solution.directions), space_.turn_radius_m, options);
       solution.bound_m = touring_bound(program, solution.directions) +
                          turning_bound(program, solution.directions, space_.turn_radius_m);
@@ -581,6 +579,7 @@ class InsertionSearch {
   const core::ProgressReporter& progress_;
   core::Stopwatch watch_;
   double size_ = 0, precision_ = 0;
+  std::vector<std::uint32_t> points_;  // regions
   double ended_ = std::numeric_limits<double>::infinity();
   std::vector<Node> nodes_;
   std::priority_queue<Entry> heap_;

@@ -209,6 +209,17 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   return bound;
 }
 
+/// A computed volume is a right region to fly through, but its bound is none of flights that see its target.
+void note_computed(const Mission& mission, std::vector<std::string>& notes) {
+  for (const Mission& one : each_of(mission)) {
+    if (!is_volume(one) || !one.target.volume->is_computed) continue;
+    notes.push_back(
+        "the volume '" + one.target.name +
+        "' was computed, and lies inside of where its target is seen: flights through other places that see "
+        "it may be shorter than the bound");
+  }
+}
+
 /// Where the vehicle is when a target is in view, the middle of it.
 Vec3 view_position(const Flight& flight, const TourVisit& visit) {
   return (flight.points[visit.first_point].position + flight.points[visit.last_point].position) / 2;
@@ -251,6 +262,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   if (const auto note = tour::note_of_narrow_zones(mission, result.settings, result.tour)) {
     result.notes.push_back(*note);
   }
+  note_computed(mission, result.notes);
   if (!mission.links.empty()) {
     result.notes.emplace_back("the mission has links, and tours are not planned for them: check the plan");
   }

@@ -1,13 +1,28 @@
-// The point of a plane, a line or a triangle with the shortest way from a to it and on to b.
+// How long a detour is: the point of a plane, a line or a triangle with the shortest way from a to it and on to b, and
+// bounds of it.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "vantage/geometry.h"
 
 namespace vantage::internal::flight::tour {
+
+/// By how much at least a detour by a point at this distance from a leg of this length is longer than the leg.
+inline double least_detour(double distance, double leg) {
+  const double half = 0.5 * leg;
+  return 2 * (std::sqrt(distance * distance + half * half) - half);
+}
+
+inline double distance_to_leg(const Vec3& point, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from;
+  const double squared = along.squaredNorm();
+  const double place = squared > 0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (from + place * along - point).norm();
+}
 
 /// Where the way from a to b is shortest that touches a flat: `pa` and `pb` are their projections on it, `ha` and `hb`
 /// their distances from it. Turned about the flat into one plane, on two sides of it, the way is straight (Heron).

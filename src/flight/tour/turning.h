@@ -1,10 +1,11 @@
 // What a limit on turning adds to a bound: docs/theory.md, "Tours".
 //
-// Let the track over ground curve no tighter than a circle of radius r. A vector u, of length 1 at most, bounds a leg
-// by its progress along u. Each metre over ground of a track that heads at an angle t from u is longer than its
-// progress by |u_h| (1 - cos t), u_h the part of u that is level. Where the vectors of two legs are at an angle, the
-// track heads apart from one of them at least, and needs r t metres to turn by t, which costs r (t - sin t): more than
-// r min(|u_h|, |v_h|) 2 (t / 2 - sin(t / 2)) in all for an angle t between u_h and v_h.
+// Let the track over ground curve no tighter than a circle of radius r. A leg with a vector u, of length 1 at most, is
+// no shorter than its progress along u. If the track heads at an angle t from u, each metre of it is longer than its
+// progress by |u_h| (1 - cos t), where u_h is the level part of u. To turn by t takes r t metres or more, which costs
+// |u_h| r (t - sin t). At the stop between two legs with vectors u and v, let t be the angle between u_h and v_h: the
+// angles of the track to both are t or more together. That costs least if both are t / 2, so
+// 2 r min(|u_h|, |v_h|) (t / 2 - sin(t / 2)) at least.
 #pragma once
 
 #include <span>
@@ -23,8 +24,8 @@ double turning_part(const Direction& before, const Direction& behind, double bef
 /// How far `to` is at least from `from`, along what of the vector is level: rounded down, 0 or more.
 double level_distance_m(const Hull& from, const Hull& to, const Direction& direction);
 
-/// Of a whole sequence: this may be added to touring_bound of the same vectors. At points, where a flight begins and
-/// ends, vehicles may turn on the spot.
+/// Of a whole sequence: this may be added to touring_bound of the same vectors, if all points are among its stops. At
+/// points, where a flight begins and ends, it may head in another direction.
 double turning_bound(const TouringProgram& program, std::span<const Direction> directions, double radius_m);
 
 /// Vectors for which both together are larger, if such are found: where a tour hardly turns at a stop, the vectors of a
