@@ -20,7 +20,7 @@ pytest.importorskip("geopandas")
 import pyarrow.parquet  # noqa: E402
 
 import vantage.batch as batch  # noqa: E402
-from vantage.batch import _rows, _table  # noqa: E402
+from vantage.batch import _parquet, _rows, _table  # noqa: E402
 
 PIERCED = [[25, 0, -5], [25, 1, -5], [25, 0, 5]]
 PLAZA = PROJECT / "examples" / "plaza" / "plaza.obj"
@@ -370,6 +370,13 @@ def test_rows_become_the_same_bytes():
     assert _rows.to_bytes([row], columns) == _rows.to_bytes([row], columns)
     assert _rows.of_bytes(_rows.to_bytes([row], columns)).schema.metadata[b"version"] == b"x"
     assert _rows.of_bytes(b"") is None and _rows.of_bytes(_rows.to_bytes([row], columns)[:-9]) is None
+
+
+def test_readers_of_arrow_hold_nothing_of_python():
+    data = bytes(1000)
+    count = sys.getrefcount(data)
+    file = _parquet.memory_file(data)
+    assert sys.getrefcount(data) == count and file.read() == data
 
 
 def test_tables_are_the_same_whatever_they_come_as(tmp_path):

@@ -13,6 +13,7 @@ from .. import _arrays
 from .._errors import Error
 from .._extras import require
 from .._result import Result
+from . import _parquet
 from ._table import Id
 
 CAUSES = 5
@@ -107,8 +108,7 @@ def to_bytes(rows: list[dict[str, Any]], columns: Any) -> bytes:
 
 def of_bytes(data: bytes) -> Any:
     """A file of rows, as a table of pyarrow; None where it is not whole."""
-    arrow, parquet = require("pyarrow", "batch"), require("pyarrow.parquet", "batch")
     try:
-        return parquet.read_table(arrow.BufferReader(data))
-    except (arrow.ArrowInvalid, OSError):
+        return _parquet.read(data)
+    except (require("pyarrow", "batch").ArrowInvalid, OSError):
         return None

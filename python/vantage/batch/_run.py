@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import io
 import json
 import os
 import time
@@ -18,7 +17,7 @@ from .._requests import Navigation, Path, Sensor
 from .._result import _sensor
 from .._progress import Listener, Progress, listener
 from .._scene import Scene
-from . import _geometry, _manifest, _rows, _scenes, _seals, _table, _work
+from . import _geometry, _manifest, _parquet, _rows, _scenes, _seals, _table, _work
 from ._dask import DaskWorkers
 from ._lock import Lock
 from ._manifest import REPORT, RESULTS
@@ -153,7 +152,7 @@ def results(output: Path, storage_options: Mapping[str, Any] | None = None) -> A
     if hashlib.sha256(data).hexdigest() != _written(told):
         raise make("input", "file-changed", f"the results are not those that the run wrote, by the hash in {REPORT}",
                    store.where(RESULTS), "run it again: it goes on where it was", None)
-    return require("geopandas", "geo").read_parquet(io.BytesIO(data))
+    return require("geopandas", "geo").read_parquet(_parquet.memory_file(data))
 
 
 def _written(report: bytes) -> str | None:

@@ -13,6 +13,7 @@ import numpy as np
 from .._errors import Error, input_error
 from .._extras import require
 from .._requests import Target, given
+from . import _parquet
 
 Id = Union[int, str]
 
@@ -85,10 +86,9 @@ def _of_file(path: str, options: Mapping[str, Any]) -> tuple[Iterable[Mapping[st
     if path.lower().endswith((".geojson", ".json")):
         return _of_geojson(data, path)
     if path.lower().endswith((".parquet", ".geoparquet", ".pq")):
-        arrow, parquet = require("pyarrow", "batch"), require("pyarrow.parquet", "batch")
         try:
-            return _of_arrow(parquet.read_table(arrow.BufferReader(data)))
-        except (arrow.ArrowInvalid, OSError) as error:
+            return _of_arrow(_parquet.read(data))
+        except (require("pyarrow", "batch").ArrowInvalid, OSError) as error:
             raise input_error("table-syntax", f"is no Parquet file: {error}", path, "write it anew") from None
     raise input_error("table-syntax", "is no table that can be read, by its name", path,
                       "write .parquet (also GeoParquet) or .geojson, or read it yourself and pass the rows")
