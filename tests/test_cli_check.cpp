@@ -9,6 +9,7 @@
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
 #include "support/plan_texts.h"
+#include "support/wording.h"
 
 namespace vantage::testing {
 namespace {
@@ -88,6 +89,21 @@ TEST_F(CliCheck, WhatIsNotFlownIsTold) {
   // There, back by the jump, and there again.
   EXPECT_NEAR(answer["length_m"].get<double>(), 3 * 0.0002 * 111200, 0.2);
   EXPECT_EQ(Json::parse(content(folder_ / "old.json")), answer);
+}
+
+// A pilot behind the building, given as a place on the ground or in coordinates of a system: the same check.
+TEST_F(CliCheck, LinksOfAMapAreJudged) {
+  write("a.csv", "lat,lon,agl\n48.00004,10.9995,5\n48.00004,11.0007,5\n");
+  std::vector<std::string> told;
+  for (const std::string place : {"at: [48.00004, 11.0008], height: 1.7", "point: [649247.4322, 5318241.6083, 1.7]"}) {
+    write("links.yaml",
+          "crs: EPSG:32632\n" + content(folder_ / "map.yaml") + "links:\n  - {name: pilot, " + place + "}\n");
+    const ProgramRun check = run({"check", "links.yaml", "a.csv"});
+    EXPECT_EQ(check.exit_code, 1) << check.err;
+    told.push_back(check.out);
+  }
+  EXPECT_EQ(told[0], told[1]);
+  expect_wording(told[0]);
 }
 
 }  // namespace

@@ -114,6 +114,40 @@ def test_a_tour_through_the_fewest_positions():
     assert refused(lambda: vt.tour(mission, positions=[[0, 0, float("nan")]] * 3)).code == "coordinate-not-finite"
 
 
+def boxes_ply(path, low, high):
+    """A box as a closed mesh."""
+    corners = [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+             (1, 5, 7), (1, 7, 3)]
+    path.write_text("\n".join([
+        "ply", "format ascii 1.0", "element vertex 8", *(f"property double {axis}" for axis in "xyz"), "element face 12",
+        "property list uchar int vertex_indices", "end_header", *(" ".join(map(str, corner)) for corner in corners),
+        *(f"3 {a} {b} {c}" for a, b, c in faces)]) + "\n")
+    return path
+
+
+def test_volumes_are_flown_through(tmp_path):
+    """The flight stays in each for the dwell; the check says where it is inside; the bound is the way between them."""
+    west = boxes_ply(tmp_path / "west.ply", [-70, -10, 10], [-50, 10, 30])
+    east = boxes_ply(tmp_path / "east.ply", [50, -60, 10], [70, -50, 30])
+    mission = vt.Mission.of(placed(), [vt.Target(volume=west), vt.Target(volume=str(east), name="second")], combine="each",
+                            tour={"view": {"dwell": 0, "margin": 0}, "clearance": 1, "gap": 0.1, "time_limit": 5})
+    tour = vt.tour(mission)
+    apart = 2 * np.hypot(100, 40)  # there and back
+    assert tour.is_complete and 0.99 * apart < tour.bound.length_m <= apart + 1e-6
+    assert apart - 1e-6 < tour.length_m < 1.1 * apart
+    check = tour.check()
+    assert [target.name for target in check.targets] == ["west", "second"]
+    for target, low, high in zip(check.targets, ([-70, -10, 10], [50, -60, 10]), ([-50, 10, 30], [70, -50, 30])):
+        assert target.seen
+        for span in target.seen:
+            for place in (span.begin, span.end):
+                assert np.all(place >= np.subtract(low, 1e-6)) and np.all(place <= np.add(high, 1e-6))
+    for wrong, code in ((vt.Target(volume=west, point=[0, 0, 0]), "conflicting-keys"),
+                        (vt.Target(volume=tmp_path / "none.ply"), "file-not-found")):
+        assert refused(lambda: vt.Mission.of(placed(), wrong)).code == code
+
+
 def test_what_cannot_be_reached_is_left_out():
     """All from which the second square is seen lies nearer to the tower than the clearance."""
     squares = [[[x, y, 0], [x + 2, y, 0], [x + 2, y + 2, 0], [x, y + 2, 0]] for x, y in ((-60, 0), (17, 0))]

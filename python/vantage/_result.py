@@ -401,10 +401,11 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
         text.add_items("targets", keys, names)
     if combine != "all":
         text.add("combine", combine)
-    limits = _sensor(sensor, max_range)
-    if isinstance(limits.get("camera"), str):
-        limits["camera"] = {"model": limits["camera"]}
-    if limits or any(one.volume is None for one in targets):  # what is only flown through needs none
+    is_sensed = any(one.volume is None for one in targets)  # what is only flown through needs no sensor
+    if is_sensed or sensor is not None or max_range is not None:
+        limits = _sensor(sensor, max_range)
+        if isinstance(limits.get("camera"), str):
+            limits["camera"] = {"model": limits["camera"]}
         text.add("sensor", limits)
     meshes: Meshes = []
     if navigation is not None:
