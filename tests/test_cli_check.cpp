@@ -106,5 +106,23 @@ TEST_F(CliCheck, LinksOfAMapAreJudged) {
   expect_wording(told[0]);
 }
 
+// Heights above a home that the mission puts on a roof.
+TEST_F(CliCheck, TheHomeOfTheTourKeepsItsHeight) {
+  write("a.csv", "lat,lon,height_home_m\n48.0001,11.0001,20\n48.0002,11.0001,20\n");
+  for (const double z : {0.0, 4.0}) {
+    write("home.yaml", content(folder_ / "map.yaml") + "tour: {home: [-20, -20, " + std::to_string(z) + "]}\n");
+    const Json answer = Json::parse(run({"check", "home.yaml", "a.csv", "--json"}).out);
+    EXPECT_NEAR(answer["points"][0]["position"]["z_m"].get<double>(), 20 + z, 1e-9) << answer["points"][0];
+  }
+}
+
+TEST_F(CliCheck, WhatLiesBeyondTheMapIsTold) {
+  write("a.csv", "lat,lon,agl\n48,11.0001,30\n48,11.0002,30\n");
+  write("far.yaml", content(folder_ / "map.yaml") + "links:\n  - {name: mast, point: [2000, 0, 30]}\n");
+  const ProgramRun check = run({"check", "far.yaml", "a.csv", "--json"});
+  expect_wording(check.err);
+  EXPECT_EQ(Json::parse(check.out)["notes"].size(), 1U);
+}
+
 }  // namespace
 }  // namespace vantage::testing

@@ -369,6 +369,66 @@ TEST(FlightGimbal, KnowsWhereItNeedNotTurnFast) {
   EXPECT_EQ(internal::flight::slow_turns({{-1, 0, 0}, {1, 0, 0}}, {0, 0, 0}, 1, 1).size(), 2U);
 }
 
+/// Whoever flies beside the leg, or not quite along it, turns no faster where it is said to be slow; and hardly more is
+/// left out than must be.
+TEST(FlightGimbal, KnowsWhereItNeedNotTurnFastBesideALeg) {
+  Random random(11);
+  int slow = 0, fast = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Leg leg{random.point(-10, 10), random.point(-10, 10)};
+    const Vec3 to = random.point(-10, 10);
+    const double rate = random.uniform(5, 90), speed = random.uniform(0.5, 5);
+    const internal::flight::OffPiece off = {random.uniform(0, 1), random.chance(0.5) ? 0 : random.uniform(0, 0.3)};
+    const std::vector<LegInterval> found = internal::flight::slow_turns(leg, to, speed, rate, off);
+    for (int i = 0; i < 200; ++i) {
+      const double share = random.uniform(0, 1);
+      const Vec3 at = leg.from + share * (leg.to - leg.from), along = (leg.to - leg.from).normalized();
+      const bool is_slow = std::any_of(found.begin(), found.end(), [&](const LegInterval& interval) {
+        return share >= interval.begin && share <= interval.end;
+      });
+      if (!is_slow) {
+        const double most =
+            internal::flight::fastest_turn_deg_s({at - 1e-9 * along, at + 1e-9 * along}, to, speed, off);
+        EXPECT_GE(most, rate * (1 - 1e-6)) << "trial " << trial;
+        ++fast;
+        continue;
+      }
+      ++slow;
+      const Vec3 beside = at + off.reach_m * random.uniform(0, 1) * random.direction();
+      const Vec3 turned = (along + off.aside * random.direction()).normalized();
+      if ((turned - along).norm() > off.aside) continue;
+      EXPECT_LE(internal::flight::fastest_turn_deg_s({beside, beside + 1e-7 * turned}, to, speed), rate * (1 + 1e-5))
+          << "trial " << trial;
+    }
+  }
+  EXPECT_GT(slow, 5000);
+  EXPECT_GT(fast, 5000);
+}
+
+/// A curve turns from its chord: in the middle of the chord it is in another place, at the ends in another direction.
+TEST(FlightGimbal, ACurveIsOffItsChord) {
+  Random random(12);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double radius = random.uniform(5, 50), half = random.uniform(0.01, 0.5), speed = 10;
+    const auto at = [&](double angle) { return Vec3(radius * std::sin(angle), radius * std::cos(angle), 0); };
+    const Leg chord{at(-half), at(half)};
+    const double error = radius * (1 - std::cos(half)) * (1 + 1e-9);
+    const Vec3 to = 2 * radius * random.direction();
+    const double most =
+        internal::flight::fastest_turn_deg_s(chord, to, speed, internal::flight::off_chord(chord, error, error));
+    const auto pitch = internal::flight::pitch_range(chord, to, error);
+    for (int i = 0; i <= 20; ++i) {
+      const double angle = half * (i / 10.0 - 1);
+      const Vec3 ahead = {std::cos(angle), -std::sin(angle), 0};
+      EXPECT_LE(internal::flight::fastest_turn_deg_s({at(angle), at(angle) + 1e-7 * ahead}, to, speed),
+                most * (1 + 1e-5));
+      const double here = internal::flight::aim_at(at(angle), to).pitch_deg;
+      EXPECT_GE(here, pitch.min_deg - 1e-6);
+      EXPECT_LE(here, pitch.max_deg + 1e-6);
+    }
+  }
+}
+
 /// What passes by fast may be followed while it hovers, or far away.
 TEST(FlightCheck, TheCameraNeedsToFollowForTheDwellAlone) {
   const Mission mission = behind_a_wall();

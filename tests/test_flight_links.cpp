@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "flight/along.h"
+#include "query/leg_link.h"
+#include "query/link_query.h"
 #include "support/flight_cases.h"
 #include "support/legs.h"
 #include "support/random.h"
@@ -97,6 +99,7 @@ void compare_with_points(std::uint64_t seed, bool is_radio) {
       const double share = random.uniform(0, 1);
       const Vec3 centre = along.position(leg, share);
       const Vec3 position = centre + radius * (1 - 1e-9) * random.uniform(0, 1) * random.direction();
+      const double farthest_in_tube = (centre - link.point).norm() + radius;
       farthest = std::max(farthest, (position - link.point).norm());
       const auto [is_in, to_end] = where_linked(link, along.at_m(leg, share));
       if (is_in) {
@@ -105,6 +108,10 @@ void compare_with_points(std::uint64_t seed, bool is_radio) {
       } else if (radius == 0 && to_end > 0.01) {
         ++lost;
         ASSERT_FALSE(is_linked(mission, position, 2.1e-3)) << "trial " << trial << ", " << position.transpose();
+      } else if (is_radio && to_end > 0.01 && farthest_in_tube <= mission.links[0].max_range_m.value_or(1e9)) {
+        ++lost;  // for a tube the zone is longer by twice its radius, and no more than that
+        ASSERT_FALSE(is_linked(mission, centre, 2 * radius + 2.1e-3))
+            << "trial " << trial << ", " << centre.transpose();
       }
     }
     ASSERT_LE(farthest, link.farthest_m + 1e-9);
@@ -191,6 +198,28 @@ TEST(FlightLinks, TextsTellThem) {
   const std::string table = csv_text(check);
   EXPECT_NE(table.find("pilot,linked,,0,"), std::string::npos) << table;
   EXPECT_NE(table.find("pilot,link_hidden,wall,"), std::string::npos) << table;
+}
+
+TEST(FlightLinks, SayWhichOfThemCannotBegin) {
+  Mission mission = behind_one_wall();
+  mission.links[0].point = {0, 10, 5};  // on the wall
+  expect_code([&] { check_flight(mission, past_the_wall()); }, ErrorCode::target_pierced, "links[0]");
+}
+
+/// The ground is so near that it enters the zone of some vehicle in the tube, and of none on the leg itself: nothing is
+/// halved to the end over that.
+TEST(FlightLinks, ATubeNeedsFewPieces) {
+  SceneBuilder builder;
+  builder.ground("ground", 400, 0);
+  const PreparedScene scene(builder);
+  const internal::query::LinkQuery link(scene.data(), {0, 0, 30}, {2.4, 0.6});
+  const Leg leg{{20, 20, 25}, {150, 60, 30}};
+  const auto pieces = [&](double radius) {
+    return internal::query::link_parts(link, scene.data().origin, leg, radius, 1e-9).size();
+  };
+  EXPECT_EQ(pieces(0), 0U);
+  EXPECT_GT(pieces(15), 0U);
+  EXPECT_LT(pieces(15), 200U);
 }
 
 TEST(FlightLinks, AreReadAndWritten) {

@@ -259,6 +259,8 @@ TEST(MissionTourLimits, OpenFlightsInNarrowZonesSayWhatTheyLack) {
   mission.navigation.keep_in[0].max.y() = 81;
   EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
   mission.navigation.keep_in[0].max.y() = 79;
+  tour.problems.push_back({TourProblem::Kind::no_place, 2, 0, "a tower"});
+  EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour)) << "it may be the tower";
   tour.problems.clear();
   EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
 }

@@ -141,6 +141,7 @@ struct FlightCheck {
   std::vector<BrokenLimit> broken;   ///< of navigation
   NearestPass nearest;
   std::vector<std::string> failures;  ///< what is required and does not hold, a sentence each
+  std::vector<std::string> notes;     ///< what to know before relying on it, a sentence each
 
   bool passes() const { return failures.empty(); }
 };
@@ -152,7 +153,8 @@ struct FlightCheck {
 /// own, as with Combine::each.
 ///
 /// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/leg_query.h), which err on the safe side.
-/// With a tube of radius R, what is said holds for every position within R of the flight.
+/// With a tube of radius R, what is said holds for every position within R of the flight, but for the yaw of the
+/// camera.
 ///
 /// Threads: those of the caller's arena. Throws Error(input) as check_flight_points, prepare_views and LegViews do, for
 /// an option that is negative or not finite, and where a dwell or a rate is asked of a flight without speeds;

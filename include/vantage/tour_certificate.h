@@ -37,9 +37,9 @@ struct TourCertificateCheck {
   std::optional<double> proved_m = std::nullopt;
   /// Of the tours that the bound is of: their track over ground curves no tighter but at points; 0: it may.
   double turn_radius_m = 0;
-  bool closed = true;                          ///< of tours that end where they begin
-  std::string kind;                            ///< of the proof: "insertion", "pairs" (docs/theory.md, "Tours")
-  std::size_t nodes = 0;                       ///< of its tree
+  bool closed = true;     ///< of tours that end where they begin; in the same direction, but at a point
+  std::string kind;       ///< of the proof: "insertion", "pairs" (docs/theory.md, "Tours")
+  std::size_t nodes = 0;  ///< of its tree
   std::vector<TourCertificateRegion> regions;  ///< no tour that visits them all is shorter
 };
 

@@ -35,7 +35,7 @@ struct TourHome {
 struct TourSettings {
   TourVehicle vehicle;
   std::optional<TourHome> home = std::nullopt;  ///< nothing: the tour begins anywhere
-  bool closed = true;                           ///< it returns to where it began
+  bool closed = true;  ///< it returns to where it began; without a home in the same direction, too
 
   /// For so long each target is in view without a break: 0 to 86,400. A shortest tour would only touch the volumes, so
   /// it is not 0 by default. A multirotor hovers where it does not fly through the volume for that long.

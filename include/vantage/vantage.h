@@ -26,6 +26,7 @@
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/kept_volumes.h"
+#include "vantage/known_data.h"
 #include "vantage/leg_query.h"
 #include "vantage/mission.h"
 #include "vantage/mission_tour.h"

@@ -277,6 +277,7 @@ void bind_flights(nb::module_& module) {
       .def_prop_ro("broken", &broken_rows)
       .def_prop_ro("nearest", &nearest_row)
       .def_prop_ro("failures", [](const PyFlightCheck& c) { return c->failures; })
+      .def_prop_ro("notes", [](const PyFlightCheck& c) { return c->notes; })
       .def("json", &json_of)
       .def("csv", [](const PyFlightCheck& c) { return csv_text(*c.check); });
   module.def("check_flight", &check, "mission"_a, "flight"_a, "tube_m"_a, "speed_m_s"_a, "dwell_s"_a, "clearance_m"_a,

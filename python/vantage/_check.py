@@ -176,6 +176,7 @@ class FlightCheck:
         broken: limits of navigation that are broken, a `BrokenLimit` each.
         nearest: where it comes nearest to the scene, but for its ground; None where there is nothing to come near to.
         failures: what is required and does not hold, a sentence each.
+        notes: what to know before relying on it, a sentence each.
         length_m, duration_s: of the flight; the duration is NaN where a speed is missing.
         tube_m: all is said for every position so near to the flight; with `Flight.chord_error_m`.
         at_m, arrival_s: (n,), how far along the flight each of its points is, and when it is reached.
@@ -196,6 +197,7 @@ class FlightCheck:
         self.nearest: NearestPass | None = None if near is None else NearestPass(
             near[0], near[1], np.array(near[2]), np.array(near[3]), near[4])
         self.failures: list[str] = core.failures
+        self.notes: list[str] = core.notes
         self.length_m: float = core.length_m
         self.duration_s: float = core.duration_s
         self.tube_m: float = core.tube_radius_m

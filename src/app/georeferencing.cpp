@@ -380,7 +380,7 @@ void georeference(Mission& mission, const Progress& progress) {
     if (!target.target_file) continue;
     with_place(target.place, [&] {
       if (target.target_file->is_volume) {
-        read_target_volume(mission, reporter, target);
+        read_target_volume(mission, progress, target);
       } else {
         read_target_file(mission, *frame, reporter, target);
       }

@@ -37,7 +37,13 @@ void parse_place(const YamlNode& node, const std::string& what, const ValueReade
     reader.fail(ErrorCode::wrong_type, *at, what + ".at must be two numbers, not " + describe(*at), form);
   }
   link.at_deg = {reader.angle(at->items[0], what + ".at[0]"), reader.angle(at->items[1], what + ".at[1]")};
-  if (height) link.height_m = reader.positive_length(*height, what + ".height");
+  if (height) {
+    link.height_m = reader.length(*height, what + ".height");
+    if (link.height_m < 0) {
+      reader.fail(ErrorCode::value_out_of_range, *height, what + ".height is below the ground",
+                  "write metres above it");
+    }
+  }
 }
 
 void parse_reach(const YamlNode& node, const std::string& what, const ValueReader& reader, MissionLink& link) {

@@ -200,12 +200,12 @@ void read_target_file(const Mission& mission, const geo::LocalFrame& frame, cons
   }
 }
 
-void read_target_volume(Mission& mission, const core::ProgressReporter& progress, MissionTarget& given) {
+void read_target_volume(Mission& mission, const Progress& progress, MissionTarget& given) {
   const TargetFile from = *given.target_file;
   const Scene& scene = mission.scene();
-  VolumeFile read = read_volume(from.file, scene);
+  VolumeFile read = read_volume(from.file, scene, progress);
   auto volume = std::make_shared<TargetVolume>();
-  volume->mesh = core::checked_solid(read.volume.mesh, from.name, progress);
+  volume->mesh = core::checked_solid(read.volume.mesh, from.name, core::ProgressReporter(progress));
   volume->rounding_m = read.rounding_m;
   const auto note = [&](WarningCode code, const std::string& text) {
     mission.notes.push_back({code, in_quotes(from.name) + " " + text});

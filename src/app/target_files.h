@@ -17,6 +17,6 @@ void read_target_file(const Mission& mission, const geo::LocalFrame& frame, cons
 /// Reads the closed mesh of `given.target_file` into the frame, as Target::volume in the place of that. A target
 /// without a name gets the file's. What its file says of another frame or scene goes to the mission's notes. Throws
 /// Error(input) as read_volume and core::checked_solid do.
-void read_target_volume(Mission& mission, const core::ProgressReporter& progress, MissionTarget& given);
+void read_target_volume(Mission& mission, const Progress& progress, MissionTarget& given);
 
 }  // namespace vantage::internal::app

@@ -12,6 +12,7 @@
 #include "core/format.h"
 #include "geo/local_frame.h"
 #include "geo/longitudes.h"
+#include "vantage/known_data.h"
 #include "vantage/mission.h"
 
 namespace vantage {
@@ -136,15 +137,17 @@ Shortfall of_surface(const LoadedScene& loaded, const std::vector<Vec2>& points)
 }
 
 /// Nothing is known of other meshes: they may be all that there is.
-Shortfall of(const Mission& mission) {
+Shortfall of(const Mission& mission, const std::vector<Vec2>& points) {
   const LoadedScene& loaded = *mission.loaded;
   const Scene& scene = loaded.scene;
   if (!scene.georeference) return {};
   const bool has_ground = std::any_of(scene.objects.begin(), scene.objects.end(),
                                       [](const SceneObject& object) { return object.kind == ObjectKind::ground; });
-  if (loaded.city) return of_map(mission, reach(mission));
-  return loaded.raster || has_ground ? of_surface(loaded, reach(mission)) : Shortfall{};
+  if (loaded.city) return of_map(mission, points);
+  return loaded.raster || has_ground ? of_surface(loaded, points) : Shortfall{};
 }
+
+constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
 
 /// Little more than nothing where the range allows very much: a target that can hardly be seen whole.
 std::optional<Warning> small_volume(const Mission& mission, const Volume& volume) {
@@ -174,12 +177,21 @@ std::optional<Warning> large_pixel(const Sensor& sensor) {
 
 }  // namespace
 
+std::vector<Warning> beyond_data_warnings(const Mission& mission, std::span<const Vec3> positions) {
+  std::vector<Vec2> points;
+  for (const Vec3& position : positions) points.emplace_back(position.head<2>());
+  const Shortfall shortfall = of(mission, points);
+  if (!(shortfall.metres > kTolerance)) return {};
+  return {{WarningCode::range_beyond_data,
+           "the flight, or what it must see, reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
+               ": what stands out there hides nothing, and nothing keeps clear of it; " + shortfall.fix}};
+}
+
 std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume) {
-  constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
-  constexpr double kTiny = 0.01;    // metre: a target of street size in degrees is 1e-4 across
+  constexpr double kTiny = 0.01;  // metre: a target of street size in degrees is 1e-4 across
   constexpr double kLargestDegree = 180;
   std::vector<Warning> warnings = mission.notes;
-  const Shortfall shortfall = of(mission);
+  const Shortfall shortfall = of(mission, reach(mission));
   if (shortfall.metres > kTolerance) {
     warnings.push_back({WarningCode::range_beyond_data,
                         "the range reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +

@@ -194,6 +194,7 @@ int run_check(const CheckArguments& options) {
     notes(mission.notes);
     notes(plan.notes);
     notes(located.notes);
+    for (const std::string& text : check.notes) note(text);
   }
   const Georeference* georeference = mission.scene().georeference ? &*mission.scene().georeference : nullptr;
   if (!options.output_file.empty()) {

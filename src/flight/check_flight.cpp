@@ -14,10 +14,11 @@
 #include "core/progress_reporter.h"
 #include "core/text.h"
 #include "flight/along.h"
+#include "flight/check_gimbal.h"
 #include "flight/check_links.h"
-#include "flight/gimbal.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
+#include "vantage/known_data.h"
 #include "vantage/leg_query.h"
 
 namespace vantage {
@@ -59,8 +60,8 @@ Intervals common(const Intervals& a, const Intervals& b) { return flight::withou
 
 /// Of a volume to fly through, as a limit that is kept inside it. A little within its surface: more than what rounding
 /// does to the ends of intervals.
-struct JudgedVolume {
-  explicit JudgedVolume(const TargetVolume& volume) : limits(inside(volume.mesh)) {
+struct VolumeToFlyThrough {
+  explicit VolumeToFlyThrough(const TargetVolume& volume) : limits(inside(volume.mesh)) {
     const Box box = bounding_box(volume.mesh);
     constexpr double kOfSize = 1e-10, kRoundings = 16 * std::numeric_limits<double>::epsilon();
     const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
@@ -124,7 +125,7 @@ class JudgedTarget {
     LegLimits limits;
   };
 
-  static TargetOnLeg look_inside(const JudgedVolume& volume, const Leg& leg, double radius_m) {
+  static TargetOnLeg look_inside(const VolumeToFlyThrough& volume, const Leg& leg, double radius_m) {
     TargetOnLeg result{whole(), {}};
     for (LegBreak& outside : volume.limits.broken(leg, radius_m + volume.depth_m)) {
       result.seen = flight::without(result.seen, outside.intervals);
@@ -174,7 +175,7 @@ class JudgedTarget {
   Vec3 centre_ = Vec3::Zero();
   std::vector<std::vector<Vec3>> parts_;
   std::vector<std::vector<One>> lists_;
-  std::optional<JudgedVolume> volume_;  ///< instead of lists
+  std::optional<VolumeToFlyThrough> volume_;  ///< instead of lists
 };
 
 /// What is judged on every leg.
@@ -208,6 +209,16 @@ FlightCheckOptions filled(const Mission& mission, FlightCheckOptions options) {
   return options;
 }
 
+/// All that must be known round the flight: its points, its targets, its links.
+std::vector<Vec3> places_of(const FlightCheck& check) {
+  std::vector<Vec3> places = check.positions;
+  for (const TargetCheck& target : check.targets) {
+    for (const std::vector<Vec3>& part : target.parts) places.insert(places.end(), part.begin(), part.end());
+  }
+  for (const LinkCheck& link : check.links) places.push_back(link.point);
+  return places;
+}
+
 /// What was found on the legs, leg after leg.
 std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const Judges& judges, double radius_m,
                               const internal::core::ProgressReporter& reporter) {
@@ -225,48 +236,6 @@ std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const Judges& judges
   return found;
 }
 
-GimbalUse gimbal_along(const Along& along, const Stretch& stretch, const Vec3& centre) {
-  GimbalUse use;
-  const FlightSpan span = along.span(stretch);
-  use.begin_yaw_deg = flight::aim_at(span.begin, centre).yaw_deg;
-  use.end_yaw_deg = flight::aim_at(span.end, centre).yaw_deg;
-  use.min_pitch_deg = std::numeric_limits<double>::infinity();
-  use.max_pitch_deg = -use.min_pitch_deg;
-  for (std::size_t leg = stretch.begin_leg; leg <= stretch.end_leg; ++leg) {
-    const Leg piece = {along.position(leg, leg == stretch.begin_leg ? stretch.begin_share : 0),
-                       along.position(leg, leg == stretch.end_leg ? stretch.end_share : 1)};
-    const flight::PitchRange pitch = flight::pitch_range(piece, centre);
-    use.min_pitch_deg = std::min(use.min_pitch_deg, pitch.min_deg);
-    use.max_pitch_deg = std::max(use.max_pitch_deg, pitch.max_deg);
-    if (!along.has_legs()) continue;
-    const double rate = flight::fastest_turn_deg_s(piece, centre, along.speed_m_s(leg));
-    if (!std::isnan(use.rate_deg_s) && !(rate <= use.rate_deg_s)) use.rate_deg_s = rate;  // NaN stays
-  }
-  return use;
-}
-
-/// The longest stretch in time on which the target is seen and the camera need not turn faster than it can.
-std::optional<FlightSpan> followed(const std::vector<OnLeg>& legs, std::size_t index, const Flight& path,
-                                   const Along& along, const Vec3& centre, double rate_deg_s) {
-  std::vector<Stretch> stretches;
-  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
-    Intervals slow = whole();
-    if (along.has_legs()) {
-      slow = flight::slow_turns(path.leg(leg), centre, along.speed_m_s(leg), rate_deg_s);
-      // Where it stays nothing turns, however fast it comes and goes.
-      if (path.points[leg].hold_s > 0) slow.push_back({0, 0});
-      if (path.points[leg + 1].hold_s > 0) slow.push_back({1, 1});
-      slow = flight::united(std::move(slow));
-    }
-    flight::append(stretches, leg, flight::in_both(legs[leg].targets[index].seen, slow));
-  }
-  std::optional<FlightSpan> longest;
-  for (const FlightSpan& span : flight::spans_of(along, stretches)) {
-    if (!longest || span.duration_s() > longest->duration_s()) longest = span;
-  }
-  return longest;
-}
-
 /// One target, all legs.
 TargetCheck check_target(const JudgedTarget& target, std::size_t index, const std::vector<OnLeg>& legs,
                          const Flight& path, const Along& along, const FlightCheckOptions& options) {
@@ -276,10 +245,12 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
   check.centre = target.centre();
   check.parts = target.parts();
   std::vector<Stretch> seen;
+  std::vector<Intervals> seen_on;
   std::map<std::pair<NotSeen::Kind, std::string>, std::vector<Stretch>> reasons;
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {
     const TargetOnLeg& on = legs[leg].targets[index];
     flight::append(seen, leg, on.seen);
+    seen_on.push_back(on.seen);
     for (const auto& [reason, intervals] : on.reasons) flight::append(reasons[reason], leg, intervals);
   }
   check.seen = flight::spans_of(along, seen);
@@ -288,9 +259,10 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
     const auto measure = [&](const FlightSpan& span) { return by_time ? span.duration_s() : span.length_m(); };
     if (!check.longest || measure(check.seen[i]) > measure(check.seen[*check.longest])) check.longest = i;
   }
-  if (check.longest && !check.is_volume) check.gimbal = gimbal_along(along, seen[*check.longest], check.centre);
+  const flight::GimbalCheck gimbal(path, along, options.tube_radius_m + path.chord_error_m);
+  if (check.longest && !check.is_volume) check.gimbal = gimbal.use(seen[*check.longest], check.centre);
   if (options.gimbal_rate_deg_s && !check.is_volume) {
-    check.followed = followed(legs, index, path, along, check.centre, *options.gimbal_rate_deg_s);
+    check.followed = gimbal.followed(seen_on, check.centre, *options.gimbal_rate_deg_s);
   }
   for (const auto& [reason, stretches] : reasons) {
     check.not_seen.push_back({reason.first, reason.second, flight::spans_of(along, stretches)});
@@ -456,7 +428,11 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   const std::vector<Leg> legs = legs_of(flight);
   Judges judges{{}, {}, LegLimits(mission.navigation)};
   for (std::size_t i = 0; i < volume_count(mission); ++i) judges.targets.emplace_back(one_volume(mission, i), scene);
-  for (const FlightLink& link : mission.links) judges.links.emplace_back(link, scene, legs, check.tube_radius_m);
+  const std::vector<MissionLink>& written = mission.as_written.links;
+  for (std::size_t i = 0; i < mission.links.size(); ++i) {
+    const std::string place = i < written.size() ? written[i].place : "links[" + std::to_string(i) + "]";
+    judges.links.emplace_back(mission.links[i], scene, legs, check.tube_radius_m, place);
+  }
   const internal::core::ProgressReporter reporter(progress);
   reporter.begin("checking the flight");
   const std::vector<OnLeg> found = judge_legs(legs, judges, check.tube_radius_m, reporter);
@@ -473,6 +449,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   check.nearest =
       nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
   check.failures = failures_of(check, options);
+  for (const Warning& note : beyond_data_warnings(mission, places_of(check))) check.notes.push_back(note.text);
   return check;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/format.h"
 #include "core/text.h"
+#include "vantage/error.h"
 #include "vantage/prepared_target.h"
 #include "vantage/sensor.h"
 #include "vantage/target.h"
@@ -19,7 +20,7 @@ double farthest_m(const Leg& leg, const Vec3& point, double radius_m) {
 }
 
 PreparedTarget antenna(const FlightLink& link, const PreparedScene& scene, const std::vector<Leg>& legs,
-                       double radius_m) {
+                       double radius_m, const std::string& place) {
   Target target = Target::point(link.point);
   target.name = link.name;
   // Where no range is asked for, all of the flight is in range.
@@ -28,14 +29,20 @@ PreparedTarget antenna(const FlightLink& link, const PreparedScene& scene, const
   constexpr double kMore = 1.01;
   Sensor sensor{.max_range_m = link.max_range_m.value_or(kMore * farthest)};
   sensor.link = link.radio;
-  return {scene, target, sensor};
+  try {
+    return {scene, target, sensor};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    throw Error(error.code(), "the link '" + link.name + "' cannot begin at its point, as a target: " + error.problem(),
+                place, error.fix());
+  }
 }
 
 }  // namespace
 
 JudgedLink::JudgedLink(const FlightLink& link, const PreparedScene& scene, const std::vector<Leg>& legs,
-                       double radius_m)
-    : link_(link), views_(antenna(link, scene, legs, radius_m)) {}
+                       double radius_m, const std::string& place)
+    : link_(link), views_(antenna(link, scene, legs, radius_m, place)) {}
 
 LinkCheck JudgedLink::check(const std::vector<LegView>& views, const std::vector<Leg>& legs, const Along& along,
                             double radius_m) const {

@@ -16,8 +16,9 @@ namespace vantage::internal::flight {
 /// One link of a mission, ready for the legs of one flight.
 class JudgedLink {
  public:
-  /// Throws as PreparedTarget does for a point that a link cannot begin at.
-  JudgedLink(const FlightLink& link, const PreparedScene& scene, const std::vector<Leg>& legs, double radius_m);
+  /// Throws as PreparedTarget does for a point that a link cannot begin at. `place`: where it is written, for errors.
+  JudgedLink(const FlightLink& link, const PreparedScene& scene, const std::vector<Leg>& legs, double radius_m,
+             const std::string& place);
 
   LegView look(const Leg& leg, double radius_m) const { return views_.look(leg, radius_m); }
 

@@ -130,6 +130,7 @@ std::string json_text(const FlightCheck& check, const Georeference* georeference
   Json json;
   json["passes"] = check.passes();
   json["failures"] = check.failures;
+  json["notes"] = check.notes;
   json["length_m"] = check.length_m;
   json["duration_s"] = number_json(check.duration_s);
   json["tube_radius_m"] = check.tube_radius_m;

@@ -12,11 +12,19 @@ namespace vantage {
 namespace {
 
 /// Longitude and latitude, or x and y for a plan in the scene frame.
-std::optional<Eigen::Vector2d> home_of_tour(const FlightPlan& plan, const Mission& mission) {
-  if (plan.home || !mission.home) return std::nullopt;
+Eigen::Vector2d home_of_tour(bool is_in_scene_frame, const Mission& mission) {
   const Eigen::Vector2d at = mission.home->head<2>();
-  if (plan.is_in_scene_frame || !mission.scene().georeference) return at;
+  if (is_in_scene_frame || !mission.scene().georeference) return at;
   return positions_in_crs(*mission.scene().georeference, "EPSG:4326", std::array{at}).front();
+}
+
+/// Whether the plan's home is that of the mission's tour, but for what plans round.
+bool is_home_of_tour(const FlightPlan& plan, const Mission& mission) {
+  constexpr double kSameM = 0.1, kSameDeg = 1e-6;
+  if (!mission.home) return false;
+  if (!plan.home) return true;
+  const Eigen::Vector2d away = plan.home->horizontal - home_of_tour(plan.is_in_scene_frame, mission);
+  return away.cwiseAbs().maxCoeff() <= (plan.is_in_scene_frame ? kSameM : kSameDeg);
 }
 
 /// Nothing where the scene does not say what of it is ground: locating says when it is needed.
@@ -39,7 +47,10 @@ LocatedPlan locate_flight(const Mission& mission, const FlightPlan& plan, Locate
   }
   if (!options.georeference) options.georeference = mission.scene().georeference;
   if (!options.levels.sea_level_z_m) options.levels.sea_level_z_m = sea_level_m(mission);
-  if (!options.home) options.home = home_of_tour(plan, mission);
+  if (!options.home && is_home_of_tour(plan, mission)) {
+    if (!plan.home) options.home = home_of_tour(plan.is_in_scene_frame, mission);
+    if (!options.home_z_m) options.home_z_m = mission.home->z();
+  }
   return locate_flight(plan, options);
 }
 

@@ -24,13 +24,14 @@ class LinkHalving {
         slack_(2 * slack + kZoneTouch * link.excess_m()) {}
 
   // From p to x the way over a point b and the straight way change by at most |x - p| each. So a zone longer by twice
-  // that holds all zones of positions so near, and one shorter by twice that is in all of them.
+  // that holds all zones of positions so near, and one shorter by twice that is in all of them. What enters a zone that
+  // is 2 `radius` longer counts for the tube all along the piece: it never has to be decided between the two.
   void look(double begin, double end) {
     const double half = 0.5 * (end - begin) * length_, middle = 0.5 * (begin + end);
     const Objects maybe = entering(middle, 2 * (half + radius_) + slack_);
     if (maybe.empty()) return;
     const bool is_short = 2 * half <= std::min(kShortest, kShortestShare * length_);
-    if (is_short || entering(middle, -2 * half) == maybe) {
+    if (is_short || entering(middle, 2 * radius_ - 2 * half) == maybe) {
       for (const std::uint32_t object : maybe) found.emplace_back(object, LegInterval{begin, end});
       return;
     }

@@ -143,6 +143,7 @@ class FlightJudge {
 
   double speed_on(std::size_t i) const;
   /// Degrees in a second by which the line of sight turns.
+  FlightPlace beside(FlightPlace at);  ///< in the tube
   double turn_at(const FlightPlace& at, const Vec3& centre) const;
 
   /// It is seen there, the camera is as fast as that, and where it is so all along the longest stretch, it is no

@@ -11,7 +11,7 @@ void FlightJudge::judge_gimbal(const vantage::TargetCheck& target) {
   const FlightSpan& span = target.seen[*target.longest];
   for (std::size_t i = 0; i < leg_count(); ++i) {
     for (int k = 0; k < 20; ++k) {
-      const FlightPlace at = place(i, random_.uniform(0, 1));
+      const FlightPlace at = beside(place(i, random_.uniform(0, 1)));
       if (!holds({span}, at.at_m, -slack_m())) continue;
       const Vec3 look = target.centre - at.position;
       const double pitch = std::atan2(look.z(), look.head<2>().norm()) * 180 / std::numbers::pi;
@@ -29,6 +29,11 @@ void FlightJudge::judge_gimbal(const vantage::TargetCheck& target) {
       }
     }
   }
+}
+
+FlightPlace FlightJudge::beside(FlightPlace at) {
+  at.position += random_.uniform(0, 1) * drawn_.options.tube_radius_m * random_.direction();
+  return at;
 }
 
 double FlightJudge::speed_on(std::size_t i) const {
@@ -59,7 +64,7 @@ void FlightJudge::judge_followed(const vantage::TargetCheck& target, const Fligh
   for (std::size_t i = 0; i < leg_count(); ++i) {
     if (!(length(i) > 0)) continue;
     for (int k = 0; k < 20; ++k) {
-      const FlightPlace at = place(i, random_.uniform(0, 1));
+      const FlightPlace at = beside(place(i, random_.uniform(0, 1)));
       const double distance = (target.centre - at.position).norm();
       if (!holds({span}, at.at_m, -slack_m()) || distance < 1e3 * rounding_) continue;
       const double slack = 60 * speed_on(i) * rounding_ / (distance * distance);

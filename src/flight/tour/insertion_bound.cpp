@@ -210,7 +210,8 @@ class InsertionSearch {
     TouringSolution& solution = outcome.solution;
     solution = solve_touring(program, options);
     if (space_.turn_radius_m > 0 && has_all_points(outcome.sequence)) {
-      solution.directions = straightened(program, std::move(solution.directions), space_.turn_radius_m, options);
+      solution.directions = straightened(program, std::move(solution.directions), space_.turn_radius_m, options,
+                                         [this] { return watch_.seconds() > options_.time_limit_s; });
       solution.bound_m = touring_bound(program, solution.directions) +
                          turning_bound(program, solution.directions, space_.turn_radius_m);
     }

@@ -131,13 +131,16 @@ void check_room_to_turn(const Mission& mission, const TourSettings& settings) {
 std::optional<std::string> note_of_narrow_zones(const Mission& mission, const TourSettings& settings,
                                                 const Tour& tour) {
   if (settings.vehicle.kind != TourVehicle::Kind::fixed_wing || tour.problems.empty()) return std::nullopt;
+  // What stands there is told of the others.
+  const auto has_no_way = [](const TourProblem& problem) { return problem.kind == TourProblem::Kind::no_way; };
+  if (!std::all_of(tour.problems.begin(), tour.problems.end(), has_no_way)) return std::nullopt;
   const double width = least_width_m(mission.navigation), turn = 2 * settings.vehicle.turn_radius_m;
   if (width >= turn) return std::nullopt;
   std::string why =
       core::format("to turn round with a turn radius of {:g} m takes {:g} m, and the zones to stay in leave {:.1f} m",
                    settings.vehicle.turn_radius_m, turn, width);
-  if (!tour.order.empty()) return "targets are left out: " + why;
-  throw Error(ErrorCode::limits_empty, "no flight was found that visits any target: " + why,
+  if (!tour.order.empty()) return "targets are left out, maybe because of this: " + why;
+  throw Error(ErrorCode::limits_empty, "no flight was found that visits any target; " + why,
               mission.as_written.places.tour,
               "give a smaller tour.vehicle.turn_radius, or a wider zone in 'navigation'");
 }

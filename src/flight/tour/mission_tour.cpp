@@ -12,6 +12,7 @@
 #include "flight/tour/mission_limits.h"
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
+#include "flight/tour/tour_region.h"
 #include "vantage/error.h"
 #include "vantage/navigation.h"
 #include "vantage/outer.h"
@@ -27,9 +28,6 @@ namespace {
 
 namespace core = internal::core;
 namespace tour = internal::flight::tour;
-
-/// Plans round positions, and are put into the frame again: what only just keeps a limit must keep it then, too.
-constexpr double kPlanRoundingM = 0.01;
 
 /// Of all corners.
 Vec3 middle_of(const Target& target) {
@@ -246,10 +244,10 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 
   TourRequest request;
   request.settings = result.settings;
-  request.airspace = make_airspace(scene, result.settings.clearance_m + kPlanRoundingM, mission.navigation);
+  request.airspace = make_airspace(scene, result.settings.clearance_m + tour::kPlanRoundingM, mission.navigation);
   if (mission.home) {
     const bool is_wing = result.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
-    const double deviation = is_wing ? request.chord_error_m : kPlanRoundingM;
+    const double deviation = is_wing ? request.chord_error_m : tour::kPlanRoundingM;
     request.home = tour::start_above(*mission.home, mission, scene, *request.airspace, deviation);
   }
   result.targets = volumes_of(mission, scene, options.threads, progress);

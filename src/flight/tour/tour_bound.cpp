@@ -158,7 +158,11 @@ TourBound bound_tour(const BoundProblem& problem, const Incumbent& incumbent, co
       }
     }
   });
-  const bool has_turning = problem.turn_radius_m > 0;
+  // A stretch in a region that serves it alone leaves no room to turn there.
+  const auto has_none = [](const std::vector<double>& dwell_m) {
+    return dwell_m.empty() || std::find(dwell_m.begin(), dwell_m.end(), 0.0) != dwell_m.end();
+  };
+  const bool has_turning = problem.turn_radius_m > 0 && has_none(problem.dwell_m);
   result.ignored = {"obstacles between the regions", has_turning ? "climbing" : "turning and climbing", "acceleration"};
   result.length_m = std::max(0.0, result.length_m);
   if (!std::isfinite(incumbent.length_m)) {

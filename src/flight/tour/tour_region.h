@@ -18,6 +18,9 @@
 
 namespace vantage::internal::flight::tour {
 
+/// Plans round positions, and are put into the frame again: what only just keeps a limit must keep it then, too.
+constexpr double kPlanRoundingM = 0.01;
+
 /// What lies at least a margin inside a closed mesh: of several pieces, of any genus. Immutable; any number of threads
 /// may ask one. Every point that it returns is in it: its depth was asked for. Scene frame, metres.
 ///

@@ -144,15 +144,17 @@ class WingPlan {
       }
       if (turns_too_fast(stop.region, hint)) {
         throw Error(ErrorCode::limits_empty,
-                    core::format("on every stretch of {:.3g} m that fits in the volume of a target the camera would "
-                                 "have to turn by more than {:g} degrees per second",
+                    core::format("no stretch of {:.3g} m was found in the volume of a target on which the camera need "
+                                 "not turn by more than {:g} degrees per second",
                                  space_.view_m(), request_.settings.gimbal_rate_deg_s),
                     target.name, "give a larger tour.gimbal.rate or a slower vehicle, or let it be seen from farther");
       }
-      throw Error(ErrorCode::limits_empty,
-                  core::format("no stretch of {:.3g} m, and no circle of radius {:g} m, fits in the volume of a target",
-                               space_.view_m(), space_.limits().turn_radius_m),
-                  target.name, "ask for a shorter dwell, a slower vehicle or a smaller margin");
+      throw Error(
+          ErrorCode::limits_empty,
+          core::format("no stretch of {:.3g} m, and no circle of radius {:g} m, was found that fits in the volume "
+                       "of a target",
+                       space_.view_m(), space_.limits().turn_radius_m),
+          target.name, "ask for a shorter dwell, a slower vehicle or a smaller margin");
     }
   }
 

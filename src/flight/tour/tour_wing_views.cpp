@@ -93,16 +93,16 @@ bool WingSpace::can_follow(int region, const std::vector<Vec3>& points, const Ve
   if (region == Stop::kFixed) return true;
   const std::optional<Vec3>& to = request_.targets[static_cast<std::size_t>(region)].look_at;
   if (!to) return true;
-  // A plan rounds positions, and a curve lies beside its chords.
-  constexpr double kRounded = 0.01, kPoint = 1e-3;
-  const double reach = request_.chord_error_m + kRounded;
-  const auto is_slow = [&](const Leg& leg) {
-    return flight::fastest_turn_near_deg_s(leg, *to, request_.settings.vehicle.speed_m_s, reach) <=
+  constexpr double kPoint = 1e-3;
+  const double reach = request_.chord_error_m + kPlanRoundingM;
+  const auto is_slow = [&](const Leg& leg, double chord_error_m) {
+    return flight::fastest_turn_deg_s(leg, *to, request_.settings.vehicle.speed_m_s,
+                                      flight::off_chord(leg, reach, chord_error_m)) <=
            request_.settings.gimbal_rate_deg_s;
   };
-  if (points.size() == 1) return is_slow({points[0] - kPoint * direction, points[0] + kPoint * direction});
+  if (points.size() == 1) return is_slow({points[0] - kPoint * direction, points[0] + kPoint * direction}, 0);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    if (!is_slow({points[i], points[i + 1]})) return false;
+    if (!is_slow({points[i], points[i + 1]}, request_.chord_error_m)) return false;
   }
   return true;
 }

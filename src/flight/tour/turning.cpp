@@ -122,7 +122,7 @@ double turning_bound(const TouringProgram& program, std::span<const Direction> d
 }
 
 std::vector<Direction> straightened(const TouringProgram& program, std::vector<Direction> directions, double radius_m,
-                                    const TouringOptions& options) {
+                                    const TouringOptions& options, const std::function<bool()>& is_late) {
   if (radius_m <= 0 || directions.empty() || !program.at_least_m.empty()) return directions;
   const auto value = [&](const std::vector<Direction>& of) {
     return touring_bound(program, of) + turning_bound(program, of, radius_m);
@@ -134,6 +134,7 @@ std::vector<Direction> straightened(const TouringProgram& program, std::vector<D
     is_better = false;
     if (reduced.program.hulls.size() <= 3) break;
     for (const std::size_t stop : nearly_straight(reduced)) {
+      if (is_late && is_late()) return directions;
       Reduced less = reduced.without(stop);
       less.directions = solve_touring(less.program, options).directions;
       std::vector<Direction> all = less.of_all();

@@ -8,6 +8,7 @@
 // 2 r min(|u_h|, |v_h|) (t / 2 - sin(t / 2)) at least.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,8 @@ double turning_bound(const TouringProgram& program, std::span<const Direction> d
 
 /// Vectors for which both together are larger, if such are found: where a tour hardly turns at a stop, the vectors of a
 /// program without it leave more room to turn at the others. `directions` are those of the program's solution.
-/// `enough_m`: ends as soon as the bound is so large.
+/// `enough_m`: ends as soon as the bound is so large; or when `is_late` says so, with what was found till then.
 std::vector<Direction> straightened(const TouringProgram& program, std::vector<Direction> directions, double radius_m,
-                                    const TouringOptions& options);
+                                    const TouringOptions& options, const std::function<bool()>& is_late = {});
 
 }  // namespace vantage::internal::flight::tour
