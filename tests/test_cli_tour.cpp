@@ -193,7 +193,10 @@ TEST_F(CliTourVolumes, TheFlightAndTheBoundHoldThem) {
   ASSERT_EQ(tour.exit_code, 0) << tour.err;
   const Json answer = Json::parse(tour.out);
   std::map<std::string, std::vector<double>> from;
-  for (const Json& visit : answer["visits"]) from[visit["target"]] = visit["from"].get<std::vector<double>>();
+  for (const Json& visit : answer["visits"]) {
+    from[visit["target"]] = visit["from"].get<std::vector<double>>();
+    EXPECT_EQ(visit.value("volume", false), visit["target"] != "west");
+  }
   ASSERT_EQ(from.size(), 3U);
   const std::vector<double>& region = from.at("region");
   EXPECT_TRUE(region[0] >= 81 && region[0] <= 99 && region[1] >= -59 && region[1] <= -41 && region[2] >= 21 &&
@@ -223,10 +226,17 @@ TEST_F(CliTourVolumes, TheFlightAndTheBoundHoldThem) {
 TEST_F(CliTourVolumes, AComputedOneIsToldOf) {
   write("seen.yaml", std::string(kPlazaScene) + "target: " + kWest + "\n" + kPlazaSensor);
   ASSERT_EQ(run({"compute", "seen.yaml", "-o", "seen.ply"}).exit_code, 0);
-  write_mission("{volume: seen.ply}, {volume: region.ply}", "tour: {home: [-20, -20, 0], gap: 0.99}\n");
+  write_mission("{volume: seen.ply}, {volume: region.ply}",
+                "tour: {home: [-20, -20, 0], gap: 0.99}\nlinks: [{name: pilot, point: [-20, -20, 2]}]\n");
+  // A program that reads JSON alone is told the same.
+  const ProgramRun quiet = run({"tour", "tour.yaml", "--json", "-q"});
+  ASSERT_EQ(quiet.exit_code, 0) << quiet.err;
+  EXPECT_EQ(quiet.err, "");
+  const std::vector<std::string> notes = Json::parse(quiet.out)["notes"];
+  EXPECT_EQ(notes.size(), 2U);
+  expect_wording(notes);
   const ProgramRun tour = run({"tour", "tour.yaml"});
-  ASSERT_EQ(tour.exit_code, 0) << tour.err;
-  expect_wording(tour.err);  // of one of them
+  for (const std::string& note : notes) EXPECT_NE(tour.err.find(note), std::string::npos) << tour.err;
 }
 
 TEST_F(CliTourVolumes, CheckTellsWhereTheFlightIsInsideAndNeverTooLong) {

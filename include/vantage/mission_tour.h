@@ -106,7 +106,8 @@ VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& missi
 /// Error(output).
 VANTAGE_API void write_tour_certificate(const MissionTour& tour, const std::filesystem::path& file);
 
-/// JSON (UTF-8, indented, a newline at the end). Lengths in metres, the scene frame.
+/// JSON (UTF-8, indented, a newline at the end). Lengths in metres, the scene frame. Visits of targets that are
+/// volumes, and such targets that are left out, have `"volume": true`.
 VANTAGE_API std::string json_text(const MissionTour& tour);
 
 }  // namespace vantage

@@ -327,6 +327,12 @@ void write_tour_certificate(const MissionTour& of, const std::filesystem::path& 
 std::string json_text(const MissionTour& of) {
   using Json = nlohmann::ordered_json;
   const auto point_json = [](const Vec3& p) { return Json{p.x(), p.y(), p.z()}; };
+  const auto target_json = [&of](std::size_t index) {
+    const MissionTourTarget& target = of.targets[index];
+    Json one = {{"target", target.name}};
+    if (target.is_volume) one["volume"] = true;
+    return one;
+  };
   Json json;
   json["vehicle"] = name_of(of.settings.vehicle.kind);
   json["length_m"] = of.tour.length_m;
@@ -341,17 +347,21 @@ std::string json_text(const MissionTour& of) {
   }
   json["visits"] = Json::array();
   for (const TourVisit& visit : of.tour.visits) {
-    json["visits"].push_back({{"target", of.targets[visit.target].name},
-                              {"begin_m", visit.begin_m},
-                              {"end_m", visit.end_m},
-                              {"dwell_s", visit.dwell_s},
-                              {"from", point_json(of.tour.flight.points[visit.first_point].position)},
-                              {"to", point_json(of.tour.flight.points[visit.last_point].position)}});
+    Json one = target_json(visit.target);
+    one["begin_m"] = visit.begin_m;
+    one["end_m"] = visit.end_m;
+    one["dwell_s"] = visit.dwell_s;
+    one["from"] = point_json(of.tour.flight.points[visit.first_point].position);
+    one["to"] = point_json(of.tour.flight.points[visit.last_point].position);
+    json["visits"].push_back(std::move(one));
   }
   json["left_out"] = Json::array();
   for (const TourProblem& problem : of.tour.problems) {
-    json["left_out"].push_back({{"target", of.targets[problem.target].name}, {"obstacle", problem.obstacle}});
+    Json one = target_json(problem.target);
+    one["obstacle"] = problem.obstacle;
+    json["left_out"].push_back(std::move(one));
   }
+  json["notes"] = of.notes;
   json["points"] = Json::array();
   for (const FlightPoint& point : of.tour.flight.points) {
     json["points"].push_back({{"position", point_json(point.position)}, {"hold_s", point.hold_s}});
