@@ -164,12 +164,13 @@ using SpanRows = std::vector<SpanRow>;
 using NotSeenRow = std::tuple<std::string, std::string, SpanRows>;
 /// min_pitch_deg, max_pitch_deg, begin_yaw_deg, end_yaw_deg, rate_deg_s.
 using GimbalRow = std::tuple<double, double, double, double, double>;
-/// Name, centre, seen, which of them is the longest, not_seen, gimbal, followed (one span or none).
-using TargetRow = std::tuple<std::string, std::vector<double>, SpanRows, std::optional<std::size_t>,
+/// Name, is_volume, centre, seen, which of them is the longest, not_seen, gimbal, followed (one span or none).
+using TargetRow = std::tuple<std::string, bool, std::vector<double>, SpanRows, std::optional<std::size_t>,
                              std::vector<NotSeenRow>, std::optional<GimbalRow>, SpanRows>;
-/// Name, point, max_range_m, linked, lost, reasons, farthest_m, farthest_at_m, farthest_at.
-using LinkRow = std::tuple<std::string, std::vector<double>, std::optional<double>, SpanRows, SpanRows,
-                           std::vector<NotSeenRow>, double, double, std::vector<double>>;
+/// Name, point, max_range_m, frequency_ghz, clear, linked, lost, reasons, farthest_m, farthest_at_m, farthest_at.
+using LinkRow =
+    std::tuple<std::string, std::vector<double>, std::optional<double>, std::optional<double>, std::optional<double>,
+               SpanRows, SpanRows, std::vector<NotSeenRow>, double, double, std::vector<double>>;
 /// Name, spans, worst, unit, worst_at_m, worst_at.
 using BrokenRow = std::tuple<std::string, SpanRows, double, std::string, double, std::vector<double>>;
 /// distance_m, at_m, position, point, object.
@@ -192,8 +193,14 @@ std::vector<NotSeenRow> reason_rows(const std::vector<NotSeen>& reasons) {
 std::vector<LinkRow> link_rows(const PyFlightCheck& of) {
   std::vector<LinkRow> rows;
   for (const LinkCheck& link : of->links) {
-    rows.emplace_back(link.name, list_of(link.point), link.max_range_m, rows_of(link.linked), rows_of(link.lost),
-                      reason_rows(link.reasons), link.farthest_m, link.farthest_at_m, list_of(link.farthest_at));
+    std::optional<double> frequency_ghz, clear;
+    if (link.radio) {
+      frequency_ghz = link.radio->frequency_ghz;
+      clear = link.radio->clear;
+    }
+    rows.emplace_back(link.name, list_of(link.point), link.max_range_m, frequency_ghz, clear, rows_of(link.linked),
+                      rows_of(link.lost), reason_rows(link.reasons), link.farthest_m, link.farthest_at_m,
+                      list_of(link.farthest_at));
   }
   return rows;
 }
@@ -205,7 +212,7 @@ std::vector<TargetRow> target_rows(const PyFlightCheck& of) {
     if (const auto& use = target.gimbal) {
       gimbal = {use->min_pitch_deg, use->max_pitch_deg, use->begin_yaw_deg, use->end_yaw_deg, use->rate_deg_s};
     }
-    rows.emplace_back(target.name, list_of(target.centre), rows_of(target.seen), target.longest,
+    rows.emplace_back(target.name, target.is_volume, list_of(target.centre), rows_of(target.seen), target.longest,
                       reason_rows(target.not_seen), gimbal, target.followed ? rows_of({*target.followed}) : SpanRows());
   }
   return rows;

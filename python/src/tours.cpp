@@ -39,7 +39,7 @@ struct PyTour {
 using VisitRow = std::tuple<std::size_t, std::size_t, std::size_t, double, double, double>;
 /// Target, kind, neighbour, obstacle.
 using ProblemRow = std::tuple<std::size_t, std::string, std::optional<std::size_t>, std::string>;
-/// length_m, gap, kind, ignored.
+/// length_m, gap, kind, ignored, time_s.
 using BoundRow = std::tuple<double, double, std::string, std::vector<std::string>, double>;
 
 PyTour plan(const PyMission& mission, bool with_bound, const std::optional<PointArray>& positions, int threads,

@@ -91,6 +91,8 @@ def test_links_are_judged():
     check = vt.check(mission, PAST_THE_TOWER, speed_m_s=5)
     pilot, mast = check.links
     assert pilot.name == "pilot" and pilot.max_range_m is None and mast.max_range_m == 90
+    assert (pilot.frequency_ghz, pilot.clear, mast.frequency_ghz, mast.clear) == (None, None, 2.4, 0.6)
+    assert not check.targets[0].is_volume
     for link, told in zip(check.links, check.to_dict()["links"]):
         assert link.holds == told["holds"] == (not link.lost) and link.farthest_m == told["farthest_m"]
         assert link.holds or any(link.name in failure for failure in check.failures)

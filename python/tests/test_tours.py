@@ -137,7 +137,10 @@ def test_volumes_are_flown_through(tmp_path):
     assert tour.is_complete and 0.99 * apart < tour.bound.length_m <= apart + 1e-6
     assert apart - 1e-6 < tour.length_m < 1.1 * apart
     check = tour.check()
-    assert [target.name for target in check.targets] == ["west", "second"]
+    assert [(target.name, target.is_volume, target.gimbal) for target in check.targets] == [("west", True, None), ("second", True, None)]
+    assert "2 of 2 targets seen whole or flown through" in repr(check) and "seen whole" not in check._repr_html_().split("<tr>", 1)[1]
+    told = tour.to_dict()
+    assert all(visit["volume"] for visit in told["visits"]) and told["notes"] == tour.notes == []
     for target, low, high in zip(check.targets, ([-70, -10, 10], [50, -60, 10]), ([-50, 10, 30], [70, -50, 30])):
         assert target.seen
         for span in target.seen:

@@ -77,6 +77,8 @@ class TargetCheck(NamedTuple):
     """One target along the flight."""
 
     name: str
+    is_volume: bool
+    """it is a volume to fly through: then `seen` is where the flight is inside it, and there is no gimbal"""
     centre: Numbers
     """(3,), metres, scene frame"""
     seen: list[Span]
@@ -111,6 +113,10 @@ class LinkCheck(NamedTuple):
     """(3,), metres, scene frame: where it begins"""
     max_range_m: float | None
     """None: as far as it is free"""
+    frequency_ghz: float | None
+    """of the radio link, whose zone is kept free; None: the line of sight alone"""
+    clear: float | None
+    """the share of the radius of the first Fresnel zone that is kept free; None: the line of sight alone"""
     linked: list[Span]
     """in range, and nothing is in the way; sorted, apart"""
     lost: list[Span]
@@ -188,8 +194,9 @@ class FlightCheck:
         self.flight = flight
         self.targets: list[TargetCheck] = [_target(row) for row in core.targets]
         self.links: list[LinkCheck] = [
-            LinkCheck(name, np.array(point), most, _spans(linked), _spans(lost), _reasons(reasons), farthest, at_m, np.array(at))
-            for name, point, most, linked, lost, reasons, farthest, at_m, at in core.links]
+            LinkCheck(name, np.array(point), most, frequency, clear, _spans(linked), _spans(lost), _reasons(reasons), farthest, at_m,
+                      np.array(at))
+            for name, point, most, frequency, clear, linked, lost, reasons, farthest, at_m, at in core.links]
         self.broken: list[BrokenLimit] = [
             BrokenLimit(name, _spans(spans), worst, unit, at_m, np.array(at))
             for name, spans, worst, unit, at_m, at in core.broken]
@@ -224,9 +231,9 @@ class FlightCheck:
 
     def to_geodataframe(self) -> Any:
         """A row for each stretch, for geopandas: lines with z in the scene's frame (points where it hovers), its CRS where its
-        place is known, and target, state ("seen", "hidden", "out_of_range", "behind", "limit"; of a link, whose name stands for the
-        target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (the object or the limit), begin_m, end_m, begin_s,
-        end_s."""
+        place is known, and target, state ("seen", "hidden", "out_of_range", "behind", "limit", "outside"; of a link, whose name
+        stands for the target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (the object or the limit), begin_m,
+        end_m, begin_s, end_s."""
         rows: list[dict[str, Any]] = []
         lines: list[Any] = []
         for target, state, what, span in self._stretches():
@@ -267,7 +274,8 @@ class FlightCheck:
     def __repr__(self) -> str:
         seen = sum(bool(target.seen) for target in self.targets)
         text = "passes" if self.passes else f"{len(self.failures)} failure{'' if len(self.failures) == 1 else 's'}"
-        return f"<vantage.FlightCheck: {self.length_m:,.1f} m, {seen} of {len(self.targets)} targets seen whole, {text}>"
+        reached = "seen whole or flown through" if any(target.is_volume for target in self.targets) else "seen whole"
+        return f"<vantage.FlightCheck: {self.length_m:,.1f} m, {seen} of {len(self.targets)} targets {reached}, {text}>"
 
     def _repr_html_(self) -> str:
         from ._html import of_check
@@ -284,9 +292,9 @@ def _reasons(rows: Any) -> list[NotSeen]:
 
 
 def _target(row: Any) -> TargetCheck:
-    name, centre, seen, longest, not_seen, gimbal, followed = row
+    name, is_volume, centre, seen, longest, not_seen, gimbal, followed = row
     spans = _spans(seen)
-    return TargetCheck(name, np.array(centre), spans, None if longest is None else spans[longest],
+    return TargetCheck(name, is_volume, np.array(centre), spans, None if longest is None else spans[longest],
                        _reasons(not_seen),
                        None if gimbal is None else GimbalUse(*gimbal), next(iter(_spans(followed)), None))
 

@@ -142,8 +142,11 @@ def of_positions(found: Positions) -> str:
 
 def of_check(check: FlightCheck) -> str:
     """A row for each target, and what fails."""
-    rows = [(target.name, ("seen whole " + _listed(f"{span.begin_m:,.1f} to {span.end_m:,.1f} m" for span in target.seen)
-                           if target.seen else "nowhere seen whole")) for target in check.targets]
+    rows = []
+    for target in check.targets:
+        reached = "inside" if target.is_volume else "seen whole"
+        spans = _listed(f"{span.begin_m:,.1f} to {span.end_m:,.1f} m" for span in target.seen)
+        rows.append((target.name, f"{reached} {spans}" if target.seen else f"nowhere {reached}"))
     more = [("", f"and {len(rows) - _MOST_ROWS:,} more")] if len(rows) > _MOST_ROWS else []
     near = check.nearest
     ends = [("nearest", f"{near.distance_m:,.2f} m: {near.object or 'the scene'}")] if near is not None else []

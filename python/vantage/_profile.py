@@ -16,12 +16,13 @@ if TYPE_CHECKING:
     from ._check import FlightCheck, Span
     from ._flight import Numbers
 
-COLORS = {"seen": "#54a24b", "linked": "#72b7b2", "hidden": "#4c78a8", "out_of_range": "#e0b84c", "behind": "#9d9d9d", "limit": "#b279a2",
-          "outside": "#9d9d9d", "broken": "#e45756"}
+COLORS = {"seen": "#54a24b", "inside": "#54a24b", "linked": "#72b7b2", "hidden": "#4c78a8", "out_of_range": "#e0b84c",
+          "behind": "#9d9d9d", "limit": "#b279a2", "outside": "#9d9d9d", "broken": "#e45756"}
 """As the facets of volumes have them, by the kind of their cause."""
 
-LABELS = {"seen": "seen whole", "linked": "linked", "hidden": "view hidden", "out_of_range": "out of range", "behind": "behind the target",
-          "limit": "limit of the sensor", "outside": "outside the volume", "broken": "limit of flight broken"}
+LABELS = {"seen": "seen whole", "inside": "inside the volume", "linked": "linked", "hidden": "view hidden",
+          "out_of_range": "out of range", "behind": "behind the target", "limit": "limit of the sensor",
+          "outside": "outside the volume", "broken": "limit of flight broken"}
 
 _SAMPLES = 1500
 """Places along the flight where the ground is asked for: more than a picture has pixels."""
@@ -90,7 +91,7 @@ def _bars(spans: list[Span], least_m: float) -> list[tuple[float, float]]:
 def _draw_strips(axes: Any, check: FlightCheck) -> None:
     least_m = 0.003 * check.length_m or 1.0
     used: dict[str, None] = {}
-    rows = [(target.name, target.seen, target.not_seen, "seen") for target in check.targets]
+    rows = [(target.name, target.seen, target.not_seen, "inside" if target.is_volume else "seen") for target in check.targets]
     rows += [(f"link: {link.name}", link.linked, link.reasons, "linked") for link in check.links]
     for row, (_, good, reasons, state) in enumerate(rows):
         axes.broken_barh([(0, check.length_m or 1.0)], (row - _STRIP / 2, _STRIP), color="#f2f2f2", linewidth=0)
@@ -124,7 +125,7 @@ def plot(check: FlightCheck, path: Path | None = None, *, size: tuple[int, int] 
     """What `FlightCheck.plot` does."""
     file = None if path is None else checked_path(path)
     figure = _figure(path, size)
-    strips = max(1, len(check.targets))
+    strips = max(1, len(check.targets) + len(check.links))
     over, under = figure.subplots(2, 1, sharex=True, height_ratios=[1, min(3.0, 0.12 * strips + 0.1)])
     _draw_heights(over, check)
     _draw_strips(under, check)
