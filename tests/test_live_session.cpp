@@ -11,7 +11,7 @@
 #include "live/report_page.h"
 #include "live/request.h"
 #include "live/session.h"
-#include "support/cli_fixture.h"
+#include "support/live_session.h"
 #include "support/map_text.h"
 #include "vantage/areas.h"
 #include "vantage/camera.h"
@@ -22,36 +22,6 @@
 
 namespace vantage::live {
 namespace {
-
-using Json = nlohmann::json;
-
-constexpr const char* kSquare =
-    "target: {name: square, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}\nsensor: {max_range: 60}\n";
-
-class LiveSession : public testing::Cli {
- protected:
-  void SetUp() override {
-    Cli::SetUp();
-    session_.open_file(folder_ / "mission.yaml");
-  }
-
-  /// The header of an answer, and the bytes after it.
-  struct Message {
-    Json header;
-    std::string rest;
-  };
-  Message ask(const Json& request) {
-    const std::string text = answer(session_, areas_, parse_request(Json{{"id", 7}, {"request", request}}.dump()));
-    std::uint32_t length = 0;
-    std::memcpy(&length, text.data(), sizeof length);
-    EXPECT_EQ(length % 4, 0u);  // arrays begin where their numbers may lie
-    return {Json::parse(text.substr(4, length)), text.substr(4 + length)};
-  }
-  std::string code_of(const Json& request) { return ask(request).header.value("/error/code"_json_pointer, ""); }
-
-  Session session_;
-  MapAreas areas_;
-};
 
 TEST_F(LiveSession, ComputesWhatRunMissionDoes) {
   const Message message = ask({{"call", "compute"}, {"text", kSquare}});
@@ -426,84 +396,6 @@ TEST_F(LiveSession, FindsTheAreaOfTheMapAtAPoint) {
   EXPECT_EQ(found(place_in(2, 0)), (Json{{"osm", "way/2"}, {"name", ""}}));  // not the building
   EXPECT_EQ(found(place_in(0, 500)), Json());
   EXPECT_EQ(code_of({{"call", "area"}}), name_of(ErrorCode::value_syntax));
-}
-
-GivenFlight given_flight(const std::string& table) {
-  GivenFlight given;
-  given.plan = parse_flight_plan(table, "flight.csv");
-  given.locate.unknown_heights = HeightDatum::scene_z;
-  given.speed_m_s = 5;
-  given.name = "flight.csv";
-  return given;
-}
-
-constexpr const char* kOver = "x,y,z\n-40,0,40\n40,0,40\n";
-
-TEST_F(LiveSession, TellsWhatAFlightSees) {
-  EXPECT_TRUE(Json::parse(session_.hello())["flight"].is_null());
-  EXPECT_EQ(code_of({{"call", "flight"}}), name_of(ErrorCode::nothing_given));
-  session_.show_flight(given_flight(kOver));
-  const Json flight = Json::parse(session_.hello())["flight"];
-  EXPECT_EQ(flight["name"], "flight.csv");
-  EXPECT_TRUE(flight["home"].is_null());
-  // What the program says of it.
-  write("flight.csv", kOver);
-  const auto checked = [&](const std::string& mission) {
-    return Json::parse(run({"check", mission, "flight.csv", "--heights", "scene", "--speed", "5", "--json"}).out);
-  };
-  EXPECT_EQ(flight["check"], checked("mission.yaml"));
-  ASSERT_FALSE(flight["check"]["targets"][0]["seen"].empty());
-  EXPECT_EQ(flight["check"]["targets"][0]["parts"][0][2]["x_m"], 5);
-  EXPECT_EQ(flight["check"]["points"][1]["position"]["x_m"], 40);
-  // By the mission of the last volume, which has another range.
-  EXPECT_EQ(code_of({{"call", "flight"}}), name_of(ErrorCode::nothing_given)) << "there is no volume yet";
-  const std::string nearer =
-      "target: {name: square, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}\nsensor: {max_range: 45}\n";
-  ask({{"call", "compute"}, {"text", nearer}});
-  const Json again = ask({{"call", "flight"}}).header["value"]["check"];
-  write("nearer.yaml", testing::kScene + nearer);
-  EXPECT_EQ(again, checked("nearer.yaml"));
-  EXPECT_NE(again["targets"], flight["check"]["targets"]);
-}
-
-TEST_F(LiveSession, AFlightSeesEachOfSeveralTargetsByItself) {
-  const std::string targets =
-      "targets:\n  - {name: a, vertices: [[-35, -5, 0], [-30, -5, 0], [-30, 5, 0]]}\n"
-      "  - {name: b, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\nsensor: {max_range: 42}\n";
-  write("several.yaml", testing::kScene + targets);
-  session_.open_file(folder_ / "several.yaml");
-  session_.show_flight(given_flight(kOver));
-  ask({{"call", "compute"}, {"text", targets}});
-  for (const Json& flight : {Json::parse(session_.hello())["flight"], ask({{"call", "flight"}}).header["value"]}) {
-    ASSERT_EQ(flight["check"]["targets"].size(), 2U);
-    EXPECT_EQ(flight["check"]["targets"][0]["name"], "a");
-    EXPECT_FALSE(flight["check"]["targets"][0]["seen"].empty());
-    EXPECT_FALSE(flight["check"]["targets"][1]["seen"].empty());
-  }
-}
-
-TEST_F(LiveSession, EachTargetHasAVolumeOfItsOwn) {
-  EXPECT_EQ(code_of({{"call", "volumes"}}), name_of(ErrorCode::nothing_given));
-  const std::string targets =
-      "targets:\n  - {name: a, vertices: [[-35, -5, 0], [-30, -5, 0], [-30, 5, 0]]}\n"
-      "  - {name: b, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\nsensor: {max_range: 42}\n";
-  ask({{"call", "compute"}, {"text", targets}});
-  const Message message = ask({{"call", "volumes"}});
-  EXPECT_EQ(message.header["value"]["volumes"],
-            Json::parse(R"([{"name": "a", "reason": ""}, {"name": "b", "reason": ""}])"));
-  write("each.yaml", testing::kScene + targets + "combine: each\n");
-  const Mission each = resolve_mission(read_mission(folder_ / "each.yaml"));
-  std::vector<std::size_t> expected;
-  for (std::size_t i = 0; i < 2; ++i) expected.push_back(run_mission(one_volume(each, i)).volume.mesh.triangles.size());
-  const ViewMesh& view = session_.target_volumes_view();
-  EXPECT_EQ(message.header["mesh"][2], view.label_of.size());
-  for (std::uint32_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(std::count(view.label_of.begin(), view.label_of.end(), i), static_cast<std::ptrdiff_t>(expected[i]));
-  }
-  EXPECT_EQ(view.triangles.size(), 3 * view.label_of.size());
-  EXPECT_LT(*std::max_element(view.triangles.begin(), view.triangles.end()), view.positions.size() / 3);
-  // The last volume stays what it was.
-  EXPECT_EQ(ask({{"call", "prove"}}).header["value"]["verdict"], "proved");
 }
 
 TEST_F(LiveSession, RequestsOfOthersAreRefused) {

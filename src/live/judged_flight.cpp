@@ -1,8 +1,27 @@
 #include "live/judged_flight.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace vantage::live {
+namespace {
+
+/// The same JSON on one line: in JSON no text has a line's end in it.
+std::string on_one_line(const std::string& json) {
+  std::string line;
+  line.reserve(json.size());
+  for (std::size_t i = 0; i < json.size();) {
+    if (json[i] != '\n') {
+      line += json[i++];
+      continue;
+    }
+    i = std::min(json.find_first_not_of(" \n", i), json.size());
+  }
+  return line;
+}
+
+}  // namespace
 
 std::string judged_flight(const GivenFlight& given, const Mission& mission, const PreparedScene& prepared,
                           const Progress& progress) {
@@ -18,11 +37,10 @@ std::string judged_flight(const GivenFlight& given, const Mission& mission, cons
   }
   Json home;
   if (located.home) home = {located.home->x(), located.home->y(), located.home->z()};
-  return Json{{"name", given.name},
-              {"home", std::move(home)},
-              {"notes", std::move(notes)},
-              {"check", Json::parse(json_text(check))}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  const Json about{{"name", given.name}, {"home", std::move(home)}, {"notes", std::move(notes)}};
+  std::string text = about.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.back() = ',';
+  return text + R"("check":)" + on_one_line(json_text(check)) + "}";
 }
 
 }  // namespace vantage::live

@@ -24,9 +24,8 @@ void append(std::string& message, const std::vector<T>& numbers) {
   message.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T));
 }
 
-/// The JSON, with what is appended to it.
-std::string framed(const Json& header, const ViewMesh* mesh, const std::string* bytes) {
-  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+/// `text`: JSON. With what is appended to it.
+std::string framed(std::string text, const ViewMesh* mesh, const std::string* bytes) {
   text.append((4 - text.size() % 4) % 4, ' ');
   const auto length = static_cast<std::uint32_t>(text.size());
   std::string message(reinterpret_cast<const char*>(&length), sizeof length);
@@ -38,6 +37,10 @@ std::string framed(const Json& header, const ViewMesh* mesh, const std::string* 
   }
   if (bytes) message += *bytes;
   return message;
+}
+
+std::string framed(const Json& header) {
+  return framed(header.dump(-1, ' ', false, Json::error_handler_t::replace), nullptr, nullptr);
 }
 
 std::string area_of(MapAreas& areas, const Session& session, const Request& request, const Progress& progress) {
@@ -139,24 +142,34 @@ Json parsed(std::string_view text) {
   return is_read ? reader.result() : Json(Json::value_t::discarded);
 }
 
+/// Its value is sent as the session has it, however long: it is not read here.
 std::string message_of(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const std::string text = answered([&] { return value_of(session, areas, request, progress); });
-  Json value = Json::parse(text);
-  Json header{{"id", request.id}};
-  const bool is_error = value.contains("error");
+  const auto milliseconds = [&] {
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    return time.count();
+  };
+  bool is_error = true;
+  const std::string value = answered([&] {
+    std::string text = value_of(session, areas, request, progress);
+    is_error = false;
+    return text;
+  });
   if (is_error) {
-    header["error"] = std::move(value["error"]);
-  } else {
-    header["value"] = std::move(value);
+    Json header = Json::parse(value);
+    header["id"] = request.id;
+    header["engine_ms"] = milliseconds();
+    return framed(header);
   }
-  const ViewMesh* mesh = is_error ? nullptr : mesh_of(session, request.call);
-  const std::string* bytes = !is_error && request.call == "save" ? &session.bytes() : nullptr;
+  const ViewMesh* mesh = mesh_of(session, request.call);
+  const std::string* bytes = request.call == "save" ? &session.bytes() : nullptr;
+  Json header{{"id", request.id}};
   if (mesh) header["mesh"] = {mesh->positions.size(), mesh->triangles.size(), mesh->label_of.size()};
   if (bytes) header["bytes"] = bytes->size();
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  header["engine_ms"] = time.count();
-  return framed(header, mesh, bytes);
+  header["engine_ms"] = milliseconds();
+  std::string text = header.dump();
+  text.back() = ',';
+  return framed(text + R"("value":)" + value + "}", mesh, bytes);
 }
 
 /// `error`: JSON.
@@ -164,7 +177,7 @@ std::string error_answer(const Request& request, const std::string& error) {
   Json header = Json::parse(error);
   header["id"] = request.id;
   header["engine_ms"] = 0;
-  return framed(header, nullptr, nullptr);
+  return framed(header);
 }
 
 }  // namespace
@@ -214,15 +227,15 @@ std::string cancelled_answer(const Request& request) {
 }
 
 std::string waiting_notice(const Request& request, bool waits) {
-  return framed(Json{{"id", request.id}, {"waits", waits}}, nullptr, nullptr);
+  return framed(Json{{"id", request.id}, {"waits", waits}});
 }
 
 std::string stale_answer(const Request& request) {
-  return framed(Json{{"id", request.id}, {"stale", true}, {"engine_ms", 0}}, nullptr, nullptr);
+  return framed(Json{{"id", request.id}, {"stale", true}, {"engine_ms", 0}});
 }
 
 std::string stopped_answer(const Request& request) {
-  return framed(Json{{"id", request.id}, {"value", Json::object()}, {"engine_ms", 0}}, nullptr, nullptr);
+  return framed(Json{{"id", request.id}, {"value", Json::object()}, {"engine_ms", 0}});
 }
 
 }  // namespace vantage::live

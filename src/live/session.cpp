@@ -251,7 +251,7 @@ void Session::show_volume(const std::filesystem::path& volume, const Progress& p
 
 void Session::show_flight(GivenFlight given, const Progress& progress) {
   flight_ = std::make_shared<const GivenFlight>(std::move(given));
-  flight_text_ = judged(*mission_, progress);
+  flight_text_ = std::make_shared<const std::string>(judged(*mission_, progress));
 }
 
 Mission Session::for_each_target(const Mission& mission, const Progress& progress) const {
@@ -267,7 +267,7 @@ std::string Session::judged(const Mission& mission, const Progress& progress) co
 }
 
 std::string Session::target_volumes(const Progress& progress) {
-  const Mission each = for_each_target(mission(), progress);
+  const Mission each = for_each_target(last_mission(), progress);
   const ScenePointer scene = scene_of(each);
   Mesh all;
   std::vector<std::uint32_t> target_of;
@@ -291,16 +291,16 @@ std::string Session::target_volumes(const Progress& progress) {
 
 std::string Session::flight(const Progress& progress) {
   if (!flight_) throw Error(ErrorCode::nothing_given, "no flight is shown", "", "start the program with --flight");
-  return judged(mission(), progress);
+  return judged(last_mission(), progress);
 }
 
 std::string Session::hello() const {
-  return text_of(Json{{"about", Json::parse(about())},
-                      {"scene", Json::parse(scene_json())},
-                      {"mission", text_},
-                      {"name", file_.filename().string()},
-                      {"volume", result_ ? Json::parse(volume_json()) : Json()},
-                      {"flight", flight_ ? Json::parse(flight_text_) : Json()}});
+  // Put together as text: a flight of a million points is not read again for each window.
+  std::string text = R"({"about":)" + about() + R"(,"scene":)" + scene_json();
+  text += R"(,"mission":)" + text_of(text_) + R"(,"name":)" + text_of(file_.filename().string());
+  text += R"(,"volume":)" + (result_ ? volume_json() : "null") + R"(,"flight":)";
+  text += flight_ ? *flight_text_ : "null";
+  return text + "}";
 }
 
 std::string Session::scene_json() const {
@@ -380,6 +380,8 @@ const Mission& Session::mission() const {
   if (!result_) throw Error(ErrorCode::nothing_given, "there is no volume yet", "", "choose a target first");
   return *mission_;
 }
+
+const Mission& Session::last_mission() const { return mission_ ? *mission_ : mission(); }
 
 std::string Session::query(const std::vector<double>& coordinates) {
   if (!query_) {

@@ -60,11 +60,13 @@ class Session {
   /// What the points (x, y, z in turn) see of the target of the last volume.
   std::string query(const std::vector<double>& coordinates);
 
-  /// JSON of judged_flight: the flight that is shown, by the mission of the last volume, each of its targets by itself.
+  /// JSON of judged_flight: the flight that is shown, by the mission of the last volume, or else by the one that was
+  /// opened, each of its targets by itself.
   std::string flight(const Progress& progress = {});
 
-  /// The volumes of the targets of the last volume's mission, each by itself: target_volumes_view() has them, labelled
-  /// by their targets. JSON: {volumes: [{name, reason: why it is empty, or ""}]}.
+  /// The volumes of the targets of that mission, each by itself; of a target that is a volume, what the limits of
+  /// navigation leave of it. target_volumes_view() has them, labelled by their targets. JSON: {volumes: [{name, reason:
+  /// why it is empty, or ""}]}.
   std::string target_volumes(const Progress& progress = {});
 
   /// Proves the last volume, or refutes it: once.
@@ -94,7 +96,8 @@ class Session {
   };
   using ScenePointer = std::shared_ptr<const ReadyScene>;
 
-  const Mission& mission() const;  ///< of the last volume
+  const Mission& mission() const;       ///< of the last volume
+  const Mission& last_mission() const;  ///< the same, or the one that was opened where there is no volume yet
   /// With a volume for each target.
   Mission for_each_target(const Mission& mission, const Progress& progress) const;
   std::string judged(const Mission& mission, const Progress& progress) const;
@@ -126,9 +129,9 @@ class Session {
   ProveOptions prove_options_;
   bool has_causes_ = true;  ///< some formats of files have no room for them
   std::optional<ProofReport> proof_;
-  std::shared_ptr<ViewsQuery> query_;          ///< of the last volume; null: nothing was asked yet
-  std::shared_ptr<const GivenFlight> flight_;  ///< null: none is shown
-  std::string flight_text_;                    ///< judged by the mission that was opened
+  std::shared_ptr<ViewsQuery> query_;               ///< of the last volume; null: nothing was asked yet
+  std::shared_ptr<const GivenFlight> flight_;       ///< null: none is shown
+  std::shared_ptr<const std::string> flight_text_;  ///< judged by the mission that was opened
   double resolve_ms_ = 0, compute_ms_ = 0, view_ms_ = 0;
   ViewMesh volume_view_, target_volumes_view_;
   std::string bytes_;
