@@ -319,6 +319,7 @@ class FlightCheck:
 
     @property
     def failures(self) -> list[str]: ...
+
     @property
     def notes(self) -> list[str]: ...
 
