@@ -89,9 +89,12 @@ test("heights below are those of the highest triangle", () => {
   const slope = [[0, 0, 0], [100, 0, 10], [100, 100, 10], [0, 100, 0]], roof = [[10, 10, 20], [30, 10, 20], [10, 30, 20]];
   const positions = [...slope, ...roof].flat();
   const triangles = [0, 1, 2, 0, 2, 3, 4, 5, 6];
-  const places = [[50, 50], [15, 15], [200, 5], [0, 0], [29, 29], [-1e-3, 50]];
+  const places = [[50, 50], [15, 15], [200, 5], [0, 0], [29, 29], [-1e-3, 50]].map((place) => [...place, 40]);
   expect([...heightsBelow({ positions, triangles }, places)]).toEqual([5, 20, NaN, 0, 2.9, NaN]);
   expect([...heightsBelow({ positions, triangles: triangles.slice(0, 6) }, places)]).toEqual([5, 1.5, NaN, 0, 2.9, NaN]);
   const alone = places.map((place) => heightsBelow({ positions, triangles }, [place])[0]);
   expect(alone).toEqual([5, 20, NaN, 0, 2.9, NaN]); // whatever the other places are
+  // Under the roof the slope is what lies below; on the roof, as rounded as plans are, the roof.
+  const under = [[15, 15, 12], [15, 15, 19.99], [15, 15, 19.9], [15, 15, 1], [50, 50, 4]];
+  expect([...heightsBelow({ positions, triangles }, under)]).toEqual([1.5, 20, 1.5, NaN, NaN]);
 });

@@ -68,6 +68,21 @@ test.describe("a check that is dropped", () => {
     await expect(page.locator("#flight-rows .strip").first().locator(".seen")).toHaveCount(check.targets[0].seen.length);
   });
 
+  test("the profile is over what lies below, not over what hangs above", async ({ page }) => {
+    const bridge = plazaMesh.text + "o bridge\n" + [[-40, -31], [40, -31], [40, -29], [-40, -29]].map(([x, y]) => `v ${x} ${y} 50\n`).join("") + "f -4 -3 -2 -1\n";
+    await open(page, { name: "bridge.obj", text: bridge }, { name: "check.json", text: checked().text });
+    await settled(page);
+    const gaps = await page.evaluate(() => {
+      const { z, surface } = (window as any).vantage.flights.profile;
+      return z.map((height: number, i: number) => height - surface[i]) as number[];
+    });
+    expect(Math.min(...gaps)).toBeGreaterThanOrEqual(0);
+    expect(await page.evaluate(() => (window as any).vantage.city.surfaceBelow([[-20, -30, 55], [-20, -30, 45]]))).toEqual([50, 15]); // a roof
+    // Under the ground the ground is told.
+    expect(await page.evaluate(() => (window as any).vantage.city.surfaceBelow([[-20, -30, -3]]))).toEqual([0]);
+    expect(await page.evaluate(() => (window as any).vantage.city.groundBelow([-20, -30, -3]))).toBe(0);
+  });
+
   test("obeys the keyboard, and plays", async ({ page }) => {
     const { text, check } = checked();
     await open(page, { name: "check.json", text });

@@ -52,7 +52,10 @@ class Squares {
   }
 }
 
-/** z for each place; NaN: nothing lies there. Triangles and places are in the same frame. */
+/** Metres: positions of plans are rounded, and so is what is drawn. What is so little above a place lies below it still. */
+const ROUNDING = 0.05;
+
+/** z for each place (x, y, z); NaN: nothing lies below it. Triangles and places are in the same frame. */
 export function heightsBelow({ positions: p, triangles }: Triangles, places: readonly (readonly number[])[]): Float64Array {
   const heights = new Float64Array(places.length).fill(NaN);
   const squares = new Squares(places);
@@ -61,10 +64,10 @@ export function heightsBelow({ positions: p, triangles }: Triangles, places: rea
     const [left, right] = [Math.min(p[a]!, p[b]!, p[c]!), Math.max(p[a]!, p[b]!, p[c]!)];
     const [bottom, top] = [Math.min(p[a + 1]!, p[b + 1]!, p[c + 1]!), Math.max(p[a + 1]!, p[b + 1]!, p[c + 1]!)];
     squares.each(left, right, bottom, top, (index) => {
-      const [x, y] = places[index] as [number, number];
+      const [x, y, from] = places[index] as [number, number, number];
       if (x < left || x > right || y < bottom || y > top) return;
       const z = heightAt(p, a, b, c, x, y);
-      if (!Number.isNaN(z) && !(heights[index]! >= z)) heights[index] = z;
+      if (z <= from + ROUNDING && !(heights[index]! >= z)) heights[index] = z;
     });
   }
   return heights;

@@ -34,6 +34,13 @@ function groundOf({ objects }: SceneInfo, triangles: ArrayLike<number>, labels: 
   return ground;
 }
 
+/** What is NaN is taken from the others. */
+function orElse(values: number[], others: () => number[]): number[] {
+  if (!values.some(Number.isNaN)) return values;
+  const instead = others();
+  return values.map((value, i) => (Number.isNaN(value) ? instead[i]! : value));
+}
+
 export class City {
   private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material> | null = null;
   private edges: THREE.LineSegments<THREE.BufferGeometry, THREE.Material> | null = null;
@@ -133,22 +140,33 @@ export class City {
     return corners.map((corner) => this.toScene(new THREE.Vector3(...corner)));
   }
 
-  /** z of the highest surface below each place, scene frame; NaN: there is none. */
-  surfaceBelow(places: Point[]): Float64Array {
-    const { mesh, info } = this;
-    if (!mesh || !info) return new Float64Array(places.length).fill(NaN);
-    const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: mesh.geometry.getIndex()!.array };
-    return heightsBelow(triangles, places.map((place) => this.toView(place).toArray())).map((z) => z + info.origin[2]);
+  /** z of the highest surface below each place, else of the ground above it, scene frame; NaN: there is neither. */
+  surfaceBelow(places: Point[]): number[] {
+    const all = this.mesh?.geometry.getIndex()!.array ?? [];
+    return orElse(this.heights(all, places), () => this.groundLevels(places));
   }
 
-  /** z of the highest ground below a place, scene frame; null: none is known there. */
+  /** z of the highest ground below a place, else of that above it, scene frame; null: there is none. */
   groundBelow(place: Point): number | null {
+    const z = this.groundLevels([place])[0]!;
+    return Number.isNaN(z) ? null : z;
+  }
+
+  /** A place may lie under the ground, as where a plan is wrong. */
+  private groundLevels(places: Point[]): number[] {
+    const { mesh, info, labels } = this;
+    if (!mesh || !info) return places.map(() => NaN);
+    this.ground ??= groundOf(info, mesh.geometry.getIndex()!.array, labels);
+    const { ground } = this;
+    return orElse(this.heights(ground, places), () => this.heights(ground, places.map(([x, y]) => [x, y, Infinity])));
+  }
+
+  private heights(triangles: ArrayLike<number>, places: Point[]): number[] {
     const { mesh, info } = this;
-    if (!mesh || !info) return null;
-    this.ground ??= groundOf(info, mesh.geometry.getIndex()!.array, this.labels);
-    const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: this.ground };
-    const z = heightsBelow(triangles, [this.toView(place).toArray()])[0]!;
-    return Number.isNaN(z) ? null : z + info.origin[2];
+    if (!mesh || !info) return places.map(() => NaN);
+    const { array: positions } = mesh.geometry.getAttribute("position");
+    const below = heightsBelow({ positions, triangles }, places.map((place) => this.toView(place).toArray()));
+    return Array.from(below, (z) => z + info.origin[2]);
   }
 
   toScene(p: THREE.Vector3): Point {
