@@ -19,6 +19,8 @@ export interface Profile {
   surface: number[];
 }
 
+export const servedFlight = ({ check, name, home, notes }: ServedFlight): Flight => flightFrom(check, name, home, notes);
+
 export class Flights {
   flight: Flight | null = null;
   profile: Profile | null = null;
@@ -71,12 +73,16 @@ export class Flights {
     this.tell(true);
   }
 
-  /** The one that the program was started with, judged by the mission that is shown, where that has a volume. */
-  openServed({ check, name, home, notes }: ServedFlight): void {
-    this.put(flightFrom(check, name, home, notes), 0);
+  /**
+   * The one that the program was started with, judged by the mission that was opened. Where that has no volume, the page
+   * shows no other mission, and the program has the volumes of its targets.
+   */
+  openServed(flight: Flight): void {
+    this.put(flight, 0);
     this.judgedOf = this.app.volume ? missionText(this.app.mission) : "";
-    this.old = this.app.volume ? "" : "the mission has no volume";
+    this.old = "";
     this.tell(true);
+    if (this.hasGivenVolumes) void this.setVolumes(true);
   }
 
   private requireNear(flight: Flight): void {
@@ -112,6 +118,16 @@ export class Flights {
     return this.judgedOf !== null;
   }
 
+  /** Some of its targets are volumes that it flies through. */
+  private get hasGivenVolumes(): boolean {
+    return this.flight?.targets.some(({ isVolume }) => isVolume) ?? false;
+  }
+
+  /** The program can compute volumes of its targets that the page does not show as that of the mission. */
+  get canHaveVolumes(): boolean {
+    return this.isServed && ((this.flight?.targets.length ?? 0) > 1 || this.hasGivenVolumes);
+  }
+
   private hideVolumes(): void {
     this.hasVolumes = false;
     this.volumesView.hide();
@@ -129,6 +145,7 @@ export class Flights {
 
   private async showVolumes(): Promise<void> {
     const { app, asked } = this;
+    if (this.old !== "") return; // they come once it is judged again
     const { volume } = app;
     try {
       const { volumes, mesh } = await app.late(app.engine.volumes());
@@ -198,8 +215,9 @@ export class Flights {
     if (app.isDraft) return this.setOld("the mission is being changed");
     const text = missionText(app.mission);
     if (text === this.judgedOf) {
+      this.setOld("");
       if (this.hasVolumes && !this.volumesView.isShown) void this.showVolumes();
-      return this.setOld("");
+      return;
     }
     if (!app.engine.isIdle) return this.setOld("the mission is being changed"); // it is told of the next volume, too
     const { volume } = app;
@@ -208,9 +226,10 @@ export class Flights {
       const served = await app.late(app.engine.flight());
       if (asked !== this.asked || app.engine.last !== volume) return;
       const { x, playing } = this;
-      this.put(flightFrom(served.check, served.name, served.home, served.notes), x);
+      this.put(servedFlight(served), x);
       this.playing = playing;
       this.judgedOf = text;
+      if (!this.canHaveVolumes) this.hideVolumes();
       this.setOld("");
       if (this.hasVolumes) void this.showVolumes();
     } catch (error) {
@@ -219,7 +238,7 @@ export class Flights {
     this.tell(true);
   }
 
-  /** The mission has no volume. */
+  /** It is not judged by the mission that is shown. `why`: "" where it is. */
   setOld(why: string): void {
     if (this.old === why || this.judgedOf === null) return;
     this.old = why;
@@ -233,6 +252,6 @@ export class Flights {
     const own = flight.points.length > PROFILE_PLACES ? [] : flight.points.flatMap(({ arrival, departure }) => [arrival, departure]);
     const x = [...new Set([...between, ...own])].sort((a, b) => a - b);
     const places = x.map((at) => momentAt(flight, at).at);
-    return { x, z: places.map(([, , z]) => z), surface: [...this.app.city.surfaceBelow(places)] };
+    return { x, z: places.map(([, , z]) => z), surface: this.app.city.surfaceBelow(places) };
   }
 }

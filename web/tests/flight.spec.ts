@@ -49,6 +49,19 @@ test("without speeds its axis counts metres", () => {
   expect(momentAt(flightFrom({ ...slow, points: slow.points.slice(0, 1), targets: [] }, "one point"), 0).at).toEqual([0, 0, 40]);
 });
 
+test("volumes are flown through, and links hold or not", () => {
+  const [a, b, c] = check().targets;
+  const links = [{ name: "pilot", linked: [span(0, 30, 0, 7)], lost: [] }, { name: "mast", linked: [] }];
+  const flight = flightFrom({ ...check(), targets: [a, { ...b, volume: true }, c], links }, "check.json");
+  expect(flight.targets.map(({ isVolume }) => isVolume)).toEqual([false, true, false]);
+  expect(flight.links).toEqual([{ name: "pilot", linked: [[0, 7]] }, { name: "mast", linked: [] }]);
+  expect(flightFrom(check(), "of an earlier version").links).toEqual([]);
+  expect(flightFrom({ ...check(), notes: ["beyond the map"] }, "check.json", null, ["of the plan"]).notes).toEqual(["of the plan", "beyond the map"]);
+  const far = [{ name: "pilot", linked: [span(0, 30, 0, 12)] }];
+  expect(() => flightFrom({ ...check(), links: far }, "check.json")).toThrow("from 0 to 12 s is no part");
+  expect(() => flightFrom({ ...check(), targets: [{ ...a, volume: 1 }] }, "check.json")).toThrow("volume is neither true nor false");
+});
+
 test("what is no flight is refused, and what is wrong is named", () => {
   const broken: [(told: any) => void, string][] = [
     [(told) => delete told.points, 'check.json has no "points"'],

@@ -68,6 +68,37 @@ test.describe("a check that is dropped", () => {
     await expect(page.locator("#flight-rows .strip").first().locator(".seen")).toHaveCount(check.targets[0].seen.length);
   });
 
+  test("tells of volumes and of links in their own words", async ({ page }) => {
+    const { text, check } = checked();
+    const [{ seen, parts }] = check.targets;
+    const [{ begin_s, end_s }] = seen;
+    expect(text).not.toContain('"volume"');
+    check.targets = [{ name: "gate", volume: true, parts: [], seen }, { name: "yard", volume: true, parts: [], seen: [] }];
+    check.links = [{ name: "pilot", linked: seen.slice(0, 1) }, { name: "mast", linked: [] }];
+    await open(page, { name: "check.json", text: JSON.stringify(check) });
+    await settled(page);
+    const told = () => page.locator("#flight-rows .strip").evaluateAll((rows) => rows.map((row) => row.getAttribute("aria-label")!));
+    const [gate, ...others] = await told();
+    expect(gate).toContain("gate: inside from ");
+    expect(others[0]).toBe("yard: nowhere inside");
+    expect(others[1]).toMatch(/^link: pilot: holds from [\d.]+ to [\d.]+ s$/);
+    expect(others[2]).toBe("link: mast: nowhere holds");
+    await expect(page.locator("#flight-rows .linked")).toHaveCount(1);
+    await flyTo(page, (begin_s + end_s) / 2);
+    await expect(page.locator("#readout")).toContainText("inside: gate");
+    await expect(page.locator("#readout")).not.toContainText("in view");
+    await flyTo(page, begin_s / 2);
+    await expect(page.locator("#readout")).toContainText("inside no volume");
+    await expect(page.locator("#flight-volumes-label")).toBeHidden(); // the page has them not
+    // Beside what is seen, and with lines of sight to that alone.
+    check.targets.push({ name: "square", parts, seen });
+    await open(page, { name: "check.json", text: JSON.stringify(check) });
+    await settled(page);
+    await flyTo(page, (begin_s + end_s) / 2);
+    await expect(page.locator("#readout")).toContainText("in view: square · inside: gate");
+    expect((await flown(page)).sight).toBe(2 * parts.flat().length);
+  });
+
   test("the profile is over what lies below, not over what hangs above", async ({ page }) => {
     const bridge = plazaMesh.text + "o bridge\n" + [[-40, -31], [40, -31], [40, -29], [-40, -29]].map(([x, y]) => `v ${x} ${y} 50\n`).join("") + "f -4 -3 -2 -1\n";
     await open(page, { name: "bridge.obj", text: bridge }, { name: "check.json", text: checked().text });
@@ -223,6 +254,46 @@ plain("of several targets each has a volume of its own", async ({ page }) => {
     await page.uncheck("#flight-volumes");
     await expect.poll(drawn).toBe(0);
     await expect(page.locator("#flight-rows .row-name i")).toHaveCount(0);
+  } finally {
+    viewer.kill("SIGINT");
+  }
+});
+
+plain("a mission of volumes to fly through has a flight and their volumes, and no volume of its own", async ({ page }) => {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+  writeFileSync(join(folder, "plaza.obj"), plazaMesh.text);
+  writeFileSync(join(folder, "flight.csv"), TABLE);
+  const gate = "v -30 -35 40\nv -20 -35 40\nv -20 -25 40\nv -30 -25 40\nv -30 -35 50\nv -20 -35 50\nv -20 -25 50\nv -30 -25 50\n" +
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  writeFileSync(join(folder, "gate.obj"), gate);
+  writeFileSync(join(folder, "through.yaml"), "scene: {mesh: plaza.obj}\ntargets: [{volume: gate.obj}]\nlinks: [{name: pilot, point: [-40, -60, 20]}]\n");
+  const viewer = spawn(program, ["view", join(folder, "through.yaml"), "--flight", join(folder, "flight.csv"), "--heights", "scene", "--no-browser",
+    "--page", join(root, "web/dist/index.html")]);
+  try {
+    await page.goto(await new Promise<string>((resolve) => viewer.stdout.once("data", (text: Buffer) => resolve(text.toString().trim()))));
+    await settled(page);
+    await expect(page.locator("#flight-verdict")).not.toContainText("Not judged");
+    expect((await flown(page)).old).toBe("");
+    await expect(page.locator("#hint")).toContainText("Play, or the slider");
+    await expect(page.locator("#flight-rows .strip").first()).toHaveAttribute("aria-label", /^gate: inside from [\d.]+ to/);
+    await expect(page.locator("#flight-rows .strip")).toHaveCount(2);
+    const drawn = () => page.evaluate(() => {
+      const { mesh } = (window as any).vantage.flights.volumesView;
+      return mesh.visible ? (mesh.geometry.getAttribute("position").count as number) : 0;
+    });
+    await expect.poll(drawn).toBe(36);
+    await page.uncheck("#flight-volumes");
+    await expect.poll(drawn).toBe(0);
+    await page.check("#flight-volumes");
+    await expect.poll(drawn).toBe(36);
+    // A target that is drawn is another mission: it is judged by that, and once that is gone by none.
+    await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.target = { kind: "polygon", vertices: [[-40, -20, 0], [-36, -20, 0], [-36, -16, 0]] }), true));
+    await hasVolume(page);
+    await expect(page.locator("#flight-rows .strip").first()).toHaveAttribute("aria-label", /^target: /);
+    await expect.poll(drawn).toBe(0);
+    await expect(page.locator("#flight-volumes-label")).toBeHidden();
+    await page.click("#undo");
+    await expect(page.locator("#flight-verdict")).toHaveText("Not judged by this mission: the mission has no target");
   } finally {
     viewer.kill("SIGINT");
   }

@@ -107,12 +107,12 @@ export class Engine {
     return ((await this.transport.ask({ call: "query", points })).value as { answers: PointAnswer[] }).answers;
   }
 
-  /** The flight that the program was started with, by the mission of the last volume. */
+  /** The flight that the program was started with, by the mission of the last volume, or else the one that was opened. */
   async flight(): Promise<ServedFlight> {
     return (await this.transport.ask({ call: "flight" })).value as ServedFlight;
   }
 
-  /** A volume for each target of the mission of the last volume; `labels` of the mesh: which target. */
+  /** A volume for each target of that mission; `labels` of the mesh: which target. */
   async volumes(): Promise<{ volumes: TargetVolume[]; mesh: ViewMesh }> {
     const { value, mesh } = await this.transport.ask({ call: "volumes" });
     return { volumes: (value as { volumes: TargetVolume[] }).volumes, mesh: mesh! };

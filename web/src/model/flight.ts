@@ -6,12 +6,21 @@ export type Span = [number, number];
 
 export interface FlightTarget {
   name: string;
+  /** it is flown through: `seen` is where the flight is inside it */
+  isVolume: boolean;
   /** convex polygons, scene frame */
   parts: Point[][];
   /** where on the axis all of it is seen; sorted, apart */
   seen: Span[];
   /** the same along the flight, metres */
   seen_m: Span[];
+}
+
+/** The line of sight, or the radio link, from a point to the vehicle. */
+export interface FlightLink {
+  name: string;
+  /** where on the axis it holds; sorted, apart */
+  linked: Span[];
 }
 
 /** A moment of a flight. */
@@ -21,7 +30,7 @@ export interface Moment {
   at_m: number;
   /** since it began; null: nobody knows how fast it is flown */
   at_s: number | null;
-  /** indices of the targets that are seen whole */
+  /** indices of the targets that are seen whole, or that it is inside of */
   seen: number[];
 }
 
@@ -35,9 +44,10 @@ export interface Flight {
   end: number;
   points: { at: Point; at_m: number; arrival: number; departure: number }[];
   targets: FlightTarget[];
+  links: FlightLink[];
   /** what was required and does not hold */
   failures: string[];
-  /** what the program noted about the plan */
+  /** what to know before relying on it */
   notes: string[];
   /** all holds for every position so near to it, metres */
   tube_m: number;
@@ -60,6 +70,11 @@ class Reader {
     return new Reader((value as Record<string, unknown>)[key], `${this.path}, ${key}`);
   }
 
+  /** of a member that checks of earlier versions have not */
+  find(key: string): Reader | null {
+    return Object.hasOwn(this.value as object, key) ? this.get(key) : null;
+  }
+
   list<T>(read: (one: Reader) => T): T[] {
     const { value } = this;
     if (!Array.isArray(value)) this.fail("is no list");
@@ -76,6 +91,10 @@ class Reader {
     return this.value === null ? null : this.number();
   }
 
+  flag(): boolean {
+    return typeof this.value === "boolean" ? this.value : this.fail("is neither true nor false");
+  }
+
   text(): string {
     return typeof this.value === "string" ? this.value : this.fail("is no text");
   }
@@ -90,20 +109,25 @@ function inOrder(values: number[], what: string): void {
   if (at > 0) throw new Error(`${what} ${at + 1} comes before the one before it: ${AGAIN}`);
 }
 
-function targetFrom(target: Reader, unit: "s" | "m", end: number, end_m: number): FlightTarget {
-  const spans = (begin: string, last: string, most: number) => target.get("seen").list((span): Span => {
-    const ends: Span = [span.get(begin).number(), span.get(last).number()];
+/** `most`: the end of the flight, in that unit. */
+function spansFrom(spans: Reader, unit: "s" | "m", most: number): Span[] {
+  return spans.list((span): Span => {
+    const ends: Span = [span.get(`begin_${unit}`).number(), span.get(`end_${unit}`).number()];
     const slack = 1e-9 * most;
     if (!(ends[0] >= 0 && ends[0] <= ends[1] && ends[1] <= most + slack)) {
       throw new Error(`a stretch from ${ends[0]} to ${ends[1]} ${unit} is no part of the flight: ${AGAIN}`);
     }
     return ends;
   });
+}
+
+function targetFrom(target: Reader, unit: "s" | "m", end: number, end_m: number): FlightTarget {
   return {
     name: target.get("name").text(),
+    isVolume: target.find("volume")?.flag() ?? false,
     parts: target.get("parts").list((part) => part.list((corner) => corner.point())),
-    seen: unit === "s" ? spans("begin_s", "end_s", end) : spans("begin_m", "end_m", end),
-    seen_m: spans("begin_m", "end_m", end_m),
+    seen: spansFrom(target.get("seen"), unit, end),
+    seen_m: spansFrom(target.get("seen"), "m", end_m),
   };
 }
 
@@ -124,8 +148,12 @@ export function flightFrom(told: unknown, name: string, home: Point | null = nul
   const { departure, at_m } = points.at(-1)!;
   const unit = isTimed ? "s" : "m";
   return {
-    name, home, notes, unit, end: departure, points,
+    name, home, unit, end: departure, points,
+    notes: [...notes, ...(check.find("notes")?.list((one) => one.text()) ?? [])],
     targets: check.get("targets").list((target) => targetFrom(target, unit, departure, at_m)),
+    links: check.find("links")?.list((link) => ({
+      name: link.get("name").text(), linked: spansFrom(link.get("linked"), unit, departure),
+    })) ?? [],
     failures: check.get("failures").list((one) => one.text()),
     tube_m: check.get("tube_radius_m").number(),
   };

@@ -2,6 +2,7 @@
 import { Superseded, type App, type SceneSource } from "../app";
 import { toldBy } from "../engine/client";
 import { EngineFailure } from "../engine/transport";
+import { servedFlight } from "../flights";
 import type { Hello, ViewMesh } from "../engine/messages";
 import { isFlight } from "../model/flight";
 import { divided, missionText, sceneText } from "../model/mission";
@@ -101,14 +102,16 @@ export class Files {
     const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
     app.source = { name, bytes: new ArrayBuffer(0), section: scene, beside: {} };
     app.showScene(hello.scene, mesh);
+    const flight = hello.flight && servedFlight(hello.flight);
+    const isFlownThrough = flight?.targets.some(({ isVolume }) => isVolume) ?? false; // then the mission has no volume
     try {
       if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
-      else await app.openMission(body);
+      else if (!isFlownThrough) await app.openMission(body);
     } finally {
-      if (hello.flight) app.flights.openServed(hello.flight);
+      if (flight) app.flights.openServed(flight);
     }
     // Of a tour no position need see all targets: that is no news.
-    if (hello.flight && app.volume) say("Play, or the slider below, flies it");
+    if (flight) say("Play, or the slider below, flies it");
     app.lookAtTarget();
     document.title = `${hello.name} · vantage`;
   }

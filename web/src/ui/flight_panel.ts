@@ -1,6 +1,6 @@
 // Below the view: the flight's height, when each target is seen, and a slider that flies it.
 import type { App } from "../app";
-import type { Flight } from "../model/flight";
+import type { Flight, Span } from "../model/flight";
 import { ticks } from "../model/flight";
 import { colourOf } from "../view/target_volumes";
 import { button, element, hex, input, metres } from "./page";
@@ -9,7 +9,7 @@ const SVG = "http://www.w3.org/2000/svg";
 const WIDE = 1000; // units of a chart across, whatever its width
 const HIGH = 100;
 const STEPS = 1000; // of the slider: one press of an arrow key
-const ROWS_UP_TO = 200; // targets: more are not to be told apart
+const ROWS_UP_TO = 200; // targets and links: more are not to be told apart
 
 function svg(name: string, attributes: Record<string, string | number>): SVGElement {
   const made = document.createElementNS(SVG, name);
@@ -31,10 +31,30 @@ function labelled(text: string, title = text): HTMLElement {
 
 const short = (value: number) => String(Number(value.toFixed(1)));
 
+/** What a strip shows: where on the axis something holds. */
+interface Strip {
+  name: string;
+  spans: Span[];
+  /** what holds there: "seen whole" */
+  what: string;
+  /** of its rectangles */
+  kind: "seen" | "linked";
+  /** index of the target; null: of none */
+  target: number | null;
+}
+
+function stripsOf({ targets, links }: Flight): Strip[] {
+  return [
+    ...targets.map(({ name, seen, isVolume }, target): Strip =>
+      ({ name, spans: seen, what: isVolume ? "inside" : "seen whole", kind: "seen", target })),
+    ...links.map(({ name, linked }): Strip => ({ name: `link: ${name}`, spans: linked, what: "holds", kind: "linked", target: null })),
+  ];
+}
+
 /** "seen whole from 3 to 12 s, 40 to 41 s" */
-function seenText({ unit }: Flight, seen: [number, number][]): string {
-  return seen.length === 0 ? "nowhere seen whole"
-    : `seen whole from ${seen.map(([begin, end]) => `${short(begin)} to ${short(end)}`).join(", ")} ${unit}`;
+function stripText({ what, spans }: Strip, unit: string): string {
+  return spans.length === 0 ? `nowhere ${what}`
+    : `${what} from ${spans.map(([begin, end]) => `${short(begin)} to ${short(end)}`).join(", ")} ${unit}`;
 }
 
 export class FlightPanel {
@@ -64,7 +84,7 @@ export class FlightPanel {
     this.showVehicle(flight);
   }
 
-  private showVerdict({ name, failures, notes, tube_m, targets }: Flight): void {
+  private showVerdict({ name, failures, notes, tube_m }: Flight): void {
     const { old } = this.app.flights;
     element("flight-name").textContent = name;
     const verdict = element("flight-verdict");
@@ -81,8 +101,8 @@ export class FlightPanel {
       return item;
     }));
     element("flight-rows").classList.toggle("old", old !== "");
-    const { isServed, hasVolumes } = this.app.flights;
-    element("flight-volumes-label").hidden = !isServed || targets.length < 2; // of one, the page shows it anyway
+    const { canHaveVolumes, hasVolumes } = this.app.flights;
+    element("flight-volumes-label").hidden = !canHaveVolumes;
     input("flight-volumes").checked = hasVolumes;
     element("flight-rows").querySelectorAll<HTMLElement>(".row-name[data-target]").forEach((name) => {
       const swatch = document.createElement("i");
@@ -97,13 +117,18 @@ export class FlightPanel {
     const { moment, x, ground, isPlaying } = { ...flights, isPlaying: flights.isPlaying };
     if (!moment) return;
     if (Number(this.slider.value) !== x) this.slider.value = String(x);
-    const seen = moment.seen.map((i) => flight.targets[i]!.name);
+    const reached = moment.seen.map((i) => flight.targets[i]!);
+    const namesOf = (areVolumes: boolean) => reached.filter(({ isVolume }) => isVolume === areVolumes).map(({ name }) => name).join(", ");
+    const [seen, inside] = [namesOf(false), namesOf(true)];
     const facts = [
       ...(moment.at_s === null ? [] : [`${moment.at_s.toFixed(1)} s`]), `${moment.at_m.toFixed(1)} m`,
       ground === null ? `z ${moment.at[2].toFixed(1)} m` : `${(moment.at[2] - ground).toFixed(1)} m above ground, z ${moment.at[2].toFixed(1)} m`,
     ];
-    const inView = flights.old !== "" ? "" : seen.length === 0 ? "no target in view" : `in view: ${seen.join(", ")}`;
-    const text = [...facts, ...(inView === "" ? [] : [inView])].join(" · ");
+    const { targets } = flight;
+    const none = targets.length > 0 && targets.every(({ isVolume }) => isVolume) ? "inside no volume" : "no target in view";
+    const inView = flights.old !== "" ? [] : reached.length === 0 ? [none]
+      : [...(seen === "" ? [] : [`in view: ${seen}`]), ...(inside === "" ? [] : [`inside: ${inside}`])];
+    const text = [...facts, ...inView].join(" · ");
     element("readout").textContent = text;
     this.slider.setAttribute("aria-valuetext", text);
     element("cursor").style.setProperty("--at", String(flight.end > 0 ? x / flight.end : 0));
@@ -113,7 +138,7 @@ export class FlightPanel {
     const rate = flights.rate >= 10 ? flights.rate.toFixed(0) : short(flights.rate);
     play.title = flight.unit === "m" ? `Fly it at ${rate} m/s: the plan does not say how fast it is flown`
       : flights.rate > 1 ? `Fly it ${rate} times as fast` : "Fly it";
-    element("flight").classList.toggle("seeing", seen.length > 0);
+    element("flight").classList.toggle("seeing", reached.length > 0);
     app.stage.request();
   }
 
@@ -126,18 +151,20 @@ export class FlightPanel {
     this.slider.max = String(flight.end);
     this.slider.step = "any";
     this.slider.onkeydown = (event) => this.step(event, flight);
-    const rows = flight.targets.slice(0, ROWS_UP_TO).flatMap((target, index) => {
-      const row = chart("strip", `${target.name}: ${seenText(flight, target.seen)}`);
+    const strips = stripsOf(flight);
+    const rows = strips.slice(0, ROWS_UP_TO).flatMap((strip) => {
+      const told = `${strip.name}: ${stripText(strip, flight.unit)}`;
+      const row = chart("strip", told);
       const at = (x: number) => (flight.end > 0 ? (x / flight.end) * WIDE : 0);
       row.append(svg("rect", { class: "not-seen", x: 0, y: 0, width: WIDE, height: HIGH }));
-      for (const [begin, end] of target.seen) {
-        row.append(svg("rect", { class: "seen", x: at(begin), y: 0, width: Math.max(1, at(end) - at(begin)), height: HIGH }));
+      for (const [begin, end] of strip.spans) {
+        row.append(svg("rect", { class: strip.kind, x: at(begin), y: 0, width: Math.max(1, at(end) - at(begin)), height: HIGH }));
       }
-      const name = labelled(target.name, `${target.name}: ${seenText(flight, target.seen)}`);
-      name.dataset["target"] = String(index);
+      const name = labelled(strip.name, told);
+      if (strip.target !== null) name.dataset["target"] = String(strip.target);
       return [name, row];
     });
-    const more = flight.targets.length - ROWS_UP_TO;
+    const more = strips.length - ROWS_UP_TO;
     if (more > 0) rows.push(labelled(`and ${more} more`), chart("strip", ""));
     element("flight-rows").replaceChildren(...this.profileRow(), ...rows);
     element("axis").replaceChildren(...this.axisMarks(flight));
