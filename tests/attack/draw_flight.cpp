@@ -54,6 +54,7 @@ class FlightDrawing {
       if (random_.chance(0.3)) point.speed_m_s = random_.uniform(1, 20);
     }
     draw_options();
+    if (random_.chance(0.3)) draw_link();
     return drawn_;
   }
 
@@ -150,6 +151,18 @@ class FlightDrawing {
       for (const double z : {navigation.altitude->min_m, navigation.altitude->max_m})
         limits_.emplace_back(middle_.x(), middle_.y(), z);
     }
+  }
+
+  /// Not in worlds so small that a point on a surface is raised out of them.
+  void draw_link() {
+    constexpr double kSmall = 1;
+    if (size_ < kSmall) return;
+    vantage::FlightLink link{"link", random_.chance(0.3) ? place() : near_target()};
+    if (random_.chance(0.3)) link.point = one_of(drawn_.flight.points).position;
+    if (random_.chance(0.5)) link.max_range_m = size_ * random_.uniform(0.1, 2);
+    if (random_.chance(0.4))
+      link.radio = vantage::RadioLink{random_.pick({0.4, 2.4, 5.8, 60.0}), random_.uniform(0.3, 1)};
+    drawn_.mission.links.push_back(link);
   }
 
   const vantage::Mesh& mesh() const { return drawn_.mission.scene().mesh; }

@@ -133,8 +133,9 @@ std::string OneTarget::surely_not_seen(const Vec3& position, double rounding_m) 
 
 std::vector<Vec3> OneTarget::places_beside(const Vec3& at, double aside_m) const {
   std::vector<Vec3> places{at};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-aside_m, aside_m}) places.push_back(at + side * Vec3::Unit(axis));
+  for (int i = 0; i < 27 && aside_m > 0; ++i) {
+    const Vec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (!way.isZero(0)) places.push_back(at + aside_m * way.normalized());
   }
   return places;
 }
@@ -146,7 +147,9 @@ bool OneTarget::surely_seen(const Vec3& position, double aside_m, double room_m)
   }
   if (sensor_.link) {
     vantage::RadioLink wide = *sensor_.link;
-    wide.clear *= 1.5;  // more than twice too long a way
+    // More than twice too long a way; and that of the smallest part of a leg, which a short wave's zone is less than.
+    const double excess = wide.clear * wide.clear * 0.299792458 / wide.frequency_ghz / 2;
+    wide.clear *= std::sqrt(2.25 + room_m / excess);
     for (const Vec3& place : places_beside(at, aside_m)) {
       if (entering_zone(wide, blockers_, parts_[0].corners[0], place)) return false;
     }

@@ -20,10 +20,11 @@ FlightJudge::FlightJudge(const DrawnFlight& drawn, const FlightCheck& check, Fli
 void FlightJudge::run() {
   if (!has_right_frame()) return;
   for (std::size_t i = 0; i < oracles_.size(); ++i) {
-    judge_seen(i);
+    judge_seen(*oracles_[i], check_.targets[i]);
     if (const OneTarget* single = oracles_[i]->single()) judge_reasons(check_.targets[i], *single);
     judge_gimbal(check_.targets[i]);
   }
+  for (const vantage::LinkCheck& link : check_.links) judge_link(link);
   judge_navigation();
   judge_nearest();
   judge_failures();
@@ -62,9 +63,9 @@ Vec3 FlightJudge::in_tube(const Vec3& p) {
 }
 
 bool FlightJudge::has_right_frame() {
-  const bool is_right = check_.targets.size() == oracles_.size() &&
-                        check_.point_at_m.size() == drawn_.flight.points.size() &&
-                        check_.arrival_s.size() == drawn_.flight.points.size();
+  const bool is_right =
+      check_.targets.size() == oracles_.size() && check_.links.size() == drawn_.mission.links.size() &&
+      check_.point_at_m.size() == drawn_.flight.points.size() && check_.arrival_s.size() == drawn_.flight.points.size();
   if (!is_right) {
     wrong("sizes", "targets or points");
     return false;
@@ -76,6 +77,10 @@ bool FlightJudge::has_right_frame() {
       wrong("length", "of point " + std::to_string(i));
   }
   for (const auto& target : check_.targets) judge_spans(target.seen, target.name);
+  for (const auto& link : check_.links) {
+    judge_spans(link.linked, link.name);
+    judge_spans(link.lost, link.name);
+  }
   for (const auto& limit : check_.broken) judge_spans(limit.spans, limit.name);
   return true;
 }
@@ -158,6 +163,7 @@ void FlightJudge::judge_nearest() {
 
 void FlightJudge::judge_failures() {
   bool fails = !check_.broken.empty();
+  for (const vantage::LinkCheck& link : check_.links) fails = fails || !link.lost.empty();
   for (const vantage::TargetCheck& target : check_.targets) {
     if (target.seen.empty()) {
       fails = true;
@@ -209,6 +215,7 @@ FlightJudgement judge_flight(const DrawnFlight& drawn, const CheckFlight& ask) {
     bool is_seen = false;
     for (const auto& target : check.targets) is_seen = is_seen || !target.seen.empty();
     result.words.emplace_back(is_seen ? "flight, something is seen" : "flight, nothing is seen");
+    for (const auto& link : check.links) result.words.emplace_back(link.radio ? "flight, radio link" : "flight, link");
     if (check.tube_radius_m > 0) result.words.emplace_back("flight, with a tube");
     if (!check.broken.empty()) result.words.emplace_back("flight, limits are broken");
     if (!drawn.mission.navigation.empty()) result.words.emplace_back("flight, with limits of navigation");

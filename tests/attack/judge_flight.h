@@ -96,7 +96,10 @@ class FlightJudge {
 
   // ---- what is seen ----
 
-  void judge_seen(std::size_t index);
+  void judge_seen(const FlightOracle& oracle, const vantage::TargetCheck& target);
+
+  /// As a target that is a point, with what the link says of range and zone.
+  void judge_link(const vantage::LinkCheck& link);
 
   void claim(const FlightOracle& oracle, const Vec3& position, const vantage::TargetCheck& target, const char* where);
 

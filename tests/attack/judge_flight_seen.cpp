@@ -3,9 +3,7 @@
 
 namespace attack {
 
-void FlightJudge::judge_seen(std::size_t index) {
-  const vantage::TargetCheck& target = check_.targets[index];
-  const FlightOracle& oracle = *oracles_[index];
+void FlightJudge::judge_seen(const FlightOracle& oracle, const vantage::TargetCheck& target) {
   // Ends are told by their positions, which are not rounded once more.
   for (const FlightSpan& span : target.seen) {
     for (const Vec3& end : {span.begin, span.end}) claim(oracle, end, target, "at an end");
@@ -17,6 +15,29 @@ void FlightJudge::judge_seen(std::size_t index) {
       claim(oracle, at.position, target, "inside");
     } else if (!is_near_end(target.seen, at.at_m)) {
       miss(oracle, at, target);
+    }
+  }
+}
+
+void FlightJudge::judge_link(const vantage::LinkCheck& link) {
+  vantage::Mission as_mission;
+  as_mission.loaded = drawn_.mission.loaded;
+  as_mission.target = vantage::Target::point(link.point);
+  double farthest = 1;
+  for (const auto& point : drawn_.flight.points) {
+    farthest = std::max(farthest, (point.position - link.point).norm() + radius_);
+  }
+  as_mission.sensor.max_range_m = link.max_range_m.value_or(1.01 * farthest);
+  as_mission.sensor.link = link.radio;
+  const FlightOracle& oracle = *oracles_.emplace_back(std::make_unique<FlightOracle>(as_mission, scene_));
+  vantage::TargetCheck as_target;
+  as_target.name = link.name;
+  as_target.seen = link.linked;
+  judge_seen(oracle, as_target);
+  oracles_.pop_back();
+  for (const FlightPlace& at : places({&link.linked, &link.lost}, 10)) {
+    if (!holds(link.linked, at.at_m, slack_m()) && !holds(link.lost, at.at_m, slack_m())) {
+      wrong("link", "neither linked nor lost at " + place_text(at.position));
     }
   }
 }
