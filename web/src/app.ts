@@ -268,7 +268,7 @@ export class App {
     if (this.mission.target) return this.run(this.turn, structuredClone(this.mission), isDraft);
     this.since = this.told = this.turn;
     this.clearVolume();
-    this.flights.setOld("the mission has no target");
+    this.flights.withoutTarget();
   }
 
   private get lateWords(): string {

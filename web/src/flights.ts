@@ -214,11 +214,7 @@ export class Flights {
     const asked = ++this.asked;
     if (app.isDraft) return this.setOld("the mission is being changed");
     const text = missionText(app.mission);
-    if (text === this.judgedOf) {
-      this.setOld("");
-      if (this.hasVolumes && !this.volumesView.isShown) void this.showVolumes();
-      return;
-    }
+    if (text === this.judgedOf) return this.setCurrent();
     if (!app.engine.isIdle) return this.setOld("the mission is being changed"); // it is told of the next volume, too
     const { volume } = app;
     this.setOld("it is judged again");
@@ -236,6 +232,17 @@ export class Flights {
       if (asked === this.asked) this.setOld(toldBy(error));
     }
     this.tell(true);
+  }
+
+  private setCurrent(): void {
+    this.setOld("");
+    if (this.hasVolumes && !this.volumesView.isShown) void this.showVolumes();
+  }
+
+  /** The mission that is shown has no target. It is no other one than that which was opened, if none had a volume since. */
+  withoutTarget(): void {
+    if (this.judgedOf === "") this.setCurrent();
+    else this.setOld("the mission has no target");
   }
 
   /** It is not judged by the mission that is shown. `why`: "" where it is. */

@@ -286,8 +286,18 @@ plain("a mission of volumes to fly through has a flight and their volumes, and n
     await expect.poll(drawn).toBe(0);
     await page.check("#flight-volumes");
     await expect.poll(drawn).toBe(36);
+    // What is set without a target is no other mission, and one that has no volume is undone.
+    const edit = (change: object) => page.evaluate((to) => (window as any).vantage.edit((m: any) => Object.assign(m, to), true), change);
+    await edit({ maxRange: 40, range: 40 });
+    expect((await flown(page)).old).toBe("");
+    await edit({ target: { kind: "polygon", vertices: [[-40, -20, 0], [-36, -20, 0], [-36, -16, 0]] }, keepOut: [{ min: [1, 1, 1], max: [0, 0, 0] }] });
+    await expect(page.locator("#flight-verdict")).toContainText("Not judged by this mission");
+    await expect.poll(drawn).toBe(0);
+    await page.click("#undo");
+    await expect(page.locator("#flight-verdict")).not.toContainText("Not judged");
+    await expect.poll(drawn).toBe(36);
     // A target that is drawn is another mission: it is judged by that, and once that is gone by none.
-    await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.target = { kind: "polygon", vertices: [[-40, -20, 0], [-36, -20, 0], [-36, -16, 0]] }), true));
+    await edit({ target: { kind: "polygon", vertices: [[-40, -20, 0], [-36, -20, 0], [-36, -16, 0]] } });
     await hasVolume(page);
     await expect(page.locator("#flight-rows .strip").first()).toHaveAttribute("aria-label", /^target: /);
     await expect.poll(drawn).toBe(0);
