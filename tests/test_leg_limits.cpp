@@ -437,6 +437,19 @@ TEST(LegLimits, KnowsAmountsAndPlaces) {
   EXPECT_NEAR(tube[3].intervals[0].begin, 0.19, 1e-12);
 }
 
+// A zone with heights above ground is left upwards, too.
+TEST(LegLimits, KnowsHowFarItIsInAZoneAboveGround) {
+  Navigation navigation;
+  Zone zone;
+  zone.name = "low";
+  zone.outer = {{-30, -30}, {30, -30}, {30, 30}, {-30, 30}};
+  zone.above_ground = AboveGround{0, 20, Ground{8, {}}};
+  navigation.keep_out_zones = {zone};
+  const std::vector<LegBreak> breaks = LegLimits(navigation).broken({{-60, 0, 27}, {60, 0, 27}});
+  ASSERT_EQ(breaks.size(), 1U);
+  EXPECT_NEAR(breaks[0].worst, 1, 1e-9);
+}
+
 // Borders are allowed, to the bit where heights and boxes are compared.
 TEST(LegLimits, AllowsBorders) {
   Navigation navigation;

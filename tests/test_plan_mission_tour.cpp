@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -59,6 +60,62 @@ void expect_passes(const FlightCheck& check) {
   EXPECT_TRUE(check.passes()) << (check.failures.empty() ? "" : check.failures.front());
 }
 
+/// One photo for each view, from where the target is seen, straight at its centre; the flight stays what it is.
+void expect_photos(const MissionTour& tour, const Mission& mission) {
+  const FlightOut plan = plan_of_tour(tour, mission);
+  ASSERT_EQ(plan.actions.size(), plan.flight.points.size());
+  const FlightCheck check = check_flight(mission, plan.flight, {.speed_m_s = 5});
+  double length_m = 0, hold_s = 0, planned_s = 0;
+  for (std::size_t i = 0; i < tour.tour.flight.leg_count(); ++i) {
+    length_m += (tour.tour.flight.leg(i).to - tour.tour.flight.leg(i).from).norm();
+  }
+  EXPECT_NEAR(check.length_m, length_m, 1e-9 * length_m);
+  for (const FlightPoint& point : plan.flight.points) hold_s += point.hold_s;
+  for (const FlightPoint& point : tour.tour.flight.points) planned_s += point.hold_s;
+  EXPECT_NEAR(hold_s, planned_s, 1e-9);
+  std::map<std::string, int> photos;
+  for (std::size_t i = 0; i < plan.actions.size(); ++i) {
+    const FlightAction& action = plan.actions[i];
+    if (!action.photo) continue;
+    ++photos[action.sees];
+    const auto target = std::find_if(check.targets.begin(), check.targets.end(),
+                                     [&](const TargetCheck& one) { return one.name == action.sees; });
+    ASSERT_NE(target, check.targets.end()) << action.sees;
+    const Vec3 to = target->centre - plan.flight.points[i].position;
+    EXPECT_NEAR(std::sin((*action.yaw_deg) * std::numbers::pi / 180), to.x() / to.head<2>().norm(), 1e-9);
+    EXPECT_NEAR(std::cos((*action.yaw_deg) * std::numbers::pi / 180), to.y() / to.head<2>().norm(), 1e-9);
+    EXPECT_NEAR(*action.gimbal_pitch_deg, std::atan2(to.z(), to.head<2>().norm()) * 180 / std::numbers::pi, 1e-9);
+    const double at_m = check.point_at_m[i];
+    EXPECT_TRUE(
+        std::any_of(target->seen.begin(), target->seen.end(),
+                    [&](const FlightSpan& span) { return span.begin_m - 1e-9 <= at_m && at_m <= span.end_m + 1e-9; }))
+        << action.sees << " is not seen at " << at_m;
+  }
+  EXPECT_EQ(photos.size(), tour.tour.visits.size());
+  for (const auto& [name, count] : photos) EXPECT_EQ(count, 1) << name;
+}
+
+TEST_F(PlanMissionTour, SharesOfTargetsAreRefused) {
+  const std::string text = plaza_mission("gap: 0.9");
+  const std::string sensor = "sensor: {max_range: 60, visible: 0.5}\nexact: {tolerance: 0.5}\n";
+  std::string of_share = text;
+  of_share.replace(of_share.find(kPlazaSensor), std::string(kPlazaSensor).size(), sensor);
+  expect_code([&] { plan_mission_tour(of_text(of_share), {.with_bound = false}); }, ErrorCode::not_applicable);
+}
+
+TEST_F(PlanMissionTour, PhotosOfViewsFromOnePlaceLookAtEachTarget) {
+  const Mission mission =
+      of_text(std::string(kPlazaScene) +
+              "sensor: {max_range: 160}\ntargets:\n"
+              "  - {name: west, vertices: [[-83, -3, 0.1], [-77, -3, 0.1], [-77, 3, 0.1], [-83, 3, 0.1]]}\n"
+              "  - {name: south, vertices: [[-3, -83, 0.1], [3, -83, 0.1], [3, -77, 0.1], [-3, -77, 0.1]]}\n"
+              "tour: {home: [-20, -20, 0], view: {dwell: 3, margin: 0}, gap: 0.9, time_limit: 2}\n");
+  const std::vector<Vec3> positions(2, {-30, -30, 80});
+  const MissionTour tour = plan_mission_tour(mission, {.with_bound = false, .positions = positions});
+  ASSERT_EQ(tour.tour.visits.size(), positions.size());
+  expect_photos(tour, mission);
+}
+
 TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
   const Mission of = mission("home: [-20, -20, 0], clearance: 4, gap: 0.3", "navigation: {altitude: [0, 100]}\n");
   const MissionTour tour = plan_mission_tour(of);
@@ -72,6 +129,7 @@ TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
   EXPECT_EQ(tour.tour.flight.points.back().position, start);
   const FlightCheck check = judged(tour, of);
   expect_passes(check);
+  expect_photos(tour, of);
   EXPECT_GE(check.nearest.distance_m, 4);
   EXPECT_NEAR(check.length_m, tour.tour.length_m, 1e-4);
 
@@ -92,6 +150,7 @@ TEST_F(PlanMissionTour, OfAFixedWingKeepsWhatIsAsked) {
   EXPECT_TRUE(tour.is_complete());
   EXPECT_FALSE(tour.bound);
   expect_passes(judged(tour, of));
+  expect_photos(tour, of);
   EXPECT_NEAR(tour.tour.time_s, tour.tour.length_m / 12, 1e-9);
 }
 
@@ -104,6 +163,7 @@ TEST_F(PlanMissionTour, WithoutAHomeAndOneTarget) {
   ASSERT_TRUE(tour.bound);
   EXPECT_EQ(tour.bound->length_m, 0);
   expect_passes(judged(tour, of));
+  expect_photos(tour, of);
 }
 
 TEST_F(PlanMissionTour, ItsCertificateIsAccepted) {
@@ -177,6 +237,7 @@ TEST_F(PlanMissionTour, EndsAtTheTimeLimitWithTheBestSoFar) {
   ASSERT_TRUE(tour.bound);
   EXPECT_FALSE(tour.reaches_gap());
   expect_passes(judged(tour, of));
+  expect_photos(tour, of);
 }
 
 TEST_F(PlanMissionTour, SaysWhatCannotBeSeenOrFlown) {

@@ -126,7 +126,8 @@ std::string table_text(const FlightCheck& check, const std::string& plan) {
   table.heading(plan);
   table.row("length", fixed(check.length_m, 1), "m");
   table.row("duration", seconds_text(check.duration_s),
-            std::isnan(check.duration_s) ? "the plan does not say how fast it is flown: give --speed" : "s");
+            std::isnan(check.duration_s) ? "the plan does not say how fast it is flown: give --speed"
+                                         : "s, at full speed also round corners");
   if (check.tube_radius_m > 0) {
     table.row("tube", fixed(check.tube_radius_m, 2), "m: all holds for every position so near to the flight");
   }

@@ -114,14 +114,14 @@ FlightOut plan_in(const MissionTour& tour, const Mission& mission, const TourArg
   return with_output(plan_of_tour(tour, mission, plan_format_of(options.output_file)), options.plan);
 }
 
-/// Before anything is computed: whether the format can state a flight of this mission. One from and to one place shows
-/// it.
+/// Before anything is computed: whether the format can state a flight of this mission. One straight up shows it.
 void check_can_state(const Mission& mission, const TourArguments& options) {
   if (options.output_file.empty()) return;
   MissionTour tour;
   tour.settings = mission.as_written.tour.value_or(TourSettings());
   tour.home = mission.home;
   tour.tour.flight.points.assign(2, {mission.home.value_or(Vec3::Zero())});
+  tour.tour.flight.points[1].position.z() += 1;
   flight_plan_bytes(plan_in(tour, mission, options), plan_format_of(options.output_file));
 }
 

@@ -157,7 +157,7 @@ struct LegLimits::Data {
     }
     for (const LegZone& zone : keep_out) {
       add_break(breaks, "keep_out zone " + zone.zone().name, Unit::metres, zone.broken(tube),
-                [&](double share) { return tube.radius - zone.outside(tube.at(share)); });
+                [&](double share) { return tube.radius - outside_zone(zone, tube.at(share), false); });
     }
     for (std::size_t i = 0; i < keep_in_meshes.size(); ++i) {
       add_break(breaks, "mesh " + keep_in_meshes[i].name, Unit::metres, meshes[i]->broken(tube),
@@ -201,17 +201,21 @@ struct LegLimits::Data {
   double outside_all(const Vec3& place) const {
     double least = INFINITY;
     for (const Box& box : navigation.keep_in) least = std::min(least, query::outside_box(box, place));
-    for (const LegZone& zone : keep_in) least = std::min(least, outside_zone(zone, place));
+    for (const LegZone& zone : keep_in) least = std::min(least, outside_zone(zone, place, true));
     return least;
   }
-  double outside_zone(const LegZone& zone, const Vec3& place) const {
+  /// How far a place is from a zone; heights vertically. Where the ground has a step, a zone to stay in is what all of
+  /// the ground there allows, and one to stay out of is what any of it forbids.
+  double outside_zone(const LegZone& zone, const Vec3& place, bool is_to_stay_in) const {
     double outside = zone.outside(place);
     const std::optional<AboveGround>& limit = zone.zone().above_ground;
     if (!limit) return outside;
     for (const auto& [known, made] : grounds) {
       if (known.surface != limit->ground.surface || known.plane_z_m != limit->ground.plane_z_m) continue;
       if (const auto heights = made->heights(place)) {
-        outside = std::max({outside, limit->min_m - heights->above_highest, heights->above_lowest - limit->max_m});
+        const double low = is_to_stay_in ? heights->above_highest : heights->above_lowest;
+        const double high = is_to_stay_in ? heights->above_lowest : heights->above_highest;
+        outside = std::max({outside, limit->min_m - low, high - limit->max_m});
       }
     }
     return outside;

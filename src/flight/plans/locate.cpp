@@ -208,7 +208,7 @@ double Locator::z_of(const PlanPosition& stated, const Point& at, const std::str
   const bool is_missing = std::isnan(position.height_m);
   if (is_missing && options_.missing_height_m) position.height_m = *options_.missing_height_m;
   if (std::isnan(position.height_m)) {
-    fail(ErrorCode::height_unknown, where, "the plan gives no height here", "say at which height it is flown");
+    fail(ErrorCode::height_unknown, where, "the plan gives no height here", "say with 'height' how high it is flown");
   }
   if (position.datum == HeightDatum::unknown && options_.unknown_heights) position.datum = *options_.unknown_heights;
   switch (position.datum) {
@@ -226,7 +226,7 @@ double Locator::z_of(const PlanPosition& stated, const Point& at, const std::str
       break;
   }
   fail(ErrorCode::height_unknown, where, "the plan does not say what its heights are measured from",
-       "say it: sea level, the ellipsoid, the ground or the home");
+       "say it with 'heights': sea level, the ellipsoid, the ground or the home");
 }
 
 Corner Locator::corner_of(std::size_t index) {

@@ -2,6 +2,8 @@
 // waylines.wpml is what the aircraft flies, template.kml what its ground station shows.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +44,8 @@ class WaylineWriter {
       fail(ErrorCode::missing_key, "a plan of DJI names its aircraft",
            "give the numbers of its type in DJI's documents, such as 77 and 0 for the Mavic 3E");
     }
-    if (points_.size() < 2) {
+    const auto is_at_first = [this](const OutPoint& point) { return point.position == points_.front().position; };
+    if (std::all_of(points_.begin(), points_.end(), is_at_first)) {
       fail(ErrorCode::value_unsupported, "a plan of DJI has two waypoints at least", "write another format");
     }
     constexpr double kLeastM = 1.2, kMostM = 1500, kMostMetresPerSecond = 15;  // as the format states
@@ -119,13 +122,16 @@ class WaylineWriter {
 
   std::string placemarks(bool is_template) const {
     std::string text;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+    int index = 0;
+    for (std::size_t i = 0, next = 0; i < points_.size(); i = next, ++index) {
       const OutPoint& point = points_[i];
+      // Waypoints in one place are none that it flies between: what is done there belongs to the first.
+      for (next = i + 1; next < points_.size() && points_[next].position == point.position;) ++next;
       const Eigen::Vector2d at = writer_.lonlat(point.position);
       // The speed of a waypoint is that of the leg that begins there.
-      const double speed_m_s = points_[std::min(i + 1, points_.size() - 1)].speed_m_s;
+      const double speed_m_s = points_[std::min(next, points_.size() - 1)].speed_m_s;
       text += "<Placemark><Point><coordinates>" + decimal(at.x(), kPlaceDecimals) + "," +
-              decimal(at.y(), kPlaceDecimals) + "</coordinates></Point>" + element("index", static_cast<int>(i));
+              decimal(at.y(), kPlaceDecimals) + "</coordinates></Point>" + element("index", index);
       const std::string flown_height = decimal(writer_.height(point.position, flown()), kHeightDecimals);
       if (is_template) {
         text += element("useGlobalHeight", 0) + element("ellipsoidHeight", flown_height) +
@@ -139,7 +145,11 @@ class WaylineWriter {
       text += heading(point) +
               element("waypointTurnParam", element("waypointTurnMode", "toPointAndStopWithDiscontinuityCurvature") +
                                                element("waypointTurnDampingDist", 0)) +
-              element("useStraightLine", 1) + actions(point, i) + "</Placemark>\n";
+              element("useStraightLine", 1) +
+              actions({points_.begin() + static_cast<std::ptrdiff_t>(i),
+                       points_.begin() + static_cast<std::ptrdiff_t>(next)},
+                      index) +
+              "</Placemark>\n";
     }
     return text;
   }
@@ -154,14 +164,29 @@ class WaylineWriter {
                        element("waypointHeadingPathMode", "followBadArc"));
   }
 
-  static std::string actions(const OutPoint& point, std::size_t index) {
+  /// `points`: in one place, one after the other.
+  static std::string actions(std::span<const OutPoint> points, int index) {
     std::vector<std::string> all;
+    for (const OutPoint& point : points) add_actions(point, &point != &points.front(), index, all);
+    if (all.empty()) return {};
+    std::string group = element("actionGroupId", index) + element("actionGroupStartIndex", index) +
+                        element("actionGroupEndIndex", index) + element("actionGroupMode", "sequence") +
+                        element("actionTrigger", element("actionTriggerType", "reachPoint"));
+    for (const std::string& action : all) group += action;
+    return element("actionGroup", group);
+  }
+
+  static void add_actions(const OutPoint& point, bool turns, int index, std::vector<std::string>& all) {
     const auto add = [&](const char* what, const std::string& how) {
       all.push_back(element("action", element("actionId", static_cast<int>(all.size())) +
                                           element("actionActuatorFunc", what) +
                                           element("actionActuatorFuncParam", how)));
     };
     const std::string payload = element("payloadPositionIndex", 0);
+    if (const auto yaw = camera_angles(point).yaw_deg; yaw && turns) {
+      add("rotateYaw",
+          element("aircraftHeading", decimal(*yaw, kAngleDecimals)) + element("aircraftPathMode", "counterClockwise"));
+    }
     if (const auto pitch = camera_angles(point).pitch_deg) {
       add("gimbalRotate", element("gimbalHeadingYawBase", "aircraft") + element("gimbalRotateMode", "absoluteAngle") +
                               element("gimbalPitchRotateEnable", 1) +
@@ -175,13 +200,6 @@ class WaylineWriter {
     if (point.hold_s > 0) add("hover", element("hoverTime", decimal(point.hold_s, kTimeDecimals)));
     if (point.action.video) add("stopRecord", payload);
     if (point.action.photo) add("takePhoto", file);
-    if (all.empty()) return {};
-    const int number = static_cast<int>(index);
-    std::string group = element("actionGroupId", number) + element("actionGroupStartIndex", number) +
-                        element("actionGroupEndIndex", number) + element("actionGroupMode", "sequence") +
-                        element("actionTrigger", element("actionTriggerType", "reachPoint"));
-    for (const std::string& action : all) group += action;
-    return element("actionGroup", group);
   }
 
   PlanWriter writer_;

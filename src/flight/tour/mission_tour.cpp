@@ -13,7 +13,9 @@
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
 #include "flight/tour/tour_region.h"
+#include "flight/tour/tour_views.h"
 #include "vantage/error.h"
+#include "vantage/known_data.h"
 #include "vantage/navigation.h"
 #include "vantage/outer.h"
 #include "vantage/solid_index.h"
@@ -207,6 +209,23 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   return bound;
 }
 
+/// As in check_flight, which judges what is planned.
+void check_is_seen_whole(const Mission& mission) {
+  for (const Mission& one : each_of(mission)) {
+    if (is_volume(one) || !one.sensor.visible || !(one.sensor.visible->share < 1)) continue;
+    throw Error(ErrorCode::not_applicable,
+                "tours are planned only from where all of a target is seen, not a share of it",
+                one.as_written.places.sensor, "leave 'visible' out");
+  }
+}
+
+void note_beyond_data(const Mission& mission, MissionTour& of) {
+  std::vector<Vec3> places;
+  for (const FlightPoint& point : of.tour.flight.points) places.push_back(point.position);
+  for (const MissionTourTarget& target : of.targets) places.push_back(target.centre);
+  for (const Warning& note : beyond_data_warnings(mission, places)) of.notes.push_back(note.text);
+}
+
 /// A computed volume is a right region to fly through, but its bound is none of flights that see its target.
 void note_computed(const Mission& mission, std::vector<std::string>& notes) {
   for (const Mission& one : each_of(mission)) {
@@ -216,11 +235,6 @@ void note_computed(const Mission& mission, std::vector<std::string>& notes) {
         "' was computed, and lies inside of where its target is seen: flights through other places that see "
         "it may be shorter than the bound");
   }
-}
-
-/// Where the vehicle is when a target is in view, the middle of it.
-Vec3 view_position(const Flight& flight, const TourVisit& visit) {
-  return (flight.points[visit.first_point].position + flight.points[visit.last_point].position) / 2;
 }
 
 }  // namespace
@@ -239,6 +253,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   result.settings = mission.as_written.tour.value_or(TourSettings());
   result.home = mission.home;
   if (!options.certificate.empty()) tour::check_tour_certificate_files(mission, options.certificate);
+  check_is_seen_whole(mission);
   tour::check_room_to_turn(mission, result.settings);
   const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
 
@@ -261,6 +276,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
     result.notes.push_back(*note);
   }
   note_computed(mission, result.notes);
+  note_beyond_data(mission, result);
   if (!mission.links.empty()) {
     result.notes.emplace_back("the mission has links, and tours are not planned for them: check the plan");
   }
@@ -275,20 +291,9 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 }
 
 FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
-  const Flight& flight = of.tour.flight;
   FlightOut out;
-  out.flight = flight;
-  out.actions.resize(flight.points.size());
-  for (const TourVisit& visit : of.tour.visits) {
-    const MissionTourTarget& target = of.targets[visit.target];
-    FlightAction& action = out.actions[visit.first_point];
-    action.sees = target.name;
-    if (target.is_volume) continue;
-    const internal::flight::Aim aim = internal::flight::aim_at(view_position(flight, visit), target.centre);
-    action.yaw_deg = aim.yaw_deg;
-    action.gimbal_pitch_deg = aim.pitch_deg;
-    action.photo = true;
-  }
+  out.flight = of.tour.flight;
+  tour::add_views(of, out);
   if (mission.scene().georeference) {
     out.georeference = *mission.scene().georeference;
   } else {
@@ -313,6 +318,14 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission, PlanFormat
   FlightOut plan = plan_of_tour(of, mission);
   const bool has_no_home = format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson;
   if (plan.heights == HeightDatum::home && has_no_home) plan.heights.reset();
+  const bool is_of_autopilot = format == PlanFormat::qgroundcontrol || format == PlanFormat::waypoints;
+  if (is_of_autopilot && !of.home) {
+    if (!plan.levels.sea_level_z_m) {
+      throw Error(ErrorCode::missing_key, "the plan states heights above the home, and the mission has none",
+                  name_of(format), "give 'home' in the mission's section 'tour', or write .csv");
+    }
+    plan.heights = HeightDatum::sea_level;
+  }
   return plan;
 }
 

@@ -1,0 +1,14 @@
+// Where a plan of a tour takes its photos.
+#pragma once
+
+#include "vantage/flight_plan.h"
+#include "vantage/mission_tour.h"
+
+namespace vantage::internal::flight::tour {
+
+/// The points of the tour's flight with one more for each view, where the camera is turned to the target's centre and
+/// takes a photo: where the vehicle hovers in the view, or in the middle of its way through it. Of several views from
+/// one place each has a point of its own there, and its part of the time. A view of a volume has no photo.
+void add_views(const MissionTour& of, FlightOut& out);
+
+}  // namespace vantage::internal::flight::tour
