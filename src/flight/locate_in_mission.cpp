@@ -13,7 +13,7 @@ namespace {
 
 /// Longitude and latitude, or x and y for a plan in the scene frame.
 Eigen::Vector2d home_of_tour(bool is_in_scene_frame, const Mission& mission) {
-  const Eigen::Vector2d at = mission.home->head<2>();
+  Eigen::Vector2d at = mission.home->head<2>();
   if (is_in_scene_frame || !mission.scene().georeference) return at;
   return positions_in_crs(*mission.scene().georeference, "EPSG:4326", std::array{at}).front();
 }
