@@ -13,6 +13,7 @@
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/faces.h"
+#include "vantage/fewest_positions.h"
 #include "vantage/flight.h"
 #include "vantage/flight_check.h"
 #include "vantage/flight_plan.h"
