@@ -113,6 +113,28 @@ TEST_F(CliTour, ACertificateThatWasTamperedWithIsRefused) {
   EXPECT_EQ(run({"verify-tour", "tour.cert"}).exit_code, 1);
 }
 
+TEST_F(CliTour, HoversAtAsFewPositionsAsPossible) {
+  // From nowhere all corners of two squares are within 60 m.
+  write("tour.yaml", plaza_mission("home: [-20, -20, 0], clearance: 4"));
+  const ProgramRun tour = run({"tour", "tour.yaml", "--fewest", "-o", "old.csv"});
+  ASSERT_EQ(tour.exit_code, 0) << tour.err;
+  for (const char* word : {"necessary", "no position sees two of these", "hovers at", "views", "west", "south"}) {
+    EXPECT_NE(tour.out.find(word), std::string::npos) << word << "\n" << tour.out;
+  }
+  EXPECT_EQ(run({"check", "tour.yaml", "old.csv"}).exit_code, 0);
+  const Json answer = Json::parse(output_of({"tour", "tour.yaml", "--fewest", "--json"}));
+  const Json& positions = answer["positions"];
+  EXPECT_EQ(positions["found"].size(), positions["necessary"]);
+  EXPECT_EQ(positions["apart"].size(), positions["necessary"]);
+  const std::string quick = output_of({"tour", "tour.yaml", "--fewest", "--no-bound"});
+  EXPECT_EQ(quick.find("necessary"), std::string::npos) << quick;
+  expect_bad({"tour", "tour.yaml", "--fewest", "--certificate", "tour.cert", "-o", "old.csv"}, "--certificate");
+  write("tour.yaml", plaza_mission("vehicle: {kind: fixed_wing}"));
+  expect_bad({"tour", "tour.yaml", "--fewest", "-o", "old.csv"}, "tour.vehicle.kind");
+  write("tour.yaml", plaza_mission("view: {margin: 70}"));
+  expect_bad({"tour", "tour.yaml", "--fewest", "-o", "old.csv"}, "west");
+}
+
 TEST_F(CliTour, MistakesCostNoFile) {
   expect_bad({"tour", "none.yaml", "-o", "old.csv"}, "none.yaml");
   expect_bad({"tour", "tour.yaml", "-o", "tour.plan"}, "QGroundControl");  // the plaza lies nowhere on the earth

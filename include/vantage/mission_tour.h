@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "vantage/export.h"
+#include "vantage/fewest_positions.h"
 #include "vantage/flight_plan.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
@@ -46,8 +47,10 @@ struct MissionTourTarget {
 struct MissionTour {
   TourSettings settings;
   Tour tour;
-  std::vector<MissionTourTarget> targets;    ///< of the mission, in its order
-  std::optional<Vec3> home = std::nullopt;   ///< on the ground; scene frame
+  std::vector<MissionTourTarget> targets;   ///< of the mission, in its order
+  std::optional<Vec3> home = std::nullopt;  ///< on the ground; scene frame
+  /// Where it hovers, where the fewest positions were asked for; targets by their index in `targets`.
+  std::optional<FewestPositions> fewest = {};
   std::optional<TourLowerBound> bound = {};  ///< of the targets that are visited; nothing where it was not asked for
   std::vector<std::string> notes = {};       ///< what to know before relying on it
 
@@ -70,6 +73,11 @@ struct MissionTourOptions {
   /// Of each target the position that it is viewed from, scene frame: within 1 cm of it, so it lies at least so deep in
   /// the target's volume. TourSettings::margin_m is not looked at. Empty: the tour finds positions itself.
   std::vector<Vec3> positions = {};
+  /// The tour hovers at as few positions as possible (vantage/fewest_positions.h), TourSettings::margin_m deep in the
+  /// volumes of the targets that are viewed from them; their exact queries are asked, too. No flight is compared with
+  /// it: there is no bound of its length, and `with_bound` is whether to find out how many positions are necessary. A
+  /// multirotor alone, without `positions` and `certificate`; else Error(input).
+  bool fewest_positions = false;
 };
 
 /// Computes a volume of each target of the mission, and plans the tour that MissionFile::tour asks for (TourSettings()
@@ -82,7 +90,8 @@ struct MissionTourOptions {
 /// at nothing there. The bound is over its mesh as it is. Where its file states a rounding, which may have taken
 /// something away, the bound is less by four roundings for each.
 ///
-/// The time limit is that of the search for the tour, and once more that of the bound; volumes come on top.
+/// The time limit is that of the search for the tour, and once more that of the bound, or of the search for positions;
+/// volumes come on top.
 ///
 /// Throws Error(input) as run_missions and plan_tour do; for positions that are not as many as the targets, or not in
 /// their volumes; for a target that cannot be seen from anywhere, with its name; for a home inside a solid, and one
@@ -94,8 +103,9 @@ VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionT
                                           const Progress& progress = {});
 
 /// The tour as a plan for ground stations: photos where targets are seen, with yaw and gimbal pitch that centre them.
-/// Heights are above the home, where there is one. Of a scene without a place on the earth it is x, y and z of the
-/// scene frame, which a table (CSV) alone can state.
+/// Where several are viewed one after the other from one place, its point comes once for each, with a share of the
+/// hold. Heights are above the home, where there is one. Of a scene without a place on the earth it is x, y and z of
+/// the scene frame, which a table (CSV) alone can state.
 VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission);
 /// The same as a format can state it: KML, GPX and GeoJSON have no heights above the home, and get those they know.
 /// Throws Error(not_georeferenced) where the format needs a place on the earth, and the scene has none.

@@ -34,13 +34,19 @@ constexpr const char* kTourExamples =
     "\n"
     "  A target may also be a volume to fly through: 'targets: [{volume: region.ply}]', any closed mesh.\n"
     "\n"
+    "  With --fewest the flight hovers at as few positions as possible, so that each target is seen whole from one of\n"
+    "  them, as deep in its volume as the margin. It says how many positions are necessary, wherever they are, and "
+    "which\n"
+    "  targets show it: their outer volumes do not meet.\n"
+    "\n"
     "  The exit code is 1 where a target is left out, and 4 where the gap between the flight and the bound stays "
     "larger\n"
-    "  than 'tour.gap'. The plan is written all the same.\n"
+    "  than 'tour.gap' or, with --fewest, where fewer positions may do. The plan is written all the same.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage tour mission.yaml\n"
     "  vantage tour mission.yaml -o tour.plan --picture tour.png\n"
+    "  vantage tour mission.yaml --fewest -o tour.plan\n"
     "  vantage tour mission.yaml -o tour.kmz --aircraft 77,0,66 --no-bound\n"
     "  vantage tour mission.yaml -o tour.csv --certificate tour.cert --json > tour.json\n";
 
@@ -48,7 +54,7 @@ struct TourArguments {
   CommonOptions common;
   std::string mission_file, output_file, certificate_file, picture_file;
   PlanOutput plan;
-  bool no_bound = false, json = false;
+  bool no_bound = false, fewest = false, json = false;
 };
 
 constexpr double kPercent = 100;
@@ -66,7 +72,42 @@ void add_problems(TextTable& table, const MissionTour& tour) {
   }
 }
 
-std::string table_text(const MissionTour& tour) {
+std::string names_of(const MissionTour& tour, const std::vector<std::size_t>& targets) {
+  std::string names;
+  for (const std::size_t target : targets) names += (names.empty() ? "" : ", ") + tour.targets[target].name;
+  return names;
+}
+
+std::string why_necessary(const MissionTour& tour) {
+  const FewestPositions& found = *tour.fewest;
+  switch (found.reason) {
+    case FewestPositions::Reason::one:
+      return "";
+    case FewestPositions::Reason::apart:
+      return "no position sees two of these: " + names_of(tour, found.apart);
+    case FewestPositions::Reason::groups:
+      return count(found.necessary - 1) + " would have to see targets together that no position does";
+  }
+  return "";
+}
+
+void add_positions(TextTable& table, const MissionTour& tour, bool with_bound) {
+  const FewestPositions& found = *tour.fewest;
+  const std::size_t number = found.positions.size();
+  if (with_bound) {
+    table.row("necessary", count(found.necessary), why_necessary(tour));
+    if (!found.is_proved()) table.row("", "", "fewer than " + count(number) + " may do");
+  }
+  table.heading("hovers at " + count(number) + (number == 1 ? " position" : " positions"));
+  for (std::size_t i = 0; i < number; ++i) {
+    const HoverPosition& one = found.positions[i];
+    table.row(count(i + 1), fixed(one.depth_m, 1) + " m", "inside, at " + vector(one.position));
+    table.row("", "views", names_of(tour, one.assigned));
+    if (one.sees.size() > one.assigned.size()) table.row("", "sees", names_of(tour, one.sees));
+  }
+}
+
+std::string table_text(const MissionTour& tour, bool with_bound) {
   TextTable table;
   table.heading(std::string("tour of a ") +
                 (tour.settings.vehicle.kind == TourVehicle::Kind::multirotor ? "multirotor" : "fixed-wing aircraft") +
@@ -80,6 +121,7 @@ std::string table_text(const MissionTour& tour) {
               tour.reaches_gap() ? "" : "more than the " + fixed(kPercent * tour.settings.gap, 2) + " % asked for");
     for (const std::string& ignored : tour.bound->ignored) table.row("it ignores", "", ignored);
   }
+  if (tour.fewest) add_positions(table, tour, with_bound);
   table.heading("in view");
   for (const TourVisit& visit : tour.tour.visits) {
     table.row(tour.targets[visit.target].name, fixed(visit.dwell_s, 1) + " s",
@@ -106,6 +148,11 @@ void check_outputs(const TourArguments& options, const MissionFile& mission) {
   if (!options.output_file.empty()) plan_format_of(options.output_file);
   if (options.no_bound && !options.certificate_file.empty()) {
     throw Error(ErrorCode::conflicting_keys, "a certificate is of the bound, and --no-bound asks for none",
+                "command line, --certificate", "leave out one of them");
+  }
+  if (options.fewest && !options.certificate_file.empty()) {
+    throw Error(ErrorCode::conflicting_keys,
+                "a certificate is of the bound of the shortest flight, and --fewest asks for another one",
                 "command line, --certificate", "leave out one of them");
   }
 }
@@ -148,6 +195,7 @@ int run_tour(const TourArguments& options) {
   asked.threads = options.common.threads;
   asked.with_bound = !options.no_bound;
   asked.certificate = options.certificate_file;
+  asked.fewest_positions = options.fewest;
   const MissionTour tour = plan_mission_tour(mission, asked, progress.callback());
   if (!options.common.quiet) {
     notes(mission.notes);
@@ -158,13 +206,14 @@ int run_tour(const TourArguments& options) {
   if (options.json) {
     print(json_text(tour));
   } else if (!options.common.quiet) {
-    print(table_text(tour));
+    print(table_text(tour, !options.no_bound));
   }
   if (!options.picture_file.empty() && !tour.tour.order.empty()) {
     draw_tour(tour, mission, options.picture_file, progress.callback());
   }
   if (!tour.is_complete()) return kCheckFailed;
-  return options.no_bound || tour.reaches_gap() ? kSuccess : kUndecided;
+  const bool is_good = tour.fewest ? tour.fewest->is_proved() : tour.reaches_gap();
+  return options.no_bound || is_good ? kSuccess : kUndecided;
 }
 
 }  // namespace
@@ -181,6 +230,8 @@ void add_tour(CLI::App& app, Command& chosen) {
                    "Write a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv")
       ->option_text("FILE");
   add_plan_output(*command, options->plan);
+  command->add_flag("--fewest", options->fewest,
+                    "Hover at as few positions as possible, and say how many are necessary; of a multirotor");
   command->add_flag("--no-bound", options->no_bound, "Plan alone: quicker, and no word on how short a flight can be");
   command
       ->add_option("--certificate", options->certificate_file,

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "flight/gimbal.h"
 #include "flight/tour/mission_limits.h"
+#include "flight/tour/mission_positions.h"
 #include "flight/tour/tour_bound.h"
 #include "flight/tour/tour_certificate.h"
 #include "flight/tour/tour_region.h"
@@ -31,6 +32,35 @@ namespace {
 namespace core = internal::core;
 namespace tour = internal::flight::tour;
 
+using tour::each_of;
+using tour::is_volume;
+
+/// Of positions to hover at: the tour comes within 8.7 mm of them (view_from).
+constexpr double kHoverSlackM = 0.01;
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+Json positions_json(const MissionTour& of) {
+  const auto names_json = [&](const std::vector<std::size_t>& targets) {
+    Json names = Json::array();
+    for (const std::size_t target : targets) names.push_back(of.targets[target].name);
+    return names;
+  };
+  Json found = Json::array();
+  for (const HoverPosition& one : of.fewest->positions) {
+    found.push_back({{"position", point_json(one.position)},
+                     {"depth_m", one.depth_m},
+                     {"sees", names_json(one.sees)},
+                     {"assigned", names_json(one.assigned)}});
+  }
+  return {{"necessary", of.fewest->necessary},
+          {"apart", names_json(of.fewest->apart)},
+          {"unseen", names_json(of.fewest->unseen)},
+          {"found", std::move(found)}};
+}
+
 /// Of all corners.
 Vec3 middle_of(const Target& target) {
   Vec3 sum = Vec3::Zero();
@@ -40,15 +70,6 @@ Vec3 middle_of(const Target& target) {
     corners += part.size();
   }
   return corners == 0 ? sum : Vec3(sum / static_cast<double>(corners));
-}
-
-bool is_volume(const Mission& one) { return one.views.empty() && one.target.is_volume(); }
-
-/// The missions of all targets, each by itself.
-std::vector<Mission> each_of(const Mission& mission) {
-  std::vector<Mission> each;
-  for (std::size_t i = 0; i < volume_count(mission); ++i) each.push_back(one_volume(mission, i));
-  return each;
 }
 
 /// The mission without the targets that are volumes: nothing of these is computed.
@@ -251,6 +272,7 @@ Volume volume_to_fly_through(const Mission& mission, const Progress& progress) {
 MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options, const Progress& progress) {
   MissionTour result;
   result.settings = mission.as_written.tour.value_or(TourSettings());
+  if (options.fewest_positions) tour::check_can_hover(result.settings, options);
   result.home = mission.home;
   if (!options.certificate.empty()) tour::check_tour_certificate_files(mission, options.certificate);
   check_is_seen_whole(mission);
@@ -270,8 +292,20 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
     request.targets.push_back({target.name, target.volume, std::nullopt});
     if (!target.is_volume) request.targets.back().look_at = target.centre;
   }
-  if (!options.positions.empty()) view_from(options.positions, request);
-  result.tour = plan_tour(request, progress);
+  Progress followed = progress;
+  if (options.fewest_positions) {
+    result.fewest = tour::positions_for(mission, result.targets, scene, request.airspace, kHoverSlackM, options,
+                                        result.notes, progress);
+    const double margin_m = result.settings.margin_m + kHoverSlackM;
+    view_from(tour::position_of_each(*result.fewest, result.targets, margin_m), request);
+    if (result.fewest->end == FewestPositions::End::cancelled) {  // the flight to what was found, soon
+      request.rounds = 1;
+      followed = {};
+    }
+  } else if (!options.positions.empty()) {
+    view_from(options.positions, request);
+  }
+  result.tour = plan_tour(request, followed);
   if (const auto note = tour::note_of_narrow_zones(mission, result.settings, result.tour)) {
     result.notes.push_back(*note);
   }
@@ -280,7 +314,9 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   if (!mission.links.empty()) {
     result.notes.emplace_back("the mission has links, and tours are not planned for them: check the plan");
   }
-  if (!options.with_bound || result.tour.order.empty() || result.tour.end == Tour::End::cancelled) return result;
+  if (!options.with_bound || options.fewest_positions || result.tour.order.empty() ||
+      result.tour.end == Tour::End::cancelled)
+    return result;
   try {
     result.bound = bound_of(mission, scene, result, request.home, options, progress);
   } catch (const Error& error) {
@@ -338,8 +374,6 @@ void write_tour_certificate(const MissionTour& of, const std::filesystem::path& 
 }
 
 std::string json_text(const MissionTour& of) {
-  using Json = nlohmann::ordered_json;
-  const auto point_json = [](const Vec3& p) { return Json{p.x(), p.y(), p.z()}; };
   const auto target_json = [&of](std::size_t index) {
     const MissionTourTarget& target = of.targets[index];
     Json one = {{"target", target.name}};
@@ -358,6 +392,7 @@ std::string json_text(const MissionTour& of) {
                      {"kind", of.bound->kind},
                      {"ignored", of.bound->ignored}};
   }
+  if (of.fewest) json["positions"] = positions_json(of);
   json["visits"] = Json::array();
   for (const TourVisit& visit : of.tour.visits) {
     Json one = target_json(visit.target);

@@ -78,6 +78,22 @@ void begin_at_turn(Course& course) {
   std::rotate(course.stops.begin(), course.stops.begin() + static_cast<std::ptrdiff_t>(sharpest), course.stops.end());
 }
 
+/// Stops that lie within 2 cm of the next one move there, where their region and the airspace allow it: the vehicle
+/// hovers once then. The way gets no longer.
+void join_stops(Course& course, const Regions& regions, const Airspace* airspace) {
+  constexpr double kNear = 0.02;
+  constexpr int kPasses = 2;  // the second one for stops on both sides of where the course begins
+  const std::size_t count = course.stops.size();
+  for (std::size_t k = 0; k < kPasses * count; ++k) {
+    const std::size_t i = count - 1 - k % count;
+    const Vec3 *next = course.after(i), *before = course.before(i);
+    Stop& stop = course.stops[i];
+    if (stop.region < 0 || !next || *next == stop.point || (*next - stop.point).norm() > kNear) continue;
+    if (!regions[static_cast<std::size_t>(stop.region)]->holds(*next)) continue;
+    if (!airspace || !before || airspace->allows({*before, *next}, 0)) stop.point = *next;
+  }
+}
+
 bool is_better(const FlownCourse& a, const FlownCourse& b) {
   if (a.problems.size() != b.problems.size()) return a.problems.size() < b.problems.size();
   return a.course.length_m() < b.course.length_m();
@@ -97,6 +113,7 @@ class MultirotorPlan {
     const SearchResult found = search_order(regions_, kind, options, progress_);
     end_ = end_of(found.end);
     FlownCourse flown = fly(different(found.courses));
+    join_stops(flown.course, regions_, request_.airspace.get());
     begin_at_turn(flown.course);
     Tour tour = tour_of(flown, false);
     if (!is_sound(tour)) {
