@@ -85,6 +85,20 @@ TEST(MissionFewest, HoversWhereSeveralTargetsAreSeen) {
   EXPECT_EQ(tour.fewest->necessary, 2U);
   EXPECT_EQ(tour.fewest->apart.size(), 2U);
   EXPECT_FALSE(tour.bound) << "no flight of as many stops is compared with it";
+  std::multiset<std::string> photos;
+  const FlightOut plan = plan_of_tour(tour, mission);
+  ASSERT_EQ(plan.actions.size(), plan.flight.points.size());
+  double hold_s = 0;
+  for (std::size_t i = 0; i < plan.actions.size(); ++i) {
+    hold_s += plan.flight.points[i].hold_s;
+    if (!plan.actions[i].photo) continue;
+    photos.insert(plan.actions[i].sees);
+    EXPECT_GE(plan.flight.points[i].hold_s, tour.settings.dwell_s - 1e-9);
+  }
+  EXPECT_EQ(photos, (std::multiset<std::string>{"at -24", "at -36", "at 30", "at 42"})) << "each with its own aim";
+  double planned_s = 0;
+  for (const FlightPoint& point : tour.tour.flight.points) planned_s += point.hold_s;
+  EXPECT_NEAR(hold_s, planned_s, 1e-9);
   const auto json = nlohmann::json::parse(json_text(tour));
   EXPECT_EQ(json["positions"]["necessary"], 2);
   EXPECT_EQ(json["positions"]["found"][1]["assigned"][1], "at 42");
