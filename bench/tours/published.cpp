@@ -40,7 +40,6 @@ vantage::Tour planned(const std::vector<vantage::Mesh>& inner, const Asked& aske
   request.settings.vehicle = asked.vehicle;
   request.settings.vehicle.kind =
       asked.wing ? vantage::TourVehicle::Kind::fixed_wing : vantage::TourVehicle::Kind::multirotor;
-  request.settings.gimbal_rate_deg_s = 1e6;  // not looked at: there is nothing to look at
   request.chord_error_m = 0.01;
   request.seed = asked.seed;
   for (std::size_t i = 0; i < inner.size(); ++i) request.targets.push_back({std::to_string(i), inner[i], {}});
