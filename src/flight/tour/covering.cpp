@@ -128,7 +128,7 @@ class CliqueSearch {
 
   Group run() {
     std::vector<std::size_t> all(is_pair_.size());
-    std::iota(all.begin(), all.end(), std::size_t(0));
+    std::iota(all.begin(), all.end(), std::size_t{0});
     const auto degree = [&](std::size_t a) { return std::count(is_pair_[a].begin(), is_pair_[a].end(), true); };
     std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) { return degree(a) > degree(b); });
     extend(all);

@@ -258,6 +258,19 @@ void note_computed(const Mission& mission, std::vector<std::string>& notes) {
   }
 }
 
+void add_notes(const Mission& mission, MissionTour& of) {
+  if (const auto note = tour::note_of_narrow_zones(mission, of.settings, of.tour)) of.notes.push_back(*note);
+  note_computed(mission, of.notes);
+  note_beyond_data(mission, of);
+  if (const std::size_t asked = mission.as_written.targets.size(); asked > 0 && asked < of.targets.size()) {
+    of.notes.push_back("the mission's " + std::to_string(asked) + " targets have " + std::to_string(of.targets.size()) +
+                       " parts, each of which is viewed by itself: 'facing' or 'nearest' choose of them");
+  }
+  if (!mission.links.empty()) {
+    of.notes.emplace_back("the mission has links, and tours are not planned for them: check the plan");
+  }
+}
+
 }  // namespace
 
 Volume volume_to_fly_through(const Mission& mission, const Progress& progress) {
@@ -306,14 +319,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
     view_from(options.positions, request);
   }
   result.tour = plan_tour(request, followed);
-  if (const auto note = tour::note_of_narrow_zones(mission, result.settings, result.tour)) {
-    result.notes.push_back(*note);
-  }
-  note_computed(mission, result.notes);
-  note_beyond_data(mission, result);
-  if (!mission.links.empty()) {
-    result.notes.emplace_back("the mission has links, and tours are not planned for them: check the plan");
-  }
+  add_notes(mission, result);
   if (!options.with_bound || options.fewest_positions || result.tour.order.empty() ||
       result.tour.end == Tour::End::cancelled)
     return result;

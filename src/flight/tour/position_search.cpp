@@ -159,7 +159,7 @@ void PositionSearch::sample() {
   points.insert(points.end(), more.begin(), more.end());
   const std::vector<Group> seen = seen_by_depth(points);
   std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return seen[a].size() != seen[b].size() ? seen[a].size() > seen[b].size() : seen[a] < seen[b];
   });
