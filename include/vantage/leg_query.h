@@ -174,9 +174,10 @@ VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken
 ///   convex along the leg. So are "min_range", "incidence", "pixel" and "sun", and the "frame" and "gimbal" of a fixed
 ///   camera. Ends are right to rounding.
 /// - "frame" and "gimbal" of a camera that turns: the leg is halved until one orientation does for all of a part, or
-///   none for any of it, or it is at most 1 mm long, and 1e-5 of the leg: then it counts as broken. Each position of a
-///   tube may have its own orientation; cubes in the tube are divided down to an eighth of its radius, and the leg as
-///   finely. A cube, and a part of the leg, for which no single orientation is found counts as broken.
+///   none for any of it, or it is at most 1 mm long, and 1e-5 of the leg: then it counts as broken, as does what is
+///   left after 20,000 pieces, of a leg along the picture's border. Each position of a tube may have its own
+///   orientation; cubes in the tube are divided down to an eighth of its radius, and the leg as finely. A cube, and a
+///   part of the leg, for which no single orientation is found counts as broken.
 ///
 /// A tube breaks "keep_in" and "boxes" where no single one of these holds all of it, also where two that touch do so
 /// together. Of a zone of `keep_out_zones` with heights above ground it counts as in it where it comes near enough to

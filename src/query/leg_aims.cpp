@@ -23,6 +23,7 @@ class AimLook {
 
   LegIntervals broken(const LegIntervals& within) {
     parts_.clear();
+    pieces_ = 0;
     for (const LegInterval& part : within) {
       if (mount_.is_fixed()) {
         parts_ = common(within, fixed());
@@ -46,6 +47,9 @@ class AimLook {
   }
 
  private:
+  /// A leg along a border is neither within nor beyond at any length. Then what is left of it counts as beyond.
+  static constexpr int kMostPieces = 20'000;
+
   bool has_aim(const Vec3& place, const sensor::AimRoom& room, double slack) {
     seen_.clear();
     for (const Vec3& corner : corners_) seen_.push_back(corner - place);
@@ -86,7 +90,7 @@ class AimLook {
     const double slack = angle_of(place, 0.02 * half);
     if (has_aim(place, {.inside_m = half + radius}, slack)) return;
     const bool is_short = 2 * half <= std::max(shortest, radius / 8);
-    if (!has_aim(place, {.inside_m = -1.05 * half}, slack) ||
+    if (++pieces_ > kMostPieces || !has_aim(place, {.inside_m = -1.05 * half}, slack) ||
         (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
       parts_.push_back({begin, end});
       return;
@@ -117,6 +121,7 @@ class AimLook {
   Tube local_;
   std::vector<Vec3> seen_;
   LegIntervals parts_;
+  int pieces_ = 0;  ///< looked at
 };
 
 }  // namespace

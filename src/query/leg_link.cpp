@@ -31,7 +31,7 @@ class LinkHalving {
     const Objects maybe = entering(middle, 2 * (half + radius_) + slack_);
     if (maybe.empty()) return;
     const bool is_short = 2 * half <= std::min(kShortest, kShortestShare * length_);
-    if (is_short || entering(middle, 2 * radius_ - 2 * half) == maybe) {
+    if (is_short || ++pieces_ > kMostPieces || entering(middle, 2 * radius_ - 2 * half) == maybe) {
       for (const std::uint32_t object : maybe) found.emplace_back(object, LegInterval{begin, end});
       return;
     }
@@ -42,6 +42,9 @@ class LinkHalving {
   std::vector<std::pair<std::uint32_t, LegInterval>> found;
 
  private:
+  /// A leg along the border of what is free is neither free nor not at any length. Then what is left of it is not.
+  static constexpr int kMostPieces = 20'000;
+
   Objects entering(double place, double more) const {
     const Vec3 position = from_ + place * along_;
     const double distance = position.norm();
@@ -57,6 +60,7 @@ class LinkHalving {
   const LinkQuery& link_;
   Vec3 from_, along_;  // about the antenna
   double length_, radius_, slack_;
+  int pieces_ = 0;  ///< looked at
 };
 
 }  // namespace
