@@ -292,7 +292,7 @@ def check(path, say=print):
 
 if __name__ == "__main__":
     PARSER = argparse.ArgumentParser(description="Checks a bound of tours.")
-    PARSER.add_argument("certificate", type=Path)
+    PARSER.add_argument("certificate", type=lambda p: Path(p) if Path(p).is_file() else PARSER.error(f"{p} is no file"))
     try:
         check(PARSER.parse_args().certificate)
     except (Refused, Unreadable) as problem:

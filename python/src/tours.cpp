@@ -102,12 +102,23 @@ void check_output(const PyTour& of, const std::filesystem::path& file) {
   check_not_an_input(file, input_files(of.mission->as_written));
 }
 
-void write(const PyTour& of, const std::filesystem::path& file, std::optional<double> undulation_m) {
+/// Two or three numbers, as DjiAircraft has them.
+DjiAircraft aircraft_of(const std::vector<int>& numbers) {
+  DjiAircraft aircraft;
+  aircraft.drone = numbers.at(0);
+  aircraft.drone_sub_type = numbers.at(1);
+  if (numbers.size() > 2) aircraft.payload = numbers[2];
+  return aircraft;
+}
+
+void write(const PyTour& of, const std::filesystem::path& file, const std::optional<std::vector<int>>& aircraft,
+           std::optional<double> undulation_m) {
   const PlanFormat format = plan_format_of(file);
   check_output(of, file);
   const Released released;
   FlightOut plan = plan_of_tour(*of.tour, *of.mission, format);
   plan.levels.undulation_m = undulation_m;
+  if (aircraft) plan.aircraft = aircraft_of(*aircraft);
   write_flight_plan(plan, file);
 }
 
@@ -136,7 +147,7 @@ void bind_tours(nb::module_& module) {
       .def_prop_ro("end", &end_of)
       .def_prop_ro("notes", [](const PyTour& t) { return t->notes; })
       .def("json", [](const PyTour& t) { return json_text(*t.tour); })
-      .def("write", &write, "file"_a, "undulation_m"_a)
+      .def("write", &write, "file"_a, "aircraft"_a.none(), "undulation_m"_a.none())
       .def("write_certificate", &write_certificate, "file"_a);
   module.def("plan_tour", &plan, "mission"_a, "with_bound"_a, "positions"_a.noconvert().none(), "threads"_a = 0,
              "progress"_a = nb::none());

@@ -58,12 +58,12 @@ def test_none_is_shorter(found, tmp_path):
     assert json.loads(certificate.read_text())["bound_m"] == pytest.approx(found.bound.length_m)
 
 
-@pytest.mark.parametrize("ending", ["plan", "waypoints", "kml", "gpx", "geojson", "csv"])
+@pytest.mark.parametrize("ending", ["plan", "waypoints", "kml", "kmz", "gpx", "geojson", "csv"])
 def test_plans_hold_the_tour(mission, found, tmp_path, ending):
     """Read again, the plan sees the same."""
     file = tmp_path / f"tour.{ending}"
     above = {"undulation_m": 46.0} if ending == "geojson" else {}  # heights above the ellipsoid
-    found.write(file, **above)
+    found.write(file, aircraft=(77, 0, 66) if ending == "kmz" else None, **above)
     again = vt.check(mission, file, speed_m_s=8, dwell_s=0, **above)
     assert all(target.seen for target in again.targets), again.failures
     distances = np.linalg.norm(again.flight.positions[:, None] - found.positions[None], axis=2)

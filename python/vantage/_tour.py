@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._check import FlightCheck, check
-from ._checks import flag, path as checked_path, thread_count
+from ._checks import flag, items, path as checked_path, shown, thread_count, whole
 from ._errors import input_error, not_pickled
 from ._flight import AnyMission, Flight, Numbers, line_of, mission_of, table_of
 from ._positions import Positions
@@ -118,19 +118,20 @@ class Tour:
         """Whether the gap that the settings ask for was reached."""
         return self.bound is not None and self.bound.gap <= self._core.asked_gap
 
-    def write(self, path: Path, *, undulation_m: float | None = None) -> None:
-        """Writes a plan for ground stations, by the path's extension: .plan, .waypoints, .kml, .gpx, .geojson or .csv; whole or
-        not at all. With a photo where each target is seen, yaw and gimbal pitch.
+    def write(self, path: Path, *, aircraft: Sequence[int] | None = None, undulation_m: float | None = None) -> None:
+        """Writes a plan for ground stations, by the path's extension: .plan, .waypoints, .kml, .kmz (DJI's), .gpx, .geojson or
+        .csv; whole or not at all. With a photo where each target is seen, yaw and gimbal pitch.
 
         Args:
             path: the file.
+            aircraft: for .kmz: type, subtype and camera, as DJI numbers them: (77, 0, 66) is the Mavic 3E.
             undulation_m: how high the mean sea level lies above the ellipsoid there: GeoJSON has heights above the ellipsoid.
 
         Raises:
             Error: the scene has no place on the earth, and the file is no .csv; the format needs a home; it cannot be written.
         """
         undulation = None if undulation_m is None else _arrays.number(undulation_m, "undulation_m")
-        self._core.write(checked_path(path), undulation)
+        self._core.write(checked_path(path), None if aircraft is None else _aircraft(aircraft), undulation)
 
     def write_certificate(self, path: Path) -> None:
         """Writes what proves the bound, for tools/check_tour.py, and the outer volumes beside it. Raises Error without a bound."""
@@ -168,6 +169,15 @@ class Tour:
         from ._html import of_tour
 
         return of_tour(self)
+
+
+def _aircraft(numbers: Sequence[int]) -> list[int]:
+    """Type, subtype and, where it is given, camera."""
+    each = [whole(number, "aircraft", most=2**31 - 1) for number in items(numbers, "aircraft", "numbers")]
+    if len(each) not in (2, 3):
+        raise input_error("value-syntax", f"{shown(numbers)} is not an aircraft of DJI", "aircraft",
+                          "give the numbers of its type and subtype, and of its camera: (77, 0, 66) is the Mavic 3E")
+    return each
 
 
 def _given(positions: Positions | npt.ArrayLike | None) -> _arrays.Points | None:

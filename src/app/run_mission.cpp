@@ -43,14 +43,23 @@ struct TargetError : Error {
   explicit TargetError(const Error& error) : Error(error) {}
 };
 
+/// One of several targets is named where an error does not do so itself: it may be a part of an entry, which has no
+/// line of its own.
+Error naming(const Error& error, const Mission& mission, const Target& target) {
+  const auto says_name = [&](const std::string& text) { return text.find(target.name) != std::string::npos; };
+  const bool is_alone = mission.as_written.targets.size() < 2 || target.name.empty();
+  if (is_alone || says_name(error.problem()) || says_name(error.where())) return error;
+  return error.with_where((error.where().empty() ? "" : error.where() + ", ") + "target " + in_quotes(target.name));
+}
+
 /// Calls `action` and returns what it returns. An Error(input) from it is one of this target.
 template <typename Action>
-auto about_target(const Mission& mission, const Action& action) {
+auto about_target(const Mission& mission, const Target& target, const Action& action) {
   try {
     return internal::app::with_place(mission.as_written.places.target, action);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
-    throw TargetError(error);
+    throw TargetError(naming(error, mission, target));
   }
 }
 
@@ -124,7 +133,7 @@ Volume limited(const Mission& mission, const PreparedTarget& target, const RunOp
     // The target itself is checked by now. The exact method may still find it too large for the tolerance; the method
     // of spheres refuses only its options and devices, which the mission names elsewhere.
     if (mission.as_written.method == Method::spheres) throw;
-    about_target(mission, [&]() -> int { throw error; });
+    about_target(mission, target.target(), [&]() -> int { throw error; });
   }
   seconds.engine += stopwatch.lap();
   const bool is_limited = !mission.navigation.empty() || target.sensor().limits_view();
@@ -135,7 +144,7 @@ Volume limited(const Mission& mission, const PreparedTarget& target, const RunOp
     } catch (const Error& error) {
       const auto throw_it = [&]() -> int { throw error; };
       // How much work the limits are depends on the volume that they cut: another target may need less.
-      if (error.code() == ErrorCode::work_too_large) about_target(mission, throw_it);
+      if (error.code() == ErrorCode::work_too_large) about_target(mission, target.target(), throw_it);
       internal::app::with_place(mission.as_written.file.string(), throw_it);
     }
     seconds.navigation += stopwatch.lap();
@@ -190,7 +199,7 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
 
 PreparedTarget prepare(const Mission& mission, const Target& target, const PreparedScene& scene) {
   const auto& ground = mission.as_written.ground_target;
-  return about_target(mission, [&] {
+  return about_target(mission, target, [&] {
     try {
       return PreparedTarget(scene, target, mission.sensor);
     } catch (const Error& error) {

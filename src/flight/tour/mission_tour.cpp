@@ -171,28 +171,47 @@ tour::Incumbent incumbent_of(const Tour& found) {
   return incumbent;
 }
 
-TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, const MissionTour& of,
-                        const std::optional<Vec3>& start, const MissionTourOptions& options, const Progress& progress) {
-  tour::BoundProblem problem;
-  RunOptions run;
-  run.threads = options.threads;
-  run.prepared = scene;
-  std::vector<std::size_t> visited = of.tour.order;
-  std::sort(visited.begin(), visited.end());
-  // What visits a volume that was larger by its rounding comes by the volume itself with a detour of two roundings;
-  // where it has to stay there, both ends of the stay move by that.
+/// What a bound is over.
+struct BoundRegions {
+  std::vector<tour::OuterRegion> outer;
+  /// What visits a volume that was larger by its rounding comes by the volume itself with a detour of two roundings;
+  /// where it has to stay there, both ends of the stay move by that.
   double rounded_away_m = 0;
-  bool is_limited = false;
+  bool is_limited = false;  ///< of volumes that are given, navigation leaves less
+};
+
+BoundRegions regions_of(const Mission& mission, const PreparedScene& scene, const MissionTour& of,
+                        const std::vector<std::size_t>& visited, int threads, const Progress& progress) {
+  BoundRegions regions;
+  RunOptions run;
+  run.threads = threads;
+  run.prepared = scene;
+  const auto told = [&](std::string_view, double) {
+    return progress("outer volumes", static_cast<double>(regions.outer.size()) / static_cast<double>(visited.size()));
+  };
   for (const std::size_t target : visited) {
     const Mission one = volume_count(mission) == 1 ? mission : one_volume(mission, target);
+    const std::string& name = of.targets[target].name;
     if (is_volume(one)) {
-      problem.regions.push_back(tour::OuterRegion::given(one.target.volume->mesh, of.targets[target].name));
-      rounded_away_m += 4 * one.target.volume->rounding_m;
-      is_limited = is_limited || !mission.navigation.empty();
-      continue;
+      regions.outer.push_back(tour::OuterRegion::given(one.target.volume->mesh, name));
+      regions.rounded_away_m += 4 * one.target.volume->rounding_m;
+      regions.is_limited = regions.is_limited || !mission.navigation.empty();
+    } else {
+      const OuterVolume outer = outer_volume(one, run, {}, progress ? Progress(told) : Progress());
+      regions.outer.push_back(tour::OuterRegion::of(outer, name));
     }
-    problem.regions.push_back(tour::OuterRegion::of(outer_volume(one, run, {}, progress), of.targets[target].name));
   }
+  return regions;
+}
+
+TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, const MissionTour& of,
+                        const std::optional<Vec3>& start, const MissionTourOptions& options, const Progress& progress) {
+  std::vector<std::size_t> visited = of.tour.order;
+  std::sort(visited.begin(), visited.end());
+  BoundRegions regions = regions_of(mission, scene, of, visited, options.threads, progress);
+  const double rounded_away_m = regions.rounded_away_m;
+  tour::BoundProblem problem;
+  problem.regions = std::move(regions.outer);
   const TourSettings& settings = of.settings;
   problem.closed = settings.closed;
   problem.start = start;
@@ -221,7 +240,7 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   if (!settings.simultaneous) {
     bound.time_s = std::max(bound.time_s, static_cast<double>(visited.size()) * settings.dwell_s);
   }
-  if (is_limited) bound.ignored.emplace_back("the limits of navigation in targets that are volumes");
+  if (regions.is_limited) bound.ignored.emplace_back("the limits of navigation in targets that are volumes");
   if (!options.positions.empty()) {
     bound.ignored.emplace_back("the positions that are given");
   } else if (settings.margin_m > 0) {
