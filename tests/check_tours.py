@@ -463,6 +463,8 @@ class Tours(unittest.TestCase):
         self.both(lambda c: tree(c)[1].__setitem__(3, float("nan")))
         self.refused(lambda c: tree(c)[3].__setitem__(3, 1.0), "is not")  # what was empty no longer is
         self.both(lambda c: tree(c)[4].append(1))
+        # A stay may begin on one side of a plane and end on the other.
+        self.refused(lambda c: c["regions"][3].update(dwell_m=8.0), "stays is cut")
 
     def test_meshes(self):
         self.insertion()

@@ -197,6 +197,27 @@ TEST(TourBound, CutsRegionsThatAreNotConvex) {
   EXPECT_TRUE(bound.gap_reached) << bound.length_m << " of " << incumbent.length_m;
 }
 
+/// A stay along a region like a U begins on one side of every plane that tells its sides apart, and ends on the other.
+TEST(TourBound, LetsAStayGoFromOnePartOfARegionToTheOther) {
+  Mesh u = make_box_mesh({0, 0, 0}, {10, 60, 10});
+  append(u, make_box_mesh({5, 0, 0}, {95, 10, 10}));
+  append(u, make_box_mesh({90, 0, 0}, {100, 60, 10}));
+  BoundProblem problem;
+  problem.regions = {OuterRegion::given(u, "u"), box_region({70, 59, 4}, {72, 61, 6})};
+  problem.start = Vec3(30, 60, 5);  // between the sides
+  problem.closed = false;
+  problem.dwell_m = {50 + 80 + 50, 0};  // along the inner side of the U
+  const double shortest_m = 20 + problem.dwell_m[0] + 20;
+  Incumbent incumbent;
+  incumbent.length_m = 2 * shortest_m;  // a longer one is known: no bound is above that
+  BoundOptions options;
+  options.by_pairs = false;
+  options.time_limit_s = 2;
+  const double bound_m = bound_tour(problem, incumbent, options).length_m;
+  EXPECT_LE(bound_m, shortest_m);
+  EXPECT_GT(bound_m, 0.99 * problem.dwell_m[0]);
+}
+
 TEST(TourBound, IsOverOuterRegionsOnly) {
   static_assert(!std::is_constructible_v<OuterRegion, Mesh>);
   static_assert(!std::is_constructible_v<OuterRegion, Mesh, std::string>);

@@ -7,8 +7,7 @@ All is decided with whole numbers; nothing of the program that found the bound i
 the proofs. In short, a leg with a vector u, not longer than 1, is no shorter than its progress along u, so that a tour
 is no shorter than the sum over its stops of the least (u before - u behind) . v over the corners v of its region. The
 tree covers all tours: "insert" puts a region behind each stop, "cut" takes both sides of a plane, "edge" fixes an edge
-in and out. That regions hold all that is to be visited only their files say. Exit code: 0 accepted, 1 refused, 2 a file
-that cannot be read."""
+in and out. Only files say that regions hold all there is to visit. Exits with 0 accepted, 1 refused, 2 unreadable."""
 
 import argparse, hashlib, json, math, re, struct, sys  # noqa: E401
 from fractions import Fraction
@@ -208,13 +207,14 @@ def check_insertion(tour, proof):
         elif kind == "insert":
             region, = indices(of, len(tour.cells))
             demand(all(s.region != region for s in stops), "a region is inserted that is there")
-            places = len(stops) - (len(tour.ends) == 2)
-            waiting += [stops[:i] + [tour.cells[region]] + stops[i:] for i in range(places, 0, -1)]
+            places = range(len(stops) - (len(tour.ends) == 2), 0, -1)
+            waiting += [stops[:i] + [tour.cells[region]] + stops[i:] for i in places]
         elif kind == "cut":
-            stop, normal, offset = of
+            cell, (stop, normal, offset) = stops[indices(of[:1], len(stops))[0]], of
+            demand(not tour.dwell[cell.region], "a region where the flight stays is cut")
             demand(any(list_of(normal, [int], 3)) and all(abs(n) <= 1 for n in normal), "no plane")
-            halves = stops[indices([stop], len(stops))[0]].cut(tuple(normal), tour.whole(offset))
-            waiting += [stops[:stop] + [half] + stops[stop + 1:] for half in reversed(halves)]
+            halves = reversed(cell.cut(tuple(normal), tour.whole(offset)))
+            waiting += [stops[:stop] + [half] + stops[stop + 1:] for half in halves]
         else:
             demand(kind == "empty" and not of and not all(s.root for s in stops), "said to be empty, and is not")
     demand(not waiting, "the tree ends too early")

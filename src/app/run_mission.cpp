@@ -49,7 +49,10 @@ Error naming(const Error& error, const Mission& mission, const Target& target) {
   const auto says_name = [&](const std::string& text) { return text.find(target.name) != std::string::npos; };
   const bool is_alone = mission.as_written.targets.size() < 2 || target.name.empty();
   if (is_alone || says_name(error.problem()) || says_name(error.where())) return error;
-  return error.with_where((error.where().empty() ? "" : error.where() + ", ") + "target " + in_quotes(target.name));
+  std::string where = error.where();
+  if (!where.empty()) where += ", ";
+  where += "target ";
+  return error.with_where(where + in_quotes(target.name));
 }
 
 /// Calls `action` and returns what it returns. An Error(input) from it is one of this target.

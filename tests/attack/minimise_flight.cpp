@@ -155,6 +155,12 @@ void write_flight(const DrawnFlight& drawn, const std::string& wrong, const std:
   if (sensor.pixel) note << "pixel: " << sensor.pixel->size_m << "\n";
   if (sensor.sun) note << "sun: " << numbers(sensor.sun->direction, ", ") << ", " << sensor.sun->exclude_deg << "\n";
   if (sensor.link) note << "link: " << sensor.link->frequency_ghz << ", " << sensor.link->clear << "\n";
+  for (const vantage::FlightLink& link : drawn.mission.links) {
+    note << "flight link: " << numbers(link.point, ", ");
+    if (link.max_range_m) note << ", range " << *link.max_range_m;
+    if (link.radio) note << ", radio " << link.radio->frequency_ghz << ", " << link.radio->clear;
+    note << "\n";
+  }
   for (const auto* zones : {&drawn.mission.navigation.keep_in_zones, &drawn.mission.navigation.keep_out_zones}) {
     for (const vantage::Zone& zone : *zones) {
       note << "zone:";

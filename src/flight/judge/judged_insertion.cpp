@@ -164,6 +164,8 @@ class InsertionJudge {
       normal[k] = entry.get<int>();
     }
     demand(normal != std::array<int, 3>{}, "a cut is no plane");
+    // A stay may begin on one side of the plane and end on the other.
+    demand(tour_.dwell[stops[stop]->region()].sign() <= 0, "a region where the flight stays is cut");
     const std::array<Cell*, 2> halves = stops[stop]->cut(normal, whole_of(node[3], tour_.bits));
     for (const std::size_t half : {1, 0}) {
       Stops& part = waiting_.emplace_back(stops);

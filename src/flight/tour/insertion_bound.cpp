@@ -474,13 +474,16 @@ class InsertionSearch {
     return farthest;
   }
 
-  /// The stop whose point is farthest from its region.
+  /// The stop whose point is farthest from its region. Not where the flight stays: it may begin to do so on one side of
+  /// a plane and end on the other, so two halves would not be all there is.
   Growth farthest_off(const Node& node) const {
     Growth growth;
     double most = kTouches * size_;
     std::size_t point = 0;
     for (std::size_t s = 0; s < node.sequence.size(); ++s) {
+      const bool stays = points_of(node.sequence[s]) > 1;
       for (std::size_t k = 0; k < points_of(node.sequence[s]); ++k, ++point) {
+        if (stays) continue;
         const double off = cells_.distance_m(cells_[node.sequence[s]].region, node.points[point]);
         if (off <= most) continue;
         most = off;
