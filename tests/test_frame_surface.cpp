@@ -61,7 +61,7 @@ TEST_P(FrameSurfaces, ShowsAllOfTheTarget) {
     if (point.dot(front) <= 0 || point.norm() > view.reach) continue;
     std::vector<Vec3> seen;
     for (const Vec3& at : corners) seen.push_back(at - (1 + 1e-6) * point);
-    EXPECT_TRUE(find_aim(camera, mount, seen, 1e-8)) << "facet " << facet << " at " << point.transpose();
+    EXPECT_TRUE(find_aim(camera, mount, seen, 1e-8).aim) << "facet " << facet << " at " << point.transpose();
     ++tried;
   }
   EXPECT_GT(tried, 1000);

@@ -136,7 +136,7 @@ TEST(Sensor, FindsAnAimWhereThereIsOne) {
   const Pinhole camera = camera_of(40, 30);
   const auto up = [](double degrees) { return Vec3(0, std::cos(degrees * kDegree), std::sin(degrees * kDegree)); };
   const auto fits = [&](const Mount& mount, const Vec3& corner) {
-    return internal::sensor::find_aim(camera, mount, std::vector<Vec3>{corner}).has_value();
+    return internal::sensor::find_aim(camera, mount, std::vector<Vec3>{corner}).aim.has_value();
   };
   EXPECT_TRUE(fits({0, 0, 0, 0}, up(14.99)));
   EXPECT_FALSE(fits({0, 0, 0, 0}, up(15.01)));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "query/leg_convex.h"
+#include "query/leg_halving.h"
 #include "query/leg_limits.h"
 #include "sensor/aim.h"
 #include "sensor/find_aim.h"
@@ -22,15 +23,9 @@ class AimLook {
       : camera_(*limits.sensor().camera), mount_(mount), corners_(limits.viewed().corners), local_(local) {}
 
   LegIntervals broken(const LegIntervals& within) {
+    if (mount_.is_fixed()) return common(within, fixed());
     parts_.clear();
-    pieces_ = 0;
-    for (const LegInterval& part : within) {
-      if (mount_.is_fixed()) {
-        parts_ = common(within, fixed());
-        return parts_;
-      }
-      look(part.begin, part.end);
-    }
+    halve(within, [&](const LegInterval& piece, bool is_last) { return look(piece, is_last); });
     return joined(std::move(parts_));
   }
 
@@ -47,13 +42,21 @@ class AimLook {
   }
 
  private:
-  /// A leg along a border is neither within nor beyond at any length. Then what is left of it counts as beyond.
-  static constexpr int kMostPieces = 20'000;
+  static constexpr int kMostCubes = 50'000;
 
-  bool has_aim(const Vec3& place, const sensor::AimRoom& room, double slack) {
+  sensor::FoundAim aim(const Vec3& place, const sensor::AimRoom& room, double slack) {
+    constexpr int kMostPitches = 400;
     seen_.clear();
     for (const Vec3& corner : corners_) seen_.push_back(corner - place);
-    return sensor::find_aim(camera_, mount_, seen_, slack, room).has_value();
+    return sensor::find_aim(camera_, mount_, seen_, slack, room, kMostPitches);
+  }
+  bool has_aim(const Vec3& place, const sensor::AimRoom& room, double slack) {
+    return aim(place, room, slack).aim.has_value();
+  }
+  /// What is not decided in time counts as out of the picture, but not of long pieces.
+  bool has_no_aim(const Vec3& place, const sensor::AimRoom& room, double slack, bool is_long) {
+    const sensor::FoundAim found = aim(place, room, slack);
+    return !found.aim && !(found.is_open && is_long);
   }
 
   /// The angle that so many metres subtend at the farthest corner, at most.
@@ -81,30 +84,30 @@ class AimLook {
   }
 
   // From places r away an orientation has each corner inside of the picture's planes by no more than r less, or r more.
-  void look(double begin, double end) {
+  /// Whether the piece is to be halved.
+  bool look(const LegInterval& piece, bool is_last) {
     const double shortest = std::min(1e-3, 1e-5 * local_.length());  // metres
-    const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin) * local_.length(), radius = local_.radius;
+    const double middle = 0.5 * (piece.begin + piece.end), half = 0.5 * (piece.end - piece.begin) * local_.length();
+    const double radius = local_.radius;
     const Vec3 place = local_.at(middle);
     // The search for an orientation ends where it is close by a fiftieth of r. An answer that comes too early is on the
     // safe side, or is made up for by looking r / 20 farther.
     const double slack = angle_of(place, 0.02 * half);
-    if (has_aim(place, {.inside_m = half + radius}, slack)) return;
+    if (has_aim(place, {.inside_m = half + radius}, slack)) return false;
     const bool is_short = 2 * half <= std::max(shortest, radius / 8);
-    if (++pieces_ > kMostPieces || !has_aim(place, {.inside_m = -1.05 * half}, slack) ||
-        (is_short && !all_near(place, Vec3::Zero(), radius, half))) {
-      parts_.push_back({begin, end});
-      return;
-    }
-    if (is_short) return;
-    look(begin, middle);
-    look(middle, end);
+    const bool is_long = piece.end - piece.begin > 1.0 / 64;
+    const bool is_out = is_last || has_no_aim(place, {.inside_m = -1.05 * half}, slack, is_long) ||
+                        (is_short && !all_near(place, Vec3::Zero(), radius, half));
+    if (is_out) parts_.push_back(piece);
+    return !is_out && !is_short;
   }
 
   /// Whether each place of the ball about the middle of this cube, `half` more, has its orientation. The cube's centre
-  /// is `aside` from the ball's.
+  /// is `aside` from the ball's. After so many cubes of all pieces: no.
   bool all_near(const Vec3& place, const Vec3& aside, double side, double half) {
     const double corner = std::sqrt(3.0) * side;
     if (aside.norm() - corner > local_.radius) return true;  // beside the ball
+    if (++cubes_ > kMostCubes) return false;
     const double inside = corner + half;
     if (has_aim(place + aside, {.inside_m = inside}, angle_of(place + aside, 0.02 * inside))) return true;
     if (!(side > local_.radius / 8)) return false;
@@ -121,7 +124,7 @@ class AimLook {
   Tube local_;
   std::vector<Vec3> seen_;
   LegIntervals parts_;
-  int pieces_ = 0;  ///< looked at
+  int cubes_ = 0;
 };
 
 }  // namespace

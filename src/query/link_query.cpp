@@ -65,6 +65,11 @@ class LinkEllipsoid {
     return (along * half_length_ + 0.5 * distance_) * direction_ + (point - along * direction_) * radius_;
   }
 
+  static LinkEllipsoid of(const Vec3& vehicle, double excess) {
+    const double distance = vehicle.norm();
+    return {distance > 0 ? Vec3(vehicle / distance) : Vec3(Vec3::UnitZ()), distance, excess};
+  }
+
   static bool holds(const Vec3& mapped) { return mapped.squaredNorm() < 1 - 2 * kTouch; }
 
  private:
@@ -129,15 +134,50 @@ double LinkQuery::reach(const Vec3& direction, double farthest) const {
 }
 
 void LinkQuery::for_each_entering(const Vec3& direction, double distance,
-                                  const std::function<void(std::uint32_t)>& visit, double more) const {
-  if (!(excess_ + more > 0)) return;
-  const LinkEllipsoid zone(direction, distance, excess_ + more);
+                                  const std::function<void(std::uint32_t)>& visit) const {
+  for_each_polygon_entering(distance * direction, 0,
+                            [&](std::uint32_t polygon, const Vec3&) { visit(object_of(polygon)); });
+}
+
+void LinkQuery::for_each_polygon_entering(const Vec3& vehicle, double more,
+                                          const std::function<void(std::uint32_t, const Vec3&)>& visit) const {
+  const LinkEllipsoid zone = LinkEllipsoid::of(vehicle, excess_ + more);
   MappedPolygon mapped(scene_, antenna_);
   core::walk_bvh(
       scene_.bvh, [&](const core::BvhNode& node) { return zone.may_meet(node.bounds, antenna_); },
       [&](std::uint32_t polygon) {
-        if (LinkEllipsoid::holds(mapped.deepest(polygon, zone))) visit(scene_.polygon_object[polygon]);
+        const Vec3 deepest = mapped.deepest(polygon, zone);
+        if (LinkEllipsoid::holds(deepest)) visit(polygon, zone.original(deepest));
       });
+}
+
+bool LinkQuery::enters(std::uint32_t polygon, const Vec3& vehicle, double more) const {
+  const LinkEllipsoid zone = LinkEllipsoid::of(vehicle, excess_ + more);
+  return LinkEllipsoid::holds(MappedPolygon(scene_, antenna_).deepest(polygon, zone));
+}
+
+double LinkQuery::distance_m(std::uint32_t polygon, const Vec3& from) const {
+  std::vector<Vec3> corners;
+  for (const std::uint32_t vertex : scene_.corners_of(polygon)) {
+    corners.push_back(scene_.vertices[vertex] - antenna_ - from);
+  }
+  return nearest_to_origin(corners).norm();
+}
+
+// The polygon is convex: the way crosses its plane, and passes all sides on the same hand.
+bool LinkQuery::crosses(std::uint32_t polygon, const Vec3& vehicle) const {
+  const auto vertices = scene_.corners_of(polygon);
+  const auto corner = [&](std::size_t i) -> Vec3 { return scene_.vertices[vertices[i % vertices.size()]] - antenna_; };
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double hand = vehicle.dot(corner(i).cross(corner(i + 1)));
+    least = std::min(least, hand);
+    most = std::max(most, hand);
+    if (i > 0) normal += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
+  }
+  const double height = normal.dot(corner(0));
+  return (least > 0 || most < 0) && height * (height - normal.dot(vehicle)) < 0;
 }
 
 }  // namespace vantage::internal::query

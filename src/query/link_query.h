@@ -19,10 +19,20 @@ class LinkQuery {
   /// scene's hierarchy, along the line.
   double reach(const Vec3& direction, double farthest) const;
 
-  /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more. Of a
-  /// zone whose ways are longer by `more` metres, which may be negative: nothing enters one without length.
-  void for_each_entering(const Vec3& direction, double distance, const std::function<void(std::uint32_t)>& visit,
-                         double more = 0) const;
+  /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more.
+  void for_each_entering(const Vec3& direction, double distance, const std::function<void(std::uint32_t)>& visit) const;
+
+  // Of legs; positions are about the antenna, and zones are of ways that are longer by `more` metres, which is not
+  // negative.
+
+  /// Calls visit(polygon, point) for each polygon that enters the zone, with a point where it does.
+  void for_each_polygon_entering(const Vec3& vehicle, double more,
+                                 const std::function<void(std::uint32_t, const Vec3&)>& visit) const;
+  bool enters(std::uint32_t polygon, const Vec3& vehicle, double more) const;
+  double distance_m(std::uint32_t polygon, const Vec3& from) const;
+  /// Whether the straight way to the vehicle crosses the polygon.
+  bool crosses(std::uint32_t polygon, const Vec3& vehicle) const;
+  std::uint32_t object_of(std::uint32_t polygon) const { return scene_.polygon_object[polygon]; }
 
   const Vec3& antenna() const { return antenna_; }  ///< relative to the scene's origin
   double excess_m() const { return excess_; }       ///< how much longer the ways of a zone are than the straight one

@@ -1,6 +1,7 @@
 #include "sensor/find_aim.h"
 
 #include <algorithm>
+#include <deque>
 #include <numbers>
 #include <vector>
 
@@ -88,20 +89,21 @@ class Search {
     return wanted;
   }
 
-  /// By halving: a normal turns by no more than the pitch does.
-  std::optional<Aim> find(double min_pitch, double max_pitch, double slack) const {
-    if (!is_possible_) return std::nullopt;
-    std::vector<std::pair<double, double>> open{{min_pitch, max_pitch}};
-    while (!open.empty()) {
-      const auto [low, high] = open.back();
-      open.pop_back();
+  /// By halving, the widest first: a normal turns by no more than the pitch does.
+  FoundAim find(double min_pitch, double max_pitch, double slack, int most_pitches) const {
+    if (!is_possible_) return {};
+    std::deque<std::pair<double, double>> open{{min_pitch, max_pitch}};
+    for (int pitches = 0; !open.empty(); ++pitches) {
+      if (pitches == most_pitches) return {std::nullopt, true};
+      const auto [low, high] = open.front();
+      open.pop_front();
       const double pitch = (low + high) / 2, half = (high - low) / 2;
-      if (const auto yaw = yaw_for(pitch, 0)) return Aim{*yaw, pitch};
+      if (const auto yaw = yaw_for(pitch, 0)) return {Aim{*yaw, pitch}, false};
       if (half <= slack || !yaw_for(pitch, half)) continue;
       open.emplace_back(low, pitch);
       open.emplace_back(pitch, high);
     }
-    return std::nullopt;
+    return {};
   }
 
  private:
@@ -115,13 +117,13 @@ class Search {
 
 }  // namespace
 
-std::optional<Aim> find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners, double slack,
-                            const AimRoom& room) {
+FoundAim find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners, double slack,
+                  const AimRoom& room, int most_pitches) {
   constexpr double kRadians = std::numbers::pi / 180;
   // No rounding beyond straight down and up.
   const double low = std::max(mount.min_pitch_deg * kRadians, -std::numbers::pi / 2),
                high = std::min(mount.max_pitch_deg * kRadians, std::numbers::pi / 2);
-  return Search(camera, mount, corners, room).find(low, high, slack);
+  return Search(camera, mount, corners, room).find(low, high, slack, most_pitches);
 }
 
 }  // namespace vantage::internal::sensor

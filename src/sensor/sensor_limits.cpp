@@ -149,7 +149,7 @@ bool SensorLimits::fits(const Vec3& point, const Mount& mount) const {
   std::vector<Vec3> seen;
   seen.reserve(viewed_.corners.size());
   for (const Vec3& corner : viewed_.corners) seen.push_back(corner - point);
-  return find_aim(*sensor_.camera, mount, seen).has_value();
+  return find_aim(*sensor_.camera, mount, seen).aim.has_value();
 }
 
 // All members of Sensor are named, here and below: a limit that is added does not compile before it is answered.

@@ -70,8 +70,9 @@ double FlightJudge::rounding_of(const Vec3& position) const {
 void FlightJudge::miss(const FlightOracle& oracle, const FlightPlace& at, const vantage::TargetCheck& target) {
   result_.count("positions that are not claimed");
   const double reach = oracle.lists()[0][0]->reach(at.position), rounding = rounding_of(at.position);
-  // A camera that turns is looked for in parts of a leg that are so long.
-  const double parts = 2.5 * std::min(1e-3, 1e-5 * length(at.leg));
+  // A camera that turns, or what enters a link's zone, is looked for in parts of a leg that are so long.
+  const bool is_link = oracle.lists()[0][0]->sensor().link.has_value();
+  const double parts = is_link ? length(at.leg) / 8000 : 2.5 * std::min(1e-3, 1e-5 * length(at.leg));
   if (radius_ > 0) return miss_in_tube(oracle, at, parts + 4 * rounding);
   const double tight = 1e-9 * reach + 2 * rounding, loose = 1.5e-6 * reach + 2 * rounding;
   if (!oracle.surely_seen(at.position, tight, 1e-6 * reach + 4 * rounding + parts)) return;
