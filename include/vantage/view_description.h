@@ -19,10 +19,10 @@ struct ViewDescription {
   std::optional<double> above_ground_m = std::nullopt;  ///< over the highest ground straight above or below
   std::optional<double> above_sea_m = std::nullopt;     ///< over mean sea level, where sea_level_m() knows it
 
-  double yaw_deg = 0;    ///< to the target's centre: clockwise from +y of the scene (north), in [0, 360)
+  double yaw_deg = 0;    ///< of the camera: clockwise from +y of the scene (north), in [0, 360)
   double pitch_deg = 0;  ///< 0 is level, -90 straight down
-  /// Whether the mount allows both. Else they are the nearest that it allows, and the target is off the middle of the
-  /// picture, though whole in it.
+  /// Whether they are those to the target's centre. Else the mount does not allow these, or they leave a part of the
+  /// target out of the picture: the given ones have all of it in, with the most room at its edges, where any do.
   bool is_centred = true;
 
   double distance_m = 0;                               ///< to the target's centre

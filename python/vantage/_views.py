@@ -35,9 +35,9 @@ class View:
         longitude_deg, latitude_deg: WGS 84.
         above_ground_m: over the highest ground straight above or below.
         above_sea_m: over mean sea level.
-        yaw_deg: to the target's centre: clockwise from +y of the scene (north), in [0, 360).
+        yaw_deg: of the camera: clockwise from +y of the scene (north), in [0, 360).
         pitch_deg: 0 is level, -90 straight down.
-        is_centred: whether the mount allows both. Else they are the nearest that it allows.
+        is_centred: whether they are those to the target's centre. Else all of the target is in the picture with these.
         distance_m: to the target's centre.
         pixel_m: on the target, the largest.
         incidence_deg: between a normal of the target and the line to the position, the largest.

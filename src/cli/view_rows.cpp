@@ -23,7 +23,7 @@ void add_sight(TextTable& table, const ViewDescription& view) {
   table.row("  yaw", fixed(view.yaw_deg, 1), "degrees clockwise from north");
   table.row("  pitch", fixed(view.pitch_deg, 1),
             view.is_centred ? "degrees; -90 is straight down"
-                            : "degrees; the mount does not let the camera centre the target");
+                            : "degrees; all of the target is in the picture so, but not in its middle");
   table.row("  distance", fixed(view.distance_m, 2), "metres to the target's centre");
   if (view.pixel_m) table.row("  pixel", pixel_text(*view.pixel_m), "on the target, at most");
   if (view.incidence_deg) table.row("  incidence", fixed(*view.incidence_deg, 1), "degrees, at most");

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "flight/view_describer_data.h"
@@ -10,8 +8,6 @@
 
 namespace vantage::internal::flight {
 namespace {
-
-constexpr double kToDegrees = 180 / std::numbers::pi;
 
 std::optional<GroundLevels> ground_levels(const Mission& mission) {
   try {
@@ -26,23 +22,6 @@ std::optional<geo::LocalFrame> earth_frame(const Mission& mission) {
   const auto& place = mission.scene().georeference;
   if (!place) return std::nullopt;
   return std::optional<geo::LocalFrame>(std::in_place, geo::LonLat{place->longitude_deg, place->latitude_deg});
-}
-
-void aim(ViewDescription& view, const Vec3& line, const Mount& mount) {
-  const double level = std::hypot(line.x(), line.y());
-  double yaw = level > 0 ? std::atan2(line.x(), line.y()) * kToDegrees : mount.yaw_deg.value_or(0);
-  if (yaw < 0) yaw += 360;
-  view.yaw_deg = yaw < 360 ? yaw : 0;
-  view.pitch_deg = std::atan2(line.z(), level) * kToDegrees;
-  constexpr double kSame = 1e-9;  // degrees: rounding of a direction at the border of what is allowed
-  const double pitch = std::clamp(view.pitch_deg, mount.min_pitch_deg, mount.max_pitch_deg);
-  if (std::abs(pitch - view.pitch_deg) > kSame) view.is_centred = false;
-  view.pitch_deg = pitch;
-  if (!mount.yaw_deg) return;
-  const double turn = std::abs(std::remainder(*mount.yaw_deg - view.yaw_deg, 360));
-  // Straight up or down all yaws are centred.
-  if (turn > kSame && level > 0) view.is_centred = false;
-  view.yaw_deg = std::fmod(std::fmod(*mount.yaw_deg, 360) + 360, 360);
 }
 
 }  // namespace
@@ -69,7 +48,7 @@ std::shared_ptr<const ViewDescriber::Data> describer_data(const Mission& mission
   }
   if (!around) around = std::make_shared<const Surroundings>(mission);
   return std::make_shared<const ViewDescriber::Data>(
-      ViewDescriber::Data{TargetView(mission), mission.sensor.mount, std::move(around)});
+      ViewDescriber::Data{TargetView(mission), internal::flight::ViewAim(mission), std::move(around)});
 }
 
 }  // namespace
@@ -98,7 +77,10 @@ ViewDescription ViewDescriber::describe(const Vec3& position) const {
     }
   }
   if (around.sea_level_m) view.above_sea_m = position.z() - *around.sea_level_m;
-  internal::flight::aim(view, target.centre() - position, data_->mount);
+  const internal::flight::AimedCamera camera = data_->aim.at(position, target.centre());
+  view.yaw_deg = camera.aim.yaw_deg < 360 ? camera.aim.yaw_deg : 0;
+  view.pitch_deg = camera.aim.pitch_deg;
+  view.is_centred = camera.is_centred;
   view.distance_m = target.distance_m(position);
   if (target.has_pixels()) {
     const double pixel_m = target.pixel_m(position);

@@ -6,9 +6,9 @@
 
 #include "flight/obstacles.h"
 #include "flight/target_view.h"
+#include "flight/view_aim.h"
 #include "geo/local_frame.h"
 #include "vantage/ground.h"
-#include "vantage/sensor.h"
 #include "vantage/view_description.h"
 
 namespace vantage::internal::flight {
@@ -29,7 +29,7 @@ namespace vantage {
 
 struct ViewDescriber::Data {
   internal::flight::TargetView target;
-  Mount mount;
+  internal::flight::ViewAim aim;
   std::shared_ptr<const internal::flight::Surroundings> around;
 };
 

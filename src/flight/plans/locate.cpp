@@ -178,7 +178,7 @@ std::optional<double> Locator::known_home_z() {
     if (const auto range = ground_->at(at->x(), at->y())) ground = range->highest_m;
   }
   if (ground) {
-    constexpr double kMuchM = 5;
+    constexpr double kMuchM = 1;
     const double stated = can_state ? stated_home_z(where) : *ground;
     if (std::abs(stated - *ground) > kMuchM) {
       note("the home is taken to be on the ground of the scene, " +

@@ -354,7 +354,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   FlightOut out;
   out.flight = of.tour.flight;
-  tour::add_views(of, out);
+  tour::add_views(of, mission, out);
   if (mission.scene().georeference) {
     out.georeference = *mission.scene().georeference;
   } else {

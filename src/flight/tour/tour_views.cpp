@@ -1,10 +1,15 @@
 #include "flight/tour/tour_views.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "flight/gimbal.h"
+#include "flight/tour/mission_positions.h"
+#include "flight/view_aim.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
@@ -37,20 +42,53 @@ ViewPlace place_of(const TourVisit& visit, const Flight& flight) {
   return place;
 }
 
-FlightAction action_at(const Vec3& position, const MissionTourTarget& target) {
-  FlightAction action;
-  action.sees = target.name;
-  if (target.is_volume) return action;
-  const Aim aim = aim_at(position, target.centre);
-  action.yaw_deg = aim.yaw_deg;
-  action.gimbal_pitch_deg = aim.pitch_deg;
-  action.photo = true;
-  return action;
+/// Of the camera's axis, of unit length.
+Vec3 camera_axis(const Aim& aim) {
+  constexpr double kRadian = std::numbers::pi / 180;
+  const double yaw = aim.yaw_deg * kRadian, pitch = aim.pitch_deg * kRadian;
+  return {std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
 }
+
+class Photographer {
+ public:
+  Photographer(const MissionTour& of, const Mission& mission)
+      : of_(of), each_(each_of(mission)), is_wing_(of.settings.vehicle.kind == TourVehicle::Kind::fixed_wing) {}
+
+  FlightAction action_at(const Vec3& position, std::size_t number) const {
+    const MissionTourTarget& target = of_.targets[number];
+    FlightAction action;
+    action.sees = target.name;
+    if (target.is_volume) return action;
+    action.photo = true;
+    const AimedCamera camera = ViewAim(each_[number]).at(position, target.centre);
+    if (is_wing_) {
+      const double distance_m = (target.centre - position).norm();
+      action.look_at = camera.is_centred ? target.centre : position + distance_m * camera_axis(camera.aim);
+    } else {
+      action.yaw_deg = camera.aim.yaw_deg;
+      action.gimbal_pitch_deg = camera.aim.pitch_deg;
+    }
+    return action;
+  }
+
+  /// For the camera to turn from one photo to the next one of a place.
+  double turn_s(const FlightAction& from, const FlightAction& to) const {
+    if (!from.yaw_deg || !to.yaw_deg) return 0;
+    const Vec3 a = camera_axis({*from.yaw_deg, *from.gimbal_pitch_deg}),
+               b = camera_axis({*to.yaw_deg, *to.gimbal_pitch_deg});
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi / of_.settings.gimbal_rate_deg_s;
+  }
+
+ private:
+  const MissionTour& of_;
+  std::vector<Mission> each_;
+  bool is_wing_;
+};
 
 }  // namespace
 
-void add_views(const MissionTour& of, FlightOut& out) {
+void add_views(const MissionTour& of, const Mission& mission, FlightOut& out) {
+  const Photographer photographer(of, mission);
   const std::vector<FlightPoint>& points = of.tour.flight.points;
   std::vector<ViewPlace> places;
   for (const TourVisit& visit : of.tour.visits) places.push_back(place_of(visit, of.tour.flight));
@@ -68,17 +106,19 @@ void add_views(const MissionTour& of, FlightOut& out) {
       out.flight.points.push_back(here);
       out.actions.emplace_back();
     }
-    here.hold_s /= static_cast<double>(std::max<std::ptrdiff_t>(1, next - first));
+    const double share_s = here.hold_s / static_cast<double>(std::max<std::ptrdiff_t>(1, next - first));
     for (auto place = first; place != next; ++place) {
+      const FlightAction action = photographer.action_at(here.position, place->visit->target);
+      here.hold_s = std::max(share_s, place == first ? 0 : photographer.turn_s(out.actions.back(), action));
       out.flight.points.push_back(here);
-      out.actions.push_back(action_at(here.position, of.targets[place->visit->target]));
+      out.actions.push_back(action);
     }
     for (; next != places.end() && next->point == i; ++next) {
       FlightPoint point = points[i + 1];
       point.position = points[i].position + next->share * (points[i + 1].position - points[i].position);
       point.hold_s = 0;
       out.flight.points.push_back(point);
-      out.actions.push_back(action_at(point.position, of.targets[next->visit->target]));
+      out.actions.push_back(photographer.action_at(point.position, next->visit->target));
     }
   }
 }

@@ -1,0 +1,91 @@
+// Where a camera is turned: against orientations that are tried one by one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <vector>
+
+#include "support/flight_cases.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "vantage/mission.h"
+#include "vantage/view_description.h"
+
+namespace vantage::testing {
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180;
+
+/// By how much all corners are in the picture, as a tangent; negative where one is not. Shares nothing with the
+/// library.
+double room(const std::vector<Vec3>& corners, const Vec3& from, double yaw_deg, double pitch_deg,
+            const Pinhole& camera) {
+  const double yaw = yaw_deg * kRadian, pitch = pitch_deg * kRadian;
+  double least = 10;
+  for (const Vec3& corner : corners) {
+    const Vec3 d = corner - from;
+    const double along = d.x() * std::sin(yaw) + d.y() * std::cos(yaw);
+    const double right = d.x() * std::cos(yaw) - d.y() * std::sin(yaw);
+    const double ahead = along * std::cos(pitch) + d.z() * std::sin(pitch);
+    const double up = -along * std::sin(pitch) + d.z() * std::cos(pitch);
+    if (!(ahead > 0)) return -1;
+    least = std::min({least, camera.half_width - std::abs(right) / ahead, camera.half_height - std::abs(up) / ahead});
+  }
+  return least;
+}
+
+Mission seen_by(const std::vector<Vec3>& corners, const Pinhole& camera, const Mount& mount) {
+  SceneBuilder builder;
+  builder.ground("ground", 1000, -50);
+  Mission mission = mission_in(builder, target_of(corners), 500);
+  mission.sensor.camera = camera;
+  mission.sensor.mount = mount;
+  return mission;
+}
+
+TEST(ViewAim, HasTheWholeTargetInThePictureWhereSomeOrientationHas) {
+  const std::uint64_t seed = 7;
+  std::cout << "seed " << seed << "\n";
+  Random random(seed);
+  int whole = 0, off_centre = 0;
+  for (int round = 0; round < 120; ++round) {
+    SCOPED_TRACE(round);
+    // A flat polygon with most of its corners at one side: its middle is not where the picture's has to be.
+    const double length = random.uniform(5, 40), width = random.uniform(2, 20);
+    const std::vector<Vec3> corners = {{0, 0, 0},
+                                       {length, 0, 0},
+                                       {1.02 * length, 0.3 * width, 0},
+                                       {1.03 * length, 0.5 * width, 0},
+                                       {1.02 * length, 0.7 * width, 0},
+                                       {length, width, 0},
+                                       {0, width, 0}};
+    const Pinhole camera{std::tan(random.uniform(15, 40) * kRadian), std::tan(random.uniform(10, 30) * kRadian)};
+    const double lowest = random.uniform(-90, -30);
+    Mount mount;
+    if (random.integer(0, 1) == 1) {
+      mount.min_pitch_deg = lowest;
+      mount.max_pitch_deg = random.uniform(lowest, 20);
+    }
+    const Vec3 from(random.uniform(-40, 60), random.uniform(-40, 60), random.uniform(3, 60));
+    const ViewDescription view = ViewDescriber(seen_by(corners, camera, mount)).describe(from);
+    EXPECT_GE(view.pitch_deg, mount.min_pitch_deg);
+    EXPECT_LE(view.pitch_deg, mount.max_pitch_deg);
+    double best = -1;
+    for (double pitch = mount.min_pitch_deg; pitch <= mount.max_pitch_deg; pitch += 1) {
+      for (double yaw = 0; yaw < 360; yaw += 1) best = std::max(best, room(corners, from, yaw, pitch, camera));
+    }
+    const double given = room(corners, from, view.yaw_deg, view.pitch_deg, camera);
+    if (best <= 0) continue;
+    ++whole;
+    off_centre += view.is_centred ? 0 : 1;
+    EXPECT_GE(given, 0) << "some orientation has room for " << best;
+    if (!view.is_centred) EXPECT_GE(given, 0.9 * best - 0.03);
+  }
+  EXPECT_GT(whole, 40);
+  EXPECT_GT(off_centre, 10);
+}
+
+}  // namespace
+}  // namespace vantage::testing
