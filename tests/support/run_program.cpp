@@ -72,6 +72,22 @@ class Streams {
   ::_exit(kNotStarted);
 }
 
+/// What each thread of a process waits for, by the kernel.
+std::string threads_of(pid_t process) {
+  std::string text = "\nout of time; its threads:";
+  std::error_code error;
+  for (const fs::directory_entry& thread :
+       fs::directory_iterator("/proc/" + std::to_string(process) + "/task", error)) {
+    text += "\n" + thread.path().filename().string();
+    for (const char* const file : {"comm", "wchan", "syscall"}) {
+      std::string of_thread = content(thread.path() / file);
+      while (of_thread.ends_with('\n')) of_thread.pop_back();
+      text += " " + of_thread;
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 ProgramRun run_program(const fs::path& program, const std::vector<std::string>& arguments, const RunOptions& options) {
@@ -101,6 +117,7 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.timeout_s);
   int status = 0;
   bool is_signalled = options.signal == 0;
+  std::string waiting;
   while (::waitpid(child, &status, WNOHANG) == 0) {
     if (!is_signalled && options.signal_when(content(streams.err()))) {
       ::kill(child, options.signal);
@@ -108,6 +125,7 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
     }
     if (std::chrono::steady_clock::now() > end) {
       run.timed_out = true;
+      waiting = threads_of(child);
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
       break;
@@ -117,7 +135,7 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   run.was_started = run.exit_code != kNotStarted;
   run.out = content(streams.out());
-  run.err = content(streams.err());
+  run.err = content(streams.err()) + waiting;
   return run;
 }
 
