@@ -16,6 +16,7 @@
 #include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
+#include "vantage/input.h"
 #include "vantage/mission.h"
 #include "vantage/sensor.h"
 
