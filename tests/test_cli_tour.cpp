@@ -54,6 +54,23 @@ TEST_F(CliTour, WritesPlansForAircraftOfDji) {
   for (const Json& target : answer["targets"]) EXPECT_FALSE(target["seen"].empty()) << target["name"];
 }
 
+TEST_F(CliTour, AnOpenTourEndsWhereItEnds) {
+  std::string town = content(source_folder() / "examples/town/tour.yaml");
+  town.replace(town.find("town.osm"), 8, (source_folder() / "examples/town/town.osm").string());
+  for (const std::string closed : {"true", "false"}) {
+    const std::string home = "  home:";
+    write("town.yaml", std::string(town).insert(town.find(home), "  closed: " + closed + "\n"));
+    const ProgramRun tour = run({"tour", "town.yaml", "--no-bound", "-o", "tour.plan", "--json"});
+    ASSERT_EQ(tour.exit_code, 0) << tour.err;
+    const Json items = Json::parse(content(folder_ / "tour.plan"))["mission"]["items"];
+    constexpr int kReturn = 20;
+    EXPECT_EQ(items.back()["command"] == kReturn, closed == "true");
+    EXPECT_EQ(Json::parse(tour.out)["notes"].size(), closed == "true" ? 1U : 2U) << tour.out;
+    const ProgramRun check = run({"check", "town.yaml", "tour.plan"});
+    EXPECT_EQ(check.exit_code, 0) << check.out;
+  }
+}
+
 TEST_F(CliTour, PrintsATable) {
   const std::string text = output_of({"tour", "tour.yaml"});
   for (const char* word : {"multirotor, 3 of 3 targets", "length", "bound", "gap", "it ignores", "west", "south"}) {

@@ -266,6 +266,10 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// array_sizes_differ, value_out_of_range and coordinate_not_finite for actions, and what check_flight_points throws.
 VANTAGE_API std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format);
 
+/// What to know before relying on a plan: what it does not hold of the flight, and where the vehicle flies ways that
+/// are not of the flight. A sentence each, without a full stop. Throws nothing.
+VANTAGE_API std::vector<std::string> plan_notes(const FlightOut& flight, PlanFormat format);
+
 /// Writes it as AtomicFile does; the format is that of the name.
 VANTAGE_API void write_flight_plan(const FlightOut& flight, const std::filesystem::path& file);
 

@@ -111,9 +111,10 @@ VANTAGE_API Flight flight_of(const Orbit& orbit, double chord_error_m = 0.1);
 
 /// The orbit as a plan for ground stations: a circle is one loiter, flown once, which formats without loiters state as
 /// chords; a racetrack is its legs. The camera is turned to the target's centre, where its mount allows that. Heights
-/// are above the mission's home, where there is one and the format knows such heights; speed and vehicle are those of
-/// MissionFile::tour. Of a scene without a place on the earth it is x, y and z of the scene frame, which a table (CSV)
-/// alone can state: else throws Error(not_georeferenced). Throws as flight_of.
+/// are above the mission's home, where there is one and the format knows such heights; the ways from there to the orbit
+/// and back are not planned (plan_notes); speed and vehicle are those of MissionFile::tour. Of a scene without a place
+/// on the earth it is x, y and z of the scene frame, which a table (CSV) alone can state: else throws
+/// Error(not_georeferenced). Throws as flight_of.
 VANTAGE_API FlightOut plan_of_orbit(const Orbit& orbit, const Mission& mission, PlanFormat format);
 
 /// Orbits of one target for json_text.

@@ -111,8 +111,9 @@ DjiAircraft aircraft_of(const std::vector<int>& numbers) {
   return aircraft;
 }
 
-void write(const PyTour& of, const std::filesystem::path& file, const std::optional<std::vector<int>>& aircraft,
-           std::optional<double> undulation_m) {
+/// What plan_notes says.
+std::vector<std::string> write(const PyTour& of, const std::filesystem::path& file,
+                               const std::optional<std::vector<int>>& aircraft, std::optional<double> undulation_m) {
   const PlanFormat format = plan_format_of(file);
   check_output(of, file);
   const Released released;
@@ -120,6 +121,7 @@ void write(const PyTour& of, const std::filesystem::path& file, const std::optio
   plan.levels.undulation_m = undulation_m;
   if (aircraft) plan.aircraft = aircraft_of(*aircraft);
   write_flight_plan(plan, file);
+  return plan_notes(plan, format);
 }
 
 void write_certificate(const PyTour& of, const std::filesystem::path& file) {

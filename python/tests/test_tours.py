@@ -63,7 +63,8 @@ def test_plans_hold_the_tour(mission, found, tmp_path, ending):
     """Read again, the plan sees the same."""
     file = tmp_path / f"tour.{ending}"
     above = {"undulation_m": 46.0} if ending == "geojson" else {}  # heights above the ellipsoid
-    found.write(file, aircraft=(77, 0, 66) if ending == "kmz" else None, **above)
+    notes = found.write(file, aircraft=(77, 0, 66) if ending == "kmz" else None, **above)
+    assert any("in the air" in note for note in notes) == (ending in ("kml", "gpx", "geojson", "csv"))
     again = vt.check(mission, file, speed_m_s=8, dwell_s=0, **above)
     assert all(target.seen for target in again.targets), again.failures
     distances = np.linalg.norm(again.flight.positions[:, None] - found.positions[None], axis=2)

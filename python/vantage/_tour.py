@@ -118,7 +118,7 @@ class Tour:
         """Whether the gap that the settings ask for was reached."""
         return self.bound is not None and self.bound.gap <= self._core.asked_gap
 
-    def write(self, path: Path, *, aircraft: Sequence[int] | None = None, undulation_m: float | None = None) -> None:
+    def write(self, path: Path, *, aircraft: Sequence[int] | None = None, undulation_m: float | None = None) -> list[str]:
         """Writes a plan for ground stations, by the path's extension: .plan, .waypoints, .kml, .kmz (DJI's), .gpx, .geojson or
         .csv; whole or not at all. With a photo where each target is seen, yaw and gimbal pitch.
 
@@ -127,11 +127,14 @@ class Tour:
             aircraft: for .kmz: type, subtype and camera, as DJI numbers them: (77, 0, 66) is the Mavic 3E.
             undulation_m: how high the mean sea level lies above the ellipsoid there: GeoJSON has heights above the ellipsoid.
 
+        Returns:
+            What to know before relying on it: what the format does not hold, and which ways are not of the tour.
+
         Raises:
             Error: the scene has no place on the earth, and the file is no .csv; the format needs a home; it cannot be written.
         """
         undulation = None if undulation_m is None else _arrays.number(undulation_m, "undulation_m")
-        self._core.write(checked_path(path), None if aircraft is None else _aircraft(aircraft), undulation)
+        return self._core.write(checked_path(path), None if aircraft is None else _aircraft(aircraft), undulation)
 
     def write_certificate(self, path: Path) -> None:
         """Writes what proves the bound, for tools/check_tour.py, and the outer volumes beside it. Raises Error without a bound."""

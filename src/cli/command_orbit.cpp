@@ -162,7 +162,11 @@ void write_orbit(const Orbits& orbits, const Mission& mission, const OrbitArgume
   const auto deepest = std::find_if(orbits.found.begin(), orbits.found.end(), is_deepest);
   const Orbit& chosen = deepest == orbits.found.end() ? orbits.found.front() : *deepest;
   const std::string& file = arguments.output_file;
-  write_flight_plan(with_output(plan_of_orbit(chosen, mission, plan_format_of(file)), arguments.plan), file);
+  const PlanFormat format = plan_format_of(file);
+  const FlightOut plan = with_output(plan_of_orbit(chosen, mission, format), arguments.plan);
+  write_flight_plan(plan, file);
+  if (arguments.common.quiet) return;
+  for (const std::string& text : plan_notes(plan, format)) note(text);
 }
 
 /// Whether the format can state an orbit of the mission: before any is looked for.

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command.h"
@@ -196,13 +198,19 @@ int run_tour(const TourArguments& options) {
   asked.with_bound = !options.no_bound;
   asked.certificate = options.certificate_file;
   asked.fewest_positions = options.fewest;
-  const MissionTour tour = plan_mission_tour(mission, asked, progress.callback());
+  MissionTour tour = plan_mission_tour(mission, asked, progress.callback());
+  std::optional<FlightOut> plan;
+  if (!options.output_file.empty() && !tour.tour.order.empty()) {
+    plan = plan_in(tour, mission, options);
+    for (std::string& text : plan_notes(*plan, plan_format_of(options.output_file))) {
+      tour.notes.push_back(std::move(text));
+    }
+  }
   if (!options.common.quiet) {
     notes(mission.notes);
     for (const std::string& text : tour.notes) note(text);
   }
-  if (!options.output_file.empty() && !tour.tour.order.empty())
-    write_flight_plan(plan_in(tour, mission, options), options.output_file);
+  if (plan) write_flight_plan(*plan, options.output_file);
   if (options.json) {
     print(json_text(tour));
   } else if (!options.common.quiet) {

@@ -365,7 +365,8 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   const bool is_wing = of.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
   out.vehicle = is_wing ? PlanVehicle::fixed_wing : PlanVehicle::multirotor;
   out.speed_m_s = of.settings.vehicle.speed_m_s;
-  out.takes_off = out.returns_home = of.home.has_value();
+  out.takes_off = of.home.has_value();
+  out.returns_home = out.takes_off && of.settings.closed;  // else the way back is not planned
   if (of.home && mission.scene().georeference) out.heights = HeightDatum::home;
   for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
   return out;
