@@ -341,6 +341,57 @@ TEST(ReadFlightPlan, TakesLinesAndPointsOfGeoJson) {
                "position 1");
 }
 
+TEST(ReadFlightPlan, TakesStaysOfPointsBesideTheirLine) {
+  const auto point = [](const std::string& at, const std::string& data) {
+    return "<Placemark><ExtendedData>" + data +
+           "</ExtendedData><Point><altitudeMode>absolute</altitudeMode><coordinates>" + at +
+           "</coordinates></Point></Placemark>";
+  };
+  const std::string line = kml_line("11,48,520 11.001,48,530");
+  const std::string stays = "<Data name=\"point\"><value>2</value></Data><Data name=\"hold_s\"><value>3</value></Data>";
+  const FlightPlan plan = parsed_plan(kml(point("11.001,48,530", stays) + line));
+  ASSERT_EQ(plan.items.size(), 2u);
+  EXPECT_EQ(plan.items[0].hold_s, 0);
+  EXPECT_EQ(plan.items[1].hold_s, 3);
+  EXPECT_TRUE(plan.notes.empty());
+  // GDAL writes KML so.
+  const std::string simple =
+      "<SchemaData schemaUrl=\"#a\"><SimpleData name=\"point\">1</SimpleData><SimpleData name=\"hold_s\">4.5"
+      "</SimpleData><SimpleData name=\"yaw_deg\">-90</SimpleData></SchemaData>";
+  const FlightPlan of_gdal = parsed_plan(kml(line + point("11,48,520", simple)));
+  EXPECT_EQ(of_gdal.items[0].hold_s, 4.5);
+  EXPECT_EQ(of_gdal.items[0].yaw_deg, -90);
+  for (const std::string elsewhere : {"11.002,48,530", "11.001,48,531", "11,48,520"}) {
+    const FlightPlan moved = parsed_plan(kml(line + point(elsewhere, stays)));
+    EXPECT_EQ(moved.items[1].hold_s, 0) << elsewhere;
+    ASSERT_EQ(moved.notes.size(), 1u) << elsewhere;
+    EXPECT_EQ(moved.notes[0].code, WarningCode::plan_left_out);
+    expect_wording(moved.notes[0].text);
+  }
+  EXPECT_EQ(parsed_plan(kml(point("11,48,520", stays))).items[0].hold_s, 3) << "points alone are the flight";
+  const std::string wrong = "<Data name=\"hold_s\"><value>long</value></Data>";
+  expect_error([&] { parsed_plan(kml(line + point("11,48,520", wrong))); }, ErrorCode::not_a_number, "flight.plan");
+  const std::string negative = "<Data name=\"hold_s\"><value>-1</value></Data>";
+  expect_code([&] { parsed_plan(kml(point("11,48,520", negative))); }, ErrorCode::value_out_of_range);
+
+  const auto geojson = [](const std::string& properties) {
+    return "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\", \"properties\": {}, "
+           "\"geometry\": {\"type\": \"LineString\", \"coordinates\": [[11, 48, 560], [11.001, 48, 570]]}}, "
+           "{\"type\": \"Feature\", \"properties\": " +
+           properties + ", \"geometry\": {\"type\": \"Point\", \"coordinates\": [11.001, 48, 570]}}]}";
+  };
+  EXPECT_EQ(parsed_plan(geojson("{\"point\": 2, \"hold_s\": 3, \"speed_m_s\": null}")).items[1].hold_s, 3);
+  EXPECT_EQ(parsed_plan(geojson("{\"point\": \"2\", \"hold_s\": \"3\", \"name\": \"a\"}")).items[1].hold_s, 3);
+  EXPECT_EQ(parsed_plan(geojson("{\"point\": \"a\", \"hold_s\": 3}")).items[1].hold_s, 0);
+  EXPECT_EQ(parsed_plan(geojson("{\"hold_s\": 3}")).notes.size(), 1u);
+  EXPECT_TRUE(parsed_plan(geojson("{\"name\": \"a\", \"point\": 7}")).notes.empty());
+
+  const FlightPlan route = parsed_plan(
+      gpx("<rte><rtept lat=\"48\" lon=\"11\"><extensions><v:hold_s xmlns:v=\"urn:v\">2.5</v:hold_s></extensions>"
+          "</rtept></rte>"));
+  EXPECT_EQ(route.items[0].hold_s, 2.5);
+}
+
 TEST(ReadFlightPlan, TakesTablesWhoseColumnsSayWhatTheyAre) {
   const auto first = [](const std::string& text) { return parsed_plan(text).items.at(0).position; };
   EXPECT_EQ(first("lat,lon,alt_amsl\n48,11,500\n").datum, HeightDatum::sea_level);

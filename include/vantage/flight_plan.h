@@ -127,6 +127,9 @@ struct ReadPlanOptions {
 /// says that they do not count; WPML as executeHeightMode or heightMode says; GPX above mean sea level, GeoJSON above
 /// the ellipsoid (RFC 7946); tables as the names of columns say (docs/flight-plans.md), else unknown.
 ///
+/// KML, GPX and GeoJSON: "hold_s", "speed_m_s", "yaw_deg" and "gimbal_pitch_deg" of points count, in KML and GeoJSON
+/// where a point says with "point" at which position of the one line it lies.
+///
 /// Throws Error(input) with the line, the item or the place in the file: plan_syntax for what is none of the formats or
 /// breaks its rules, plan_empty for a plan without positions, value_unsupported for what cannot be followed,
 /// not_on_earth, value_out_of_range, unknown_choice for a track that is not there, file_too_large. Error(cancelled).
@@ -246,8 +249,8 @@ struct FlightOut {
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< where points state none; NaN: not stated
   bool takes_off = true, returns_home = true;  ///< with the items for it; GPX, CSV and GeoJSON have none
   std::optional<DjiAircraft> aircraft;         ///< WPML needs it
-  std::vector<NamedVolume> volumes;            ///< KML draws them
-  double chord_error_m = 0.05;                 ///< of circles, where a format has none
+  std::vector<NamedVolume> volumes;  ///< KML draws them
+  double chord_error_m = 0.05;       ///< of circles, where a format has none
 };
 
 /// The format that a name stands for: .plan, .waypoints, .kml, .kmz (wpml), .gpx, .geojson, .csv. Throws
@@ -259,7 +262,9 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// single precision for heights (0.03 mm below 1 km).
 ///
 /// Circles are loiters in .plan and .waypoints, and chords within `chord_error_m` in the other formats. Where the
-/// camera is turned to something, .plan and .waypoints hold a region of interest, and WPML, CSV and GeoJSON the angles.
+/// camera is turned to something, .plan and .waypoints hold a region of interest, and the other formats the angles.
+/// Stays are rounded up to a thousandth of a second. KML, GPX and GeoJSON hold what is done at a point by name
+/// (docs/flight-plans.md), and are read back with it.
 ///
 /// Throws Error(input): height_unknown where a level is needed that is not known, not_georeferenced, missing_key for
 /// heights, a home, a speed or an aircraft that the format needs, value_unsupported for heights that it cannot state,

@@ -1,10 +1,12 @@
 // GeoJSON (RFC 7946): lines, or else points. The third number of a position is the height above the ellipsoid.
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "flight/plans/json_text.h"
+#include "flight/plans/point_details.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
@@ -26,7 +28,7 @@ class GeojsonTracks {
     } else {
       add(root, "the object");
     }
-    if (lines_.empty() && !points_.items.empty()) lines_.push_back(std::move(points_));
+    take_details(std::move(points_), lines_, source_, plan);
     take_tracks(std::move(lines_), "line", "lines", source_, plan);
     check_plan(plan, source_);
     return plan;
@@ -55,7 +57,15 @@ class GeojsonTracks {
         add_line((*coordinates)[i], name, place + ", line " + std::to_string(i + 1));
       }
     }
-    if (kind == "Point") add_position(*coordinates, place, points_);
+    if (kind != "Point") return;
+    add_position(*coordinates, place, points_.track);
+    points_.numbers.push_back(0);
+    if (properties == object.end() || !properties->is_object()) return;
+    for (const auto& [key, value] : properties->items()) {
+      PlanItem& item = points_.track.items.back();
+      if (value.is_number()) set_detail(key, value.get<double>(), item, &points_.numbers.back());
+      if (value.is_string()) set_detail(key, value.get_ref<const std::string&>(), item, &points_.numbers.back());
+    }
   }
 
   void add_line(const json& positions, const std::string& name, const std::string& place) {
@@ -87,7 +97,7 @@ class GeojsonTracks {
 
   const PlanSource& source_;
   std::vector<PlanTrack> lines_;
-  PlanTrack points_;
+  DetailPoints points_;
   std::size_t total_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flight/plans/kml.h"
+#include "flight/plans/point_details.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
@@ -71,6 +72,11 @@ class GpxTracks {
     item.position.datum = HeightDatum::sea_level;
     const XmlTree::Node height = xml_.child(point, "ele");
     if (height != XmlTree::kNone) item.position.height_m = number_of(xml_, height, source_);
+    const XmlTree::Node more = xml_.child(point, "extensions");
+    if (more == XmlTree::kNone) return;
+    for (XmlTree::Node node = xml_.first_child(more); node != XmlTree::kNone; node = xml_.next(node)) {
+      set_detail(xml_.name(node), xml_.text(node), item);
+    }
   }
 
   const XmlTree& xml_;

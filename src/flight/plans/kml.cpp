@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "flight/plans/point_details.h"
 #include "flight/plans/text_lines.h"
 #include "vantage/input.h"
 
@@ -31,10 +32,12 @@ class KmlTracks {
       source_.progress.tick();
       if (xml_.name(node) != "Placemark") return true;
       const std::string name = printable(xml_.child_text(node, "name"));
+      const std::size_t points = points_.track.items.size();
       xml_.walk(node, [&](XmlTree::Node part) { return add(part, name); });
+      for (std::size_t i = points; i < points_.track.items.size(); ++i) add_details(node, i);
       return false;
     });
-    if (tracks_.empty() && !points_.items.empty()) tracks_.push_back(std::move(points_));
+    take_details(std::move(points_), tracks_, source_, plan);
     take_tracks(std::move(tracks_), "track", "tracks", source_, plan);
     check_plan(plan, source_);
     return plan;
@@ -59,11 +62,24 @@ class KmlTracks {
     }
     if (track.items.empty()) return false;
     if (kind == "Point") {
-      points_.items.push_back(std::move(track.items.front()));
+      points_.track.items.push_back(std::move(track.items.front()));
+      points_.numbers.push_back(0);
     } else {
       tracks_.push_back(std::move(track));
     }
     return false;
+  }
+
+  /// Of its placemark: <Data name="..."><value>, or <SimpleData name="...">.
+  void add_details(XmlTree::Node placemark, std::size_t point) {
+    const XmlTree::Node data = xml_.child(placemark, "ExtendedData");
+    if (data == XmlTree::kNone) return;
+    xml_.walk(data, [&](XmlTree::Node node) {
+      const bool has_value = xml_.child(node, "value") != XmlTree::kNone;
+      set_detail(xml_.child_text(node, "@name"), has_value ? xml_.child_text(node, "value") : xml_.text(node),
+                 points_.track.items[point], &points_.numbers[point]);
+      return true;
+    });
   }
 
   /// "longitude,latitude[,altitude]" with blanks between, and none within.
@@ -95,7 +111,7 @@ class KmlTracks {
   const XmlTree& xml_;
   const PlanSource& source_;
   std::vector<PlanTrack> tracks_;
-  PlanTrack points_;
+  DetailPoints points_;
   std::size_t total_ = 0;
 };
 

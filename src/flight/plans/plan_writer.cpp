@@ -165,6 +165,11 @@ std::string decimal(double number, int decimals) {
   return text == "-0" ? "0" : text;
 }
 
+std::string hold_text(double hold_s) {
+  constexpr double kThousand = 1000, kRounding = 1e-6;  // of a thousandth: 1.1 s are 1100 and no more
+  return decimal(std::ceil(hold_s * kThousand - kRounding) / kThousand, 3);
+}
+
 std::string xml_text(std::string_view text) {
   std::string escaped;
   for (const char c : printable(text)) {

@@ -63,6 +63,9 @@ CameraAngles camera_angles(const OutPoint& point);
 /// A number with so many decimals at most, none that are zero: "48.1", "-0.5", "0".
 std::string decimal(double number, int decimals);
 
+/// Seconds to a thousandth, rounded up: a stay is never shorter than what was planned.
+std::string hold_text(double hold_s);
+
 /// "&lt;" and so on; characters that XML cannot hold become blanks.
 std::string xml_text(std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flight/plans/plan_writer.h"
+#include "flight/plans/point_details.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -67,6 +68,26 @@ json position_of_json(const PlanWriter& writer, const Vec3& position) {
   return {at.x(), at.y(), writer.height(position)};
 }
 
+/// Of circles only the ends of chords where something is done.
+bool is_listed(const OutPoint& point) {
+  const CameraAngles angles = camera_angles(point);
+  return !point.is_of_circle || point.hold_s > 0 || point.action.photo || point.action.video || angles.yaw_deg ||
+         angles.pitch_deg;
+}
+
+std::string gpx_extensions(const OutPoint& point) {
+  std::string text;
+  for (const auto& [name, value] : details_of(point)) {
+    text.append("<vantage:").append(name).append(">").append(xml_text(value));
+    text.append("</vantage:").append(name).append(">");
+  }
+  return text.empty() ? text : "<extensions>" + text + "</extensions>";
+}
+
+std::string kml_data(const char* name, const std::string& value) {
+  return std::string("<Data name=\"") + name + "\"><value>" + xml_text(value) + "</value></Data>";
+}
+
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : printable(text)) result += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -90,9 +111,11 @@ std::string write_kml(const FlightOut& flight) {
   for (const OutPoint& point : points) text += kml_position(writer, point.position) + "\n";
   text += "</coordinates></LineString></Placemark>\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].is_of_circle) continue;
-    text += "<Placemark><name>" + xml_text(title(points[i], i)) +
-            "</name><Point><altitudeMode>absolute</altitudeMode><coordinates>" +
+    if (!is_listed(points[i])) continue;
+    text += "<Placemark><name>" + xml_text(title(points[i], i)) + "</name><ExtendedData>" +
+            kml_data("point", std::to_string(i + 1));
+    for (const auto& [name, value] : details_of(points[i])) text += kml_data(name, value);
+    text += "</ExtendedData><Point><altitudeMode>absolute</altitudeMode><coordinates>" +
             kml_position(writer, points[i].position) + "</coordinates></Point></Placemark>\n";
   }
   for (const NamedVolume& volume : flight.volumes) text += kml_volume(writer, volume);
@@ -104,14 +127,14 @@ std::string write_gpx(const FlightOut& flight) {
   const std::vector<OutPoint> points = writer.points(false);
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<gpx version=\"1.1\" creator=\"vantage\" "
-      "xmlns=\"http://www.topografix.com/GPX/1/1\">\n<metadata><name>" +
+      "xmlns=\"http://www.topografix.com/GPX/1/1\" xmlns:vantage=\"urn:x-vantage:flight\">\n<metadata><name>" +
       xml_text(flight.name) + "</name><desc>heights above mean sea level</desc></metadata>\n<rte><name>" +
       xml_text(flight.name) + "</name>\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d at = writer.lonlat(points[i].position);
     text += "<rtept lat=\"" + decimal(at.y(), kPlace) + "\" lon=\"" + decimal(at.x(), kPlace) + "\"><ele>" +
             decimal(writer.height(points[i].position), kHeight) + "</ele><name>" + xml_text(title(points[i], i)) +
-            "</name></rtept>\n";
+            "</name>" + gpx_extensions(points[i]) + "</rtept>\n";
   }
   return text + "</rte>\n</gpx>\n";
 }
@@ -126,7 +149,7 @@ std::string write_geojson(const FlightOut& flight) {
                       {"geometry", {{"type", "LineString"}, {"coordinates", std::move(line)}}}});
   if (points.size() == 1) features.clear();  // a line has two positions
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].is_of_circle) continue;
+    if (!is_listed(points[i])) continue;
     features.push_back(
         {{"type", "Feature"},
          {"properties", properties_of(points[i], i)},
@@ -156,8 +179,8 @@ std::string write_csv(const FlightOut& flight) {
       text += field(at.x(), kPlace) + field(at.y(), kPlace) + field(writer.height(point.position), kHeight);
     }
     for (const double coordinate : point.position) text += field(coordinate, kHeight);
-    text += field(point.hold_s, kSmall) + field(point.speed_m_s, kSmall) + field(angles.yaw_deg, kSmall) +
-            field(angles.pitch_deg, kSmall) + (point.action.photo ? ",1" : ",0") +
+    text += std::string(",") + hold_text(point.hold_s) + field(point.speed_m_s, kSmall) +
+            field(angles.yaw_deg, kSmall) + field(angles.pitch_deg, kSmall) + (point.action.photo ? ",1" : ",0") +
             (point.action.video ? ",1," : ",0,") + quoted(point.action.sees) + "\n";
   }
   return text;

@@ -14,7 +14,7 @@
 namespace vantage::internal::flight::plans {
 namespace {
 
-constexpr int kAngleDecimals = 2, kPlaceDecimals = 11, kHeightDecimals = 6, kSpeedDecimals = 3, kTimeDecimals = 3;
+constexpr int kAngleDecimals = 2, kPlaceDecimals = 11, kHeightDecimals = 6, kSpeedDecimals = 3;
 
 std::string element(const char* name, const std::string& content) {
   return std::string("<wpml:").append(name).append(">").append(content).append("</wpml:").append(name).append(">");
@@ -197,7 +197,7 @@ class WaylineWriter {
     }
     const std::string file = element("fileSuffix", "point" + std::to_string(index + 1)) + payload;
     if (point.action.video) add("startRecord", file);
-    if (point.hold_s > 0) add("hover", element("hoverTime", decimal(point.hold_s, kTimeDecimals)));
+    if (point.hold_s > 0) add("hover", element("hoverTime", hold_text(point.hold_s)));
     if (point.action.video) add("stopRecord", payload);
     if (point.action.photo) add("takePhoto", file);
   }
