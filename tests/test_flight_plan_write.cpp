@@ -247,6 +247,22 @@ TEST(WriteFlightPlan, SaysWhatIsDoneInTheWordsOfEachFormat) {
   EXPECT_EQ(features.size(), features[0]["geometry"]["coordinates"].size() + 1) << "the camera turns at each chord";
 }
 
+TEST(WriteFlightPlan, TakesOffNoHigherThanIsAllowed) {
+  FlightOut out = flight_out();
+  const auto climbs_to = [&](double highest_m, const std::string& height) {
+    out.highest_takeoff_m = highest_m;
+    const std::string text =
+        io::unzipped(flight_plan_bytes(out, PlanFormat::wpml), "wpmz/waylines.wpml", ".none", 1'000'000);
+    EXPECT_NE(text.find("<wpml:takeOffSecurityHeight>" + height + "<"), std::string::npos) << height;
+  };
+  climbs_to(12, "12");
+  climbs_to(11.9999, "11.999");
+  climbs_to(100, "20");
+  climbs_to(1.2, "1.2");
+  out.highest_takeoff_m = 1.1;
+  expect_error([&] { flight_plan_bytes(out, PlanFormat::wpml); }, ErrorCode::value_unsupported);
+}
+
 TEST(WriteFlightPlan, DrawsVolumesInKml) {
   FlightOut out = flight_out();
   out.heights.reset();

@@ -22,6 +22,7 @@
 #include "vantage/flight_check.h"
 #include "vantage/flight_plan.h"
 #include "vantage/mission_tour.h"
+#include "vantage/orbits.h"
 
 namespace vantage::testing {
 namespace {
@@ -54,6 +55,27 @@ FlightCheck judged(const MissionTour& tour, const Mission& mission) {
   options.clearance_m = tour.settings.clearance_m;
   options.dwell_s = tour.settings.dwell_s - 1e-3;  // which the clock of the plan may round
   return check_flight(mission, located.flight, options);
+}
+
+/// Written in each format, the flight keeps what is asked.
+void expect_all_formats_pass(const MissionTour& tour, const Mission& mission) {
+  for (const PlanFormat format : {PlanFormat::qgroundcontrol, PlanFormat::waypoints, PlanFormat::kml, PlanFormat::wpml,
+                                  PlanFormat::gpx, PlanFormat::geojson, PlanFormat::csv}) {
+    SCOPED_TRACE(name_of(format));
+    FlightOut plan = plan_of_tour(tour, mission);
+    plan.georeference = Georeference{48, 11, "EGM96 geoid", ""};
+    plan.levels.undulation_m = 45;
+    plan.aircraft = DjiAircraft{77, 0, 66};
+    plan.heights = HeightDatum::home;
+    if (format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson) plan.heights.reset();
+    LocateOptions options;
+    options.georeference = plan.georeference;
+    options.levels = plan.levels;
+    options.home_z_m = tour.home->z();
+    const LocatedPlan located = locate_flight(parse_flight_plan(flight_plan_bytes(plan, format), "tour"), options);
+    const FlightCheck check = check_flight(mission, located.flight, {});
+    EXPECT_TRUE(check.passes()) << (check.failures.empty() ? "" : check.failures.front());
+  }
 }
 
 void expect_passes(const FlightCheck& check) {
@@ -165,6 +187,7 @@ TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
   expect_photos(tour, of);
   EXPECT_GE(check.nearest.distance_m, 4);
   EXPECT_NEAR(check.length_m, tour.tour.length_m, 1e-4);
+  expect_all_formats_pass(tour, of);
 
   ASSERT_TRUE(tour.bound);
   EXPECT_GT(tour.bound->length_m, 0);
@@ -172,6 +195,20 @@ TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
   EXPECT_NEAR(tour.bound->gap, 1 - tour.bound->length_m / tour.tour.length_m, 1e-12);
   EXPECT_TRUE(tour.reaches_gap());
   EXPECT_FALSE(tour.bound->ignored.empty());
+}
+
+TEST_F(PlanMissionTour, ClimbsNoHigherAtTakeoffThanItsLimitsAllow) {
+  const Mission of = mission("home: [-20, -20, 0], clearance: 4", "navigation: {altitude: [3, 12.5]}\n");
+  const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
+  EXPECT_NEAR(tour.highest_takeoff_m.value(), 12.48, 0.011);  // and a centimetre for rounding
+  expect_all_formats_pass(tour, of);
+  // The way to an orbit is not planned, and the climb at its beginning keeps the limits of height.
+  Orbit orbit;
+  orbit.centre = Vec3(0, 0, 10);
+  orbit.radius_m = 20;
+  EXPECT_NEAR(plan_of_orbit(orbit, of, PlanFormat::csv).highest_takeoff_m.value(), 12.499, 1e-9);
+  const Mission high = mission("home: [-20, -20, 0]", "navigation: {altitude: {agl: [3, 60]}, ground: ground}\n");
+  EXPECT_EQ(plan_of_orbit(orbit, high, PlanFormat::csv).highest_takeoff_m, 20);
 }
 
 TEST_F(PlanMissionTour, OfAFixedWingKeepsWhatIsAsked) {
@@ -333,6 +370,30 @@ TEST(MissionTourLimits, TheWidthOfZonesIsThatOfTheNarrowestStrip) {
     const double width = least_width_m(navigation);
     EXPECT_LE(width, slow + 1e-12);
     EXPECT_GE(width, slow - 10 * std::numbers::pi / 3000);
+  }
+}
+
+/// Allows to be below a height.
+class Ceiling : public Airspace {
+ public:
+  explicit Ceiling(double height_m) : height_m_(height_m) {}
+  bool allows(const Leg& leg, double) const override { return std::max(leg.from.z(), leg.to.z()) <= height_m_; }
+  std::string obstacle(const Leg& leg, double) const override { return allows(leg, 0) ? "" : "the ceiling"; }
+  Box bounds() const override { return {}; }
+
+ private:
+  double height_m_;
+};
+
+TEST(MissionTourLimits, TheRoomAboveAHomeIsNeverTooLarge) {
+  using internal::flight::tour::room_above_m;
+  Random random(63);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 home = random.point(-30, 30);
+    const double least = random.uniform(0, 5), room = least + random.uniform(0, 30);
+    const double found = room_above_m(home, home + Vec3(0, 0, least), Ceiling(home.z() + room));
+    EXPECT_LE(found, std::min(20.0, room) + 1e-9);
+    EXPECT_GE(found, std::min(20.0, room) - 0.02);
   }
 }
 

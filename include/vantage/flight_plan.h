@@ -224,7 +224,7 @@ struct FlightAction {
 struct DjiAircraft {
   int drone = 0, drone_sub_type = 0;
   std::optional<int> payload;    ///< its camera; photos and videos need it
-  double takeoff_height_m = 20;  ///< to which it climbs first, above the home: 1.2 to 1500
+  double takeoff_height_m = 20;  ///< to which it climbs first, above the home: 1.2 to 1500; FlightOut may lower it
 };
 
 /// A closed mesh and its name, to be drawn beside the flight.
@@ -249,6 +249,9 @@ struct FlightOut {
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< where points state none; NaN: not stated
   bool takes_off = true, returns_home = true;  ///< with the items for it; GPX, CSV and GeoJSON have none
   std::optional<DjiAircraft> aircraft;         ///< WPML needs it
+  /// No higher above the home may the vehicle climb at takeoff; nothing: any height. WPML, which climbs at first, keeps
+  /// to it.
+  std::optional<double> highest_takeoff_m;
   std::vector<NamedVolume> volumes;  ///< KML draws them
   double chord_error_m = 0.05;       ///< of circles, where a format has none
 };
@@ -267,8 +270,9 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// (docs/flight-plans.md), and are read back with it.
 ///
 /// Throws Error(input): height_unknown where a level is needed that is not known, not_georeferenced, missing_key for
-/// heights, a home, a speed or an aircraft that the format needs, value_unsupported for heights that it cannot state,
-/// array_sizes_differ, value_out_of_range and coordinate_not_finite for actions, and what check_flight_points throws.
+/// heights, a home, a speed or an aircraft that the format needs, value_unsupported for heights that it cannot state
+/// and for a highest takeoff that is too low for the format, array_sizes_differ, value_out_of_range and
+/// coordinate_not_finite for actions, and what check_flight_points throws.
 VANTAGE_API std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format);
 
 /// What to know before relying on a plan: what it does not hold of the flight, and where the vehicle flies ways that

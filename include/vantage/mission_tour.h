@@ -49,6 +49,8 @@ struct MissionTour {
   Tour tour;
   std::vector<MissionTourTarget> targets;   ///< of the mission, in its order
   std::optional<Vec3> home = std::nullopt;  ///< on the ground; scene frame
+  /// So far above `home`, up to 20 m, it may climb at first: the airspace allows it from the tour's start on.
+  std::optional<double> highest_takeoff_m = std::nullopt;
   /// Where it hovers, where the fewest positions were asked for; targets by their index in `targets`.
   std::optional<FewestPositions> fewest = {};
   std::optional<TourLowerBound> bound = {};  ///< of the targets that are visited; nothing where it was not asked for

@@ -1,8 +1,10 @@
 // Orbits as plans of ground stations.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "vantage/error.h"
+#include "vantage/leg_query.h"
 #include "vantage/mission.h"
 #include "vantage/orbits.h"
 
@@ -14,6 +16,22 @@ Vec3 target_centre(const ViewDescription& view) {
   const double yaw = view.yaw_deg * std::numbers::pi / 180, pitch = view.pitch_deg * std::numbers::pi / 180;
   const Vec3 along(std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch));
   return view.position + view.distance_m * along;
+}
+
+/// So far above the home, but 20 m at most, the limits of height allow to climb: a millimetre less, for rounding. 0
+/// where it lies above them.
+double room_above(const Vec3& home, const Navigation& navigation) {
+  constexpr double kRoundingM = 1e-3;
+  Navigation heights;
+  heights.altitude = navigation.altitude;
+  heights.above_ground = navigation.above_ground;
+  const double most_m = DjiAircraft().takeoff_height_m;
+  double room_m = most_m;
+  for (const LegBreak& broken : LegLimits(heights).broken({home, home + Vec3(0, 0, most_m)})) {
+    if (!broken.limit.ends_with(" max")) continue;
+    room_m = std::clamp(broken.intervals.front().begin * most_m - kRoundingM, 0.0, room_m);
+  }
+  return room_m;
 }
 
 }  // namespace
@@ -40,6 +58,7 @@ FlightOut plan_of_orbit(const Orbit& orbit, const Mission& mission, PlanFormat f
   }
   out.levels.sea_level_z_m = sea_level_m(mission);
   out.home = mission.home;
+  if (mission.home) out.highest_takeoff_m = room_above(*mission.home, mission.navigation);
   out.vehicle =
       settings.vehicle.kind == TourVehicle::Kind::fixed_wing ? PlanVehicle::fixed_wing : PlanVehicle::multirotor;
   out.speed_m_s = settings.vehicle.speed_m_s;

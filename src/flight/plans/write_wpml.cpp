@@ -15,6 +15,7 @@ namespace vantage::internal::flight::plans {
 namespace {
 
 constexpr int kAngleDecimals = 2, kPlaceDecimals = 11, kHeightDecimals = 6, kSpeedDecimals = 3;
+constexpr double kLeastClimbM = 1.2;  ///< as the format states
 
 std::string element(const char* name, const std::string& content) {
   return std::string("<wpml:").append(name).append(">").append(content).append("</wpml:").append(name).append(">");
@@ -48,9 +49,15 @@ class WaylineWriter {
     if (std::all_of(points_.begin(), points_.end(), is_at_first)) {
       fail(ErrorCode::value_unsupported, "a plan of DJI has two waypoints at least", "write another format");
     }
-    constexpr double kLeastM = 1.2, kMostM = 1500, kMostMetresPerSecond = 15;  // as the format states
-    if (!(aircraft().takeoff_height_m >= kLeastM && aircraft().takeoff_height_m <= kMostM)) {
+    constexpr double kMostM = 1500, kMostMetresPerSecond = 15;  // as the format states
+    if (!(aircraft().takeoff_height_m >= kLeastClimbM && aircraft().takeoff_height_m <= kMostM)) {
       fail(ErrorCode::value_out_of_range, "the height to climb to at first is out of range", "give 1.2 to 1500 m");
+    }
+    if (!(takeoff_height_m() >= kLeastClimbM)) {
+      fail(ErrorCode::value_unsupported,
+           "aircraft of DJI climb to at least 1.2 m above the home at first, and no more than " +
+               decimal(takeoff_height_m(), kSpeedDecimals) + " m are allowed there",
+           "move the home to where there is more room above it, or write another format");
     }
     for (const OutPoint& point : points_) {
       if (std::isnan(point.speed_m_s)) {
@@ -64,6 +71,13 @@ class WaylineWriter {
              "give the number of the payload in DJI's documents, such as 66 for the Mavic 3E's camera");
       }
     }
+  }
+
+  double takeoff_height_m() const {
+    constexpr double kThousand = 1000, kRounding = 1e-6;
+    const double asked_m = aircraft().takeoff_height_m;
+    const double allowed_m = writer_.flight().highest_takeoff_m.value_or(asked_m);
+    return std::min(asked_m, std::floor(allowed_m * kThousand + kRounding) / kThousand);
   }
 
   /// What the aircraft flies by: heights above the ellipsoid, or above the home.
@@ -84,7 +98,7 @@ class WaylineWriter {
     std::string text = "<wpml:missionConfig>\n" + element("flyToWaylineMode", "safely") +
                        element("finishAction", writer_.flight().returns_home ? "goHome" : "noAction") +
                        element("exitOnRCLost", "executeLostAction") + element("executeRCLostAction", "goBack") +
-                       element("takeOffSecurityHeight", decimal(type.takeoff_height_m, kSpeedDecimals));
+                       element("takeOffSecurityHeight", decimal(takeoff_height_m(), kSpeedDecimals));
     if (writer_.flight().home && writer_.knows(HeightDatum::ellipsoid)) {
       const Eigen::Vector2d home = writer_.lonlat(writer_.home());
       text += element("takeOffRefPoint",

@@ -10,6 +10,7 @@
 
 #include "core/format.h"
 #include "flight/tour/tour_certificate.h"
+#include "flight/tour/tour_region.h"
 #include "scene/viewpoint_check.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
@@ -20,6 +21,8 @@ namespace vantage::internal::flight::tour {
 namespace {
 
 using PlanPoints = std::vector<Eigen::Vector2d>;
+
+constexpr double kHighestClimbM = 20;  ///< as DjiAircraft has it
 
 constexpr double kAnyWidth = std::numeric_limits<double>::infinity();
 
@@ -173,6 +176,20 @@ Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene&
   throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
               "move it into the zones of 'navigation', or widen these; nearest above it: " +
                   airspace.obstacle({home + Vec3(0, 0, kStep), home + Vec3(0, 0, kHighest)}, 0));
+}
+
+double room_above_m(const Vec3& home, const Vec3& start, const Airspace& airspace) {
+  const auto allows = [&](double height_m) {
+    return airspace.allows({start, {home.x(), home.y(), home.z() + height_m}}, kPlanRoundingM);
+  };
+  double low_m = start.z() - home.z(), high_m = kHighestClimbM;
+  if (low_m >= high_m || allows(high_m)) return high_m;
+  constexpr double kCentimetre = 0.01;
+  while (high_m - low_m > kCentimetre / 2) {
+    const double middle_m = (low_m + high_m) / 2;
+    (allows(middle_m) ? low_m : high_m) = middle_m;
+  }
+  return std::floor(low_m / kCentimetre) * kCentimetre;
 }
 
 void check_tour_certificate_files(const Mission& mission, const std::filesystem::path& certificate) {

@@ -30,6 +30,10 @@ std::optional<std::string> note_of_narrow_zones(const Mission& mission, const To
 Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene& scene, const Airspace& airspace,
                  double deviation_m);
 
+/// So far above the home, but 20 m at most, the airspace allows to climb on from the tour's start straight above it.
+/// To the centimetre, never more, and so that rounding a plan breaks no limit.
+double room_above_m(const Vec3& home, const Vec3& start, const Airspace& airspace);
+
 /// Throws Error(input or output) where a certificate of the mission's tour, or the mesh of a target beside it, cannot
 /// be written, would replace an input, or, of a mesh, a file that vantage did not write.
 void check_tour_certificate_files(const Mission& mission, const std::filesystem::path& certificate);

@@ -318,6 +318,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
     const bool is_wing = result.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
     const double deviation = is_wing ? request.chord_error_m : tour::kPlanRoundingM;
     request.home = tour::start_above(*mission.home, mission, scene, *request.airspace, deviation);
+    result.highest_takeoff_m = tour::room_above_m(*mission.home, *request.home, *request.airspace);
   }
   result.targets = volumes_of(mission, scene, options.threads, progress);
   for (const MissionTourTarget& target : result.targets) {
@@ -362,6 +363,7 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   }
   out.levels.sea_level_z_m = sea_level_m(mission);
   out.home = of.home;
+  out.highest_takeoff_m = of.highest_takeoff_m;
   const bool is_wing = of.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
   out.vehicle = is_wing ? PlanVehicle::fixed_wing : PlanVehicle::multirotor;
   out.speed_m_s = of.settings.vehicle.speed_m_s;
