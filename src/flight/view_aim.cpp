@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "sensor/aim.h"
-#include "sensor/find_aim.h"
+#include "vantage/camera_aim.h"
 #include "vantage/target.h"
 
 namespace vantage::internal::flight {
 namespace {
-
-constexpr double kRadian = std::numbers::pi / 180;
 
 void add_corners(const Target& target, std::vector<Vec3>& corners) {
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
@@ -49,48 +45,21 @@ ViewAim::ViewAim(const Mission& mission) : mount_(mission.sensor.mount) {
   }
 }
 
-bool ViewAim::has_all(const std::vector<Vec3>& corners, const Vec3& position, const Aim& aim) const {
-  const sensor::PictureEdges edges = sensor::picture_edges(*camera_, {aim.yaw_deg * kRadian, aim.pitch_deg * kRadian},
-                                                           sensor::Angle(mount_.roll_deg * kRadian));
-  return std::all_of(edges.begin(), edges.end(), [&](const Vec3& edge) {
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const Vec3& corner) { return edge.dot(corner - position) >= 0; });
-  });
-}
-
-std::optional<ViewAim::Fit> ViewAim::best_fit(const std::vector<Vec3>& corners, const Vec3& position) const {
-  constexpr double kFine = 1e-4, kTouches = 1e-6;  // sines; the second for positions on the border of the volume
-  constexpr int kMostPitches = 1000;
-  std::vector<Vec3> seen;
-  for (const Vec3& corner : corners) seen.push_back(corner - position);
-  std::optional<Fit> best;
-  double low = -kTouches, high = 1;  // of the room
-  for (double room = low; high - low > kFine; room = 0.5 * (low + high)) {
-    const auto found = sensor::find_aim(*camera_, mount_, seen, kFine / 10, {.outside = -room}, kMostPitches).aim;
-    if (!found) {
-      if (!best) return best;
-      high = room;
-      continue;
-    }
-    const double yaw = std::fmod(found->yaw / kRadian, 360);
-    best = {{yaw < 0 ? yaw + 360 : yaw, found->pitch / kRadian}, room};
-    low = room;
-  }
-  return best;
-}
-
 AimedCamera ViewAim::at(const Vec3& position, const Vec3& centre) const {
   const Vec3 line = centre - position;
   const AimedCamera nearest = allowed(aim_at(position, centre), !(line.head<2>().norm() > 0), mount_);
   if (!camera_) return nearest;
-  const auto is_whole = [&](const std::vector<Vec3>& corners) { return has_all(corners, position, nearest.aim); };
-  if (nearest.is_centred && std::any_of(choices_.begin(), choices_.end(), is_whole)) return nearest;
-  std::optional<Fit> best;
+  std::optional<FittingAim> best;
   for (const std::vector<Vec3>& corners : choices_) {
-    const std::optional<Fit> fit = best_fit(corners, position);
-    if (fit && (!best || fit->room > best->room)) best = fit;
+    std::vector<Vec3> seen;
+    for (const Vec3& corner : corners) seen.push_back(corner - position);
+    const CameraAim aim{nearest.aim.yaw_deg, nearest.aim.pitch_deg};
+    if (nearest.is_centred && is_in_picture(*camera_, mount_.roll_deg, aim, seen)) return nearest;
+    const std::optional<FittingAim> fit = fit_in_picture(*camera_, mount_, seen);
+    if (fit && (!best || fit->room_deg > best->room_deg)) best = fit;
   }
-  return best ? AimedCamera{best->aim, false} : AimedCamera{nearest.aim, false};
+  if (!best) return {nearest.aim, false};
+  return {{best->aim.yaw_deg, best->aim.pitch_deg}, false};
 }
 
 }  // namespace vantage::internal::flight

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "sensor/aim.h"
-#include "vantage/export.h"
 
 namespace vantage::internal::sensor {
 
@@ -24,7 +23,7 @@ struct FoundAim {
 /// Where the best orientation has a corner within `slack` radians of an edge of the picture either answer may come.
 /// `most_pitches`: that are tried. Directions of corners in the camera itself are taken to be in the picture.
 /// Cost: some microseconds, more where the answer is close, most where it is for a wide range of pitches.
-VANTAGE_INTERNAL_API FoundAim find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners,
-                                       double slack = 1e-6, const AimRoom& room = {}, int most_pitches = 4000);
+FoundAim find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners, double slack = 1e-6,
+                  const AimRoom& room = {}, int most_pitches = 4000);
 
 }  // namespace vantage::internal::sensor
