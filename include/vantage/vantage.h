@@ -4,6 +4,7 @@
 #include "vantage/areas.h"
 #include "vantage/atomic_file.h"
 #include "vantage/camera.h"
+#include "vantage/camera_aim.h"
 #include "vantage/certificate.h"
 #include "vantage/city.h"
 #include "vantage/compare.h"
