@@ -81,7 +81,7 @@ set(source ${PROJECT_SOURCE_DIR}/src)
 set(VANTAGE_HELPER_SOURCES)
 foreach(file
     core/bvh core/closed_mesh_check core/convex_corners core/edges core/enclosing_circle
-    core/facet_polygon core/grown_polygon core/limit_check core/mend_welded core/orientation
+    core/exact_crossing core/facet_polygon core/grown_polygon core/limit_check core/mend_welded core/orientation
     core/pieces core/png_mark core/portable_math core/sha256 core/sha256_x86 core/solid_check
     core/stars core/system_limits core/text core/triangle_contact core/triangle_distance
     core/triangle_tree core/weld core/zone_check geo/coordinate_system geo/local_frame

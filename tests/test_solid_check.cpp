@@ -12,6 +12,7 @@
 #include "core/triangle_contact.h"
 #include "core/triangle_tree.h"
 #include "support/progress_check.h"
+#include "support/random.h"
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
@@ -22,6 +23,7 @@ namespace {
 using vantage::testing::append;
 using vantage::testing::make_box_mesh;
 using vantage::testing::make_hemisphere;
+using vantage::testing::Random;
 
 bool is_solid(const Mesh& mesh) {
   try {
@@ -284,6 +286,38 @@ TEST(TriangleTree, WindingNumbersOfADome) {
     EXPECT_EQ(tree.winding_number(p), p.z() > 0 && p.norm() < 10 ? 1 : 0) << "seed " << seed << ", case " << i;
   }
   EXPECT_EQ(tree.winding_number(Vec3(0, 0, 5)), 1);  // on the axis, above a vertex of the floor
+}
+
+/// Of upright boxes, comparing coordinates tells: also on faces, edges and corners and a few roundings off them, where
+/// no ray is clear.
+TEST(TriangleTree, DecidesOnTheSurfaceAndBesideIt) {
+  Random random(51);
+  int on_surface = 0, inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double scale = std::pow(10.0, random.integer(-3, 4));
+    const Vec3 low = scale * random.point(-1, 1);
+    const Vec3 high = low + scale * random.point(0.1, 2);
+    const Mesh mesh = make_box_mesh(low, high);
+    const TriangleTree tree(mesh);
+    for (int k = 0; k < 50; ++k) {
+      Vec3 point;
+      for (int axis = 0; axis < 3; ++axis) {
+        double& at = point[axis] = random.uniform(low[axis], high[axis]);
+        if (random.integer(0, 2) == 0) continue;
+        at = random.integer(0, 1) == 0 ? low[axis] : high[axis];
+        for (int steps = random.integer(-2, 2); steps != 0; steps -= steps > 0 ? 1 : -1) {
+          at = std::nextafter(at, steps > 0 ? 1e9 : -1e9);
+        }
+      }
+      const bool is_in = (point.array() > low.array()).all() && (point.array() < high.array()).all();
+      const bool is_out = (point.array() < low.array()).any() || (point.array() > high.array()).any();
+      EXPECT_EQ(tree.winding_number(point), is_in ? 1 : 0) << "box " << i << ", point " << k;
+      on_surface += !is_in && !is_out;
+      inside += is_in;
+    }
+  }
+  EXPECT_GT(on_surface, 1000);
+  EXPECT_GT(inside, 1000);
 }
 
 }  // namespace

@@ -29,6 +29,21 @@ TEST(SolidIndex, TellsHowDeepPointsLie) {
   EXPECT_EQ(SolidIndex(Mesh()).depths_m(std::vector<Vec3>{Vec3::Zero()})[0], -std::numeric_limits<double>::infinity());
 }
 
+/// Moving to the middle of the box rounds, so that they lie beside it.
+TEST(SolidIndex, TellsTheDepthOfPointsOfTheSurface) {
+  Random random(51);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 low = random.point(-200, 200), high = low + random.point(1, 90);
+    const SolidIndex box(make_box_mesh(low, high));
+    Vec3 point = random.in_box({low, high});
+    for (int axis = 0; axis < 3; ++axis) {
+      if (const int end = random.integer(axis == 0 ? 1 : 0, 2); end > 0)
+        point[axis] = end == 1 ? low[axis] : high[axis];
+    }
+    EXPECT_NEAR(box.depths_m({&point, 1})[0], 0, 1e-11) << i;
+  }
+}
+
 TEST(SolidIndex, ClosedSetsThatTouchAreNotApart) {
   const SolidIndex box(make_box_mesh({0, 0, 0}, {1, 1, 1}));
   const auto comes_near = [&](const Vec3& min, const Vec3& max, double within_m = 0) {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/bounds_distance.h"
+#include "core/exact_crossing.h"
 #include "core/portable_math.h"
 #include "core/triangle_distance.h"
 #include "core/walk_bvh.h"
-#include "vantage/error.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -39,7 +39,7 @@ bool ray_meets(const Bounds& box, const Vec3& point, const Vec3& inverse_directi
 
 enum class Hit { miss, from_front, from_back, unclear };
 
-/// A ray from the origin against a triangle by the signs of three volumes, none of which may be lost in rounding.
+/// A ray from the origin against a triangle by the signs of volumes, none of which may be lost in rounding.
 Hit ray_hits(const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto side = [&](const Vec3& p, const Vec3& q) {
     const double volume = direction.dot(p.cross(q));
@@ -52,8 +52,10 @@ Hit ray_hits(const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c)
   if (s0 == 0 || s1 == 0 || s2 == 0) return Hit::unclear;
   // The line through the ray meets the triangle; the ray does when the triangle's plane lies ahead.
   const Vec3 normal = (b - a).cross(c - a);
-  const double ahead = normal.dot(a) / normal.dot(direction);
-  if (!(std::abs(ahead) > 0) || !std::isfinite(ahead)) return Hit::unclear;
+  const double longest = std::max({a.norm(), b.norm(), c.norm()}), height = normal.dot(a);
+  const double error = 32 * std::numeric_limits<double>::epsilon() * longest * longest * longest;
+  const double ahead = height / normal.dot(direction);
+  if (!(std::abs(height) > error) || !std::isfinite(ahead)) return Hit::unclear;
   if (ahead < 0) return Hit::miss;
   return normal.dot(direction) < 0 ? Hit::from_front : Hit::from_back;
 }
@@ -105,8 +107,9 @@ bool TriangleTree::crossings(const Vec3& point, const Vec3& direction, int& wind
 
 int TriangleTree::winding_number(const Vec3& point) const {
   if (mesh_.empty()) return 0;
-  // Directions scattered by steps of irrational length, none along an axis or a diagonal.
-  constexpr int kAttempts = 64;
+  // Directions scattered by steps of irrational length, none along an axis or a diagonal. None is clear where the point
+  // is on a triangle, or so near to it that rounding decides.
+  constexpr int kAttempts = 8;
   for (int attempt = 1; attempt <= kAttempts; ++attempt) {
     const double z = 1 - 2 * std::fmod(0.137 + attempt * 0.6180339887498949, 1.0);
     const double azimuth = 2.3999632297286533 * attempt + 0.271;
@@ -114,7 +117,24 @@ int TriangleTree::winding_number(const Vec3& point) const {
     int winding = 0;
     if (crossings(point, Vec3(r * portable::cos(azimuth), r * portable::sin(azimuth), z), winding)) return winding;
   }
-  throw Error(ErrorCode::internal_defect, "no ray keeps clear of the edges of a mesh", "", "");
+  return exact_winding(point);
+}
+
+int TriangleTree::exact_winding(const Vec3& point) const {
+  const auto is_below = [&](const BvhNode& node) {
+    const auto& [low, high] = node.bounds;
+    return point.x() >= low[0] && point.x() <= high[0] && point.y() >= low[1] && point.y() <= high[1] &&
+           point.z() <= high[2];
+  };
+  int winding = 0;
+  const bool is_off_surface = walk_bvh(bvh_, is_below, [&](std::uint32_t i) {
+    const Triangle& t = mesh_.triangles[order_[i]];
+    const TriangleCorners corners = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+    if (is_on_triangle(point, corners)) return false;
+    winding += crossing_above(point, corners);
+    return true;
+  });
+  return is_off_surface ? winding : 0;
 }
 
 }  // namespace vantage::internal::core

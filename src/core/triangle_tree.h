@@ -33,12 +33,15 @@ class TriangleTree {
   Nearest nearest(const Vec3& point) const;
   double distance(const Vec3& point) const { return nearest(point).distance; }
 
-  /// How often the mesh, which must be closed, winds round a point that is not on it: 1 inside an outward-oriented
-  /// solid, 0 outside. Counts the signed crossings of rays in scattered directions until one keeps clear of all edges.
+  /// How often the mesh, which must be closed, winds round a point: 1 inside an outward-oriented solid, 0 outside and
+  /// on its triangles, decided by the coordinates as they are. Counts the signed crossings of rays in scattered
+  /// directions until one keeps clear of all edges; if none of a few does, without rounding. If the surface counts as
+  /// inside, ask for the distance, too.
   int winding_number(const Vec3& point) const;
 
  private:
   bool crossings(const Vec3& point, const Vec3& direction, int& winding) const;
+  int exact_winding(const Vec3& point) const;
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> order_;
