@@ -395,6 +395,8 @@ class Tours(unittest.TestCase):
         self.both(lambda c: c["proof"].update(kind="belief"))
         self.refused(lambda c: c["proof"].update(more=[]), "keys")
         self.refused(lambda c: c["regions"][0].update(at=[0, 0, 0]), "keys")
+        self.refused(lambda c: c["regions"][0].update(name=["r0"]), "no text", checker.Unreadable)
+        self.refused(lambda c: c["regions"][0].update(name=None), "no text", checker.Unreadable)
         self.both(lambda c: c.update(closed=1))
         self.both(lambda c: c.update(regions=[]))
         text = self.file.read_text(encoding="ascii")

@@ -53,8 +53,7 @@ def vectors_of(numbers):
 
 def read_mesh(path, kind, said):
     """The triangles, as nine numbers each, of the PLY files that vantage writes beside certificates."""
-    data = path.read_bytes() if path.is_file() else b""
-    header = HEADER.match(data)
+    header = HEADER.match(data := path.read_bytes() if path.is_file() else b"")
     demand(header or b"vantage volume: " not in data, f"{path}: a computed volume lies inside, there is no bound of it")
     demand(header, f"{path}: is no mesh of a region", Unreadable)
     demand(header[1].decode() == kind, f"{path}: is a region of another kind")
@@ -153,6 +152,7 @@ class Tour:
 
     @staticmethod
     def read(region, folder):
+        demand(type(region["name"]) is str, "a region has a name that is no text", Unreadable)
         if region["kind"] == "point":
             demand(set(region) == {"name", "kind", "dwell_m", "at"}, "a place has keys too many or too few")
             demand(all(abs(x) <= LARGEST for x in list_of(region["at"], [int, float], 3)), "a place is too far")
