@@ -98,14 +98,15 @@ class WingPlan {
     std::vector<int> passed;
   };
 
-  /// Draws views and goes on from there. `may_fail`: there is a tour, so that what goes wrong is none of the caller's.
+  /// Draws views and goes on from there. `may_fail`: there is a tour, so that what goes wrong is none of the caller's,
+  /// and nothing comes of it where the time is over.
   Attempt attempt(const std::vector<Course>& courses, bool may_fail) {
     best_.reset();
     passed_.clear();
     no_place_.clear();
     try {
-      draw_choices(courses.front());
-      improve(courses);
+      if (!draw_choices(courses.front(), may_fail)) return {};
+      improve(courses, may_fail);
     } catch (const Error& error) {
       const bool is_cancelled = error.code() == ErrorCode::cancelled;
       if (!best_ && !may_fail) throw;
@@ -121,8 +122,8 @@ class WingPlan {
     return true;
   }
 
-  /// About the stops of a course without turning; for each target once.
-  void draw_choices(const Course& course) {
+  /// About the stops of a course without turning; for each target once. False: `may_stop`, and the time is over.
+  bool draw_choices(const Course& course, bool may_stop) {
     choices_.resize(regions_.size());
     TourRequest bare = request_;
     bare.airspace = nullptr;
@@ -130,6 +131,8 @@ class WingPlan {
     for (std::size_t i = 0; i < course.stops.size(); ++i) {
       const Stop& stop = course.stops[i];
       if (stop.region == Stop::kFixed) continue;
+      progress_.check();
+      if (may_stop && is_late()) return false;
       const Vec3 &before = course.before(i) ? *course.before(i) : stop.point,
                  &after = course.after(i) ? *course.after(i) : stop.point;
       const ViewHint hint = {stop.point, portable::atan2(after.y() - before.y(), after.x() - before.x()), 1};
@@ -156,6 +159,7 @@ class WingPlan {
                        space_.view_m(), space_.limits().turn_radius_m),
           target.name, "ask for a shorter dwell, a slower vehicle or a smaller margin");
     }
+    return true;
   }
 
   /// Whether there are views of a region where the camera may turn as fast as it takes.
@@ -177,8 +181,8 @@ class WingPlan {
     return views;
   }
 
-  /// The best views of an order; what blocks it is left out.
-  Candidate of_order(std::vector<int> order) {
+  /// The best views of an order; what blocks it is left out. Nothing: `may_stop`, and the time is over.
+  std::optional<Candidate> of_order(std::vector<int> order, bool may_stop) {
     Candidate candidate;
     candidate.problems = no_place_;
     std::erase_if(order, [&](int region) { return choices_[static_cast<std::size_t>(region)].empty(); });
@@ -188,7 +192,9 @@ class WingPlan {
       if (has_home) choices.push_back(home_views());
       for (const int region : order) choices.push_back(choices_[static_cast<std::size_t>(region)]);
       if (has_home && closed) choices.push_back(home_views());
-      const Choice choice = choose(choices, closed && !has_home, space_, progress_);
+      const Choice choice =
+          choose(choices, closed && !has_home, space_, progress_, [&] { return may_stop && is_late(); });
+      if (choice.is_stopped) return std::nullopt;
       if (choice.course) {
         candidate.course = *choice.course;
         candidate.length = length_m(candidate.course, space_);
@@ -226,8 +232,15 @@ class WingPlan {
     std::erase(order, static_cast<int>(gone));
   }
 
-  void improve(const std::vector<Course>& courses) {
+  /// `has_tour`: of another attempt.
+  void improve(const std::vector<Course>& courses, bool has_tour) {
     std::vector<Candidate> candidates;
+    const auto add = [&](const std::vector<int>& order) {
+      std::optional<Candidate> next = of_order(order, has_tour || best_);
+      if (!next) return;
+      if (!best_) best_ = *next;
+      candidates.push_back(std::move(*next));
+    };
     double last = 0;
     std::size_t tried = 0;
     for (const Course& course : courses) {
@@ -239,12 +252,12 @@ class WingPlan {
       for (const Stop& stop : course.stops) {
         if (stop.region >= 0) order.push_back(stop.region);
       }
-      candidates.push_back(of_order(order));
-      if (!best_) best_ = candidates.back();
+      add(order);
       if (request_.home && !request_.settings.closed) continue;
       std::reverse(order.begin(), order.end());
-      candidates.push_back(of_order(order));
+      add(order);
     }
+    if (candidates.empty()) return;
     std::stable_sort(candidates.begin(), candidates.end(), is_better);
     best_ = candidates.front();
     const auto always = [](const WingCourse&) { return true; };
@@ -265,7 +278,7 @@ class WingPlan {
   }
 
   void refine_candidate(Candidate& candidate, const std::function<bool(const WingCourse&)>& keeps) {
-    refine(candidate.course, space_, draw_, progress_, keeps);
+    refine(candidate.course, space_, draw_, progress_, keeps, [this] { return is_late(); });
     candidate.length = length_m(candidate.course, space_);
   }
 
@@ -301,6 +314,7 @@ class WingPlan {
     for (std::size_t p = 0; p < course.path_count(); ++p) {
       const View &a = course.views[p], &b = course.views[course.next(p)];
       const double between = space_.path_m(a, b);
+      if (is_late()) return std::nullopt;
       for (std::size_t v = 0; v < views.size(); ++v) {
         const double own = views[v].straight_m + views[v].circles_m;
         const double bound = space_.path_bound_m(a, views[v]) + space_.path_bound_m(views[v], b);
@@ -311,6 +325,7 @@ class WingPlan {
     }
     std::sort(tries.begin(), tries.end());
     for (const Try& t : tries) {
+      if (is_late()) return std::nullopt;
       if (!space_.is_clear(course.views[t.path], views[t.view])) continue;
       if (!space_.is_clear(views[t.view], course.views[course.next(t.path)])) continue;
       WingCourse result = course;

@@ -101,8 +101,8 @@ struct Steps {
 class Refinement {
  public:
   Refinement(WingCourse& course, const WingSpace& space, Draw& draw, const core::ProgressReporter& progress,
-             const std::function<bool(const WingCourse&)>& keeps)
-      : course_(course), space_(space), draw_(draw), progress_(progress), keeps_(keeps) {}
+             const std::function<bool(const WingCourse&)>& keeps, const IsOver& is_over)
+      : course_(course), space_(space), draw_(draw), progress_(progress), keeps_(keeps), is_over_(is_over) {}
 
   void choose_again() {
     constexpr std::size_t kViewsTried = 12;
@@ -110,6 +110,7 @@ class Refinement {
       progress_.check();
       Choices choices;
       for (const View& view : course_.views) {
+        if (is_over_()) return;
         std::vector<View> some = {view};
         if (view.region == Stop::kFixed) {
           for (std::size_t i = 1; i < kViewsTried; ++i) {
@@ -124,7 +125,8 @@ class Refinement {
         }
         choices.push_back(std::move(some));
       }
-      const Choice choice = choose(choices, course_.cyclic, space_, progress_);
+      const Choice choice = choose(choices, course_.cyclic, space_, progress_, is_over_);
+      if (choice.is_stopped) return;
       if (!choice.course) continue;
       if (length_m(*choice.course, space_) < length_m(course_, space_) && keeps_(*choice.course)) {
         course_ = *choice.course;
@@ -140,7 +142,7 @@ class Refinement {
     constexpr std::size_t kForEach = 600, kForEachRound = 10;
     const auto rounds = static_cast<std::size_t>(space_.request().rounds);
     const std::size_t for_each = rounds > 0 ? std::min(kForEach, kForEachRound * rounds) : kForEach;
-    for (std::size_t round = 0; round < for_each * count; ++round) {
+    for (std::size_t round = 0; round < for_each * count && !is_over_(); ++round) {
       progress_.check();
       const std::size_t i = draw_.below(count);
       const bool better = move_view(i, steps[i], paths);
@@ -206,6 +208,7 @@ class Refinement {
   Draw& draw_;
   const core::ProgressReporter& progress_;
   const std::function<bool(const WingCourse&)>& keeps_;
+  const IsOver& is_over_;
 };
 
 }  // namespace
@@ -219,7 +222,8 @@ double length_m(const WingCourse& course, const WingSpace& space) {
   return length;
 }
 
-Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const core::ProgressReporter& progress) {
+Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const core::ProgressReporter& progress,
+              const IsOver& is_over) {
   const std::size_t places = choices.size();
   std::vector<Lengths> lengths;
   for (std::size_t p = 0; p + 1 < places; ++p) {
@@ -234,6 +238,7 @@ Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const
     if (picked.views.empty()) break;
     bool is_known = true;
     for (std::size_t p = 0; p < lengths.size(); ++p) {
+      if (is_over()) return {std::nullopt, 0, true};
       const std::size_t i = picked.views[p], j = picked.views[next(p)];
       if (!lengths[p].know(i, j, choices[p][i], choices[next(p)][j], space)) is_known = false;
     }
@@ -241,18 +246,18 @@ Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const
     WingCourse course;
     course.cyclic = cyclic;
     for (std::size_t p = 0; p < places; ++p) course.views.push_back(choices[p][picked.views[p]]);
-    return {course, 0};
+    return {course, 0, false};
   }
   std::size_t blocked = 0;
   for (std::size_t p = lengths.size(); p > 0; --p) {
     if (lengths[p - 1].is_blocked()) blocked = p - 1;
   }
-  return {std::nullopt, blocked};
+  return {std::nullopt, blocked, false};
 }
 
 void refine(WingCourse& course, const WingSpace& space, Draw& draw, const core::ProgressReporter& progress,
-            const std::function<bool(const WingCourse&)>& keeps) {
-  Refinement refinement(course, space, draw, progress, keeps);
+            const std::function<bool(const WingCourse&)>& keeps, const IsOver& is_over) {
+  Refinement refinement(course, space, draw, progress, keeps, is_over);
   refinement.choose_again();
   refinement.move_views();
 }
