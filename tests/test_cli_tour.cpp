@@ -154,6 +154,12 @@ TEST_F(CliTour, HoversAtAsFewPositionsAsPossible) {
 
 TEST_F(CliTour, MistakesCostNoFile) {
   expect_bad({"tour", "none.yaml", "-o", "old.csv"}, "none.yaml");
+  fs::create_directory(folder_ / "folder");
+  fs::create_directory(folder_ / "folder.plan");
+  expect_bad({"tour", "tour.yaml", "-o", "folder"}, "folder");
+  expect_bad({"tour", "tour.yaml", "-o", "folder.plan"}, "folder.plan");
+  expect_bad({"tour", "tour.yaml", "-o", "folder/none/"}, "folder/none/");
+  expect_bad({"tour", "tour.yaml", "--certificate", "folder"}, "folder");
   expect_bad({"tour", "tour.yaml", "-o", "tour.plan"}, "QGroundControl");  // the plaza lies nowhere on the earth
   expect_bad({"tour", "tour.yaml", "-o", "tour.docx"}, "tour.docx");
   expect_bad({"tour", "tour.yaml", "-o", "plaza.obj"}, "plaza.obj");

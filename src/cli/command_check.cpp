@@ -12,6 +12,7 @@
 #include "cli/flight_picture.h"
 #include "cli/located_plan.h"
 #include "cli/picture_options.h"
+#include "cli/plan_output.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
@@ -176,7 +177,7 @@ void check_output(const CheckArguments& options, const MissionFile& mission) {
     throw Error(ErrorCode::output_format_unknown, "a check is written as .json or .csv", options.output_file,
                 "give a name that ends so");
   }
-  check_can_write(options.output_file);
+  check_can_write_like(options.output_file, "check.json");
   check_not_an_input(options.output_file, input_files(mission));
   check_not_an_input(options.output_file, {options.plan_file});
 }

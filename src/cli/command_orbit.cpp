@@ -147,7 +147,7 @@ std::vector<NamedOrbits> orbits_of(const TargetVolumes& volumes, const OrbitOpti
 /// An orbit of one target is written.
 void check_orbit_output(const OrbitArguments& arguments, const MissionFile& file) {
   if (arguments.output_file.empty()) return;
-  check_can_write(arguments.output_file);
+  check_can_write_like(arguments.output_file, "orbit.plan");
   check_not_an_input(arguments.output_file, input_files(file));
   plan_format_of(arguments.output_file);
   if (file.targets.size() < 2 || file.combine != Combine::each || !arguments.target.empty()) return;

@@ -136,9 +136,11 @@ std::string table_text(const MissionTour& tour, bool with_bound) {
 
 void check_outputs(const TourArguments& options, const MissionFile& mission) {
   std::vector<std::string> outputs;
-  for (const std::string& file : {options.output_file, options.certificate_file, options.picture_file}) {
+  const std::vector<std::pair<std::string, std::string>> named = {
+      {options.output_file, "tour.plan"}, {options.certificate_file, "tour.cert"}, {options.picture_file, "tour.png"}};
+  for (const auto& [file, example] : named) {
     if (file.empty()) continue;
-    check_can_write(file);
+    check_can_write_like(file, example);
     check_not_an_input(file, input_files(mission));
     const std::string place = std::filesystem::weakly_canonical(file).string();
     if (std::find(outputs.begin(), outputs.end(), place) != outputs.end()) {

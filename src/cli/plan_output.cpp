@@ -1,6 +1,7 @@
 #include "cli/plan_output.h"
 
 #include <charconv>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "vantage/error.h"
 #include "vantage/input.h"
+#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {
@@ -33,6 +35,17 @@ DjiAircraft aircraft_of(const std::string& text) {
 }
 
 }  // namespace
+
+void check_can_write_like(const std::string& file, const std::string& example) {
+  try {
+    check_can_write(file);
+  } catch (const Error& error) {
+    std::error_code unknown;
+    const bool is_folder = std::filesystem::is_directory(file, unknown);
+    if (!is_folder && error.code() != ErrorCode::output_name_missing) throw;
+    throw error.with_fix("name a file, such as " + (std::filesystem::path(file) / example).string());
+  }
+}
 
 void add_plan_output(CLI::App& command, PlanOutput& output) {
   command

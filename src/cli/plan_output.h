@@ -14,6 +14,9 @@ struct PlanOutput {
   std::optional<double> undulation;  ///< of the mean sea level above the ellipsoid, metres
 };
 
+/// check_can_write of a file that is no volume: where a folder is given, the advice names `example` in it.
+void check_can_write_like(const std::string& file, const std::string& example);
+
 /// --aircraft and --undulation; `output` must outlive the parsing.
 void add_plan_output(CLI::App& command, PlanOutput& output);
 
