@@ -37,6 +37,8 @@ TEST_F(CliTour, WritesAPlanThatCheckAccepts) {
   EXPECT_EQ(check.exit_code, 0) << check.err << check.out;
   EXPECT_NEAR(Json::parse(check.out)["length_m"].get<double>(), answer["length_m"].get<double>(), 1e-3);
   EXPECT_EQ(Json::parse(check.out)["notes"], Json::array());
+  const std::string table = output_of({"tour", "tour.yaml"});
+  EXPECT_NE(table.find("above the"), std::string::npos) << table;
   // The flight does not keep what it was not planned for.
   EXPECT_EQ(run({"check", "tour.yaml", "old.csv", "--clearance", "40"}).exit_code, 1);
 }

@@ -274,6 +274,9 @@ TEST_F(PlanMissionTour, ItsJsonSaysAllOfIt) {
   EXPECT_EQ(tour.bound->time_s, std::max(tour.bound->length_m / 8, 3 * 2.0));
   EXPECT_LE(tour.bound->time_s, tour.tour.time_s);
   EXPECT_EQ(answer["bound"]["kind"], tour.bound->kind);
+  const double start_z = tour.tour.flight.points.front().position.z();
+  EXPECT_GT(start_z, 0);
+  EXPECT_EQ(answer["bound"]["start_above_home_m"], start_z - tour.home->z());
   EXPECT_EQ(answer["bound"]["ignored"].size(), tour.bound->ignored.size());
   ASSERT_EQ(answer["visits"].size(), 3U);
   for (const Json& visit : answer["visits"]) {

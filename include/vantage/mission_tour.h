@@ -24,7 +24,8 @@ namespace vantage {
 /// What proves a bound: for write_tour_certificate.
 struct TourProof;
 
-/// What no tour can be shorter than.
+/// What no tour can be shorter than. Where there is a home: no tour that begins where this one does, straight above it
+/// (start_above_home_m), and comes back there where it is closed. One that begins at another height may be shorter.
 struct TourLowerBound {
   double length_m = 0;
   double gap = 1;                    ///< (length - bound) / length of the tour that was found
@@ -65,6 +66,10 @@ struct MissionTour {
 /// Of a mission whose one target is a volume (Target::volume): what the limits of navigation leave of it. Throws
 /// Error(not_applicable) for another target, and as cut_to_navigation does.
 VANTAGE_API Volume volume_to_fly_through(const Mission& mission, const Progress& progress = {});
+
+/// How far above its home the flight of a tour begins: where flying is allowed first, in steps of 0.5 m. Nothing where
+/// there is no home, or no flight.
+VANTAGE_API std::optional<double> start_above_home_m(const MissionTour& tour);
 
 struct MissionTourOptions {
   int threads = 0;         ///< at most; 0: as many as the machine has

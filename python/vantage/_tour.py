@@ -53,7 +53,7 @@ class LeftOut(NamedTuple):
 
 
 class TourBound(NamedTuple):
-    """What no tour can be shorter than."""
+    """What no tour can be shorter than. Where there is a home: no tour that begins where this one does, straight above it."""
 
     length_m: float
     gap: float

@@ -119,6 +119,9 @@ std::string table_text(const MissionTour& tour, bool with_bound) {
   if (tour.bound) {
     table.row("bound", fixed(tour.bound->length_m, 1), "m: no tour is shorter; by " + tour.bound->kind);
     table.row("", fixed(tour.bound->time_s, 1), "s: none takes less time");
+    if (const auto height = start_above_home_m(tour)) {
+      table.row("", fixed(*height, 1), "m above the home: both are of tours that begin there");
+    }
     table.row("gap", fixed(kPercent * tour.bound->gap, 2) + " %",
               tour.reaches_gap() ? "" : "more than the " + fixed(kPercent * tour.settings.gap, 2) + " % asked for");
     for (const std::string& ignored : tour.bound->ignored) table.row("it ignores", "", ignored);

@@ -301,6 +301,11 @@ Volume volume_to_fly_through(const Mission& mission, const Progress& progress) {
   return cut_to_navigation(all, mission.navigation, progress, mission.as_written.exact.work_limit);
 }
 
+std::optional<double> start_above_home_m(const MissionTour& tour) {
+  if (!tour.home || tour.tour.flight.points.empty()) return std::nullopt;
+  return tour.tour.flight.points.front().position.z() - tour.home->z();
+}
+
 MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options, const Progress& progress) {
   MissionTour result;
   result.settings = mission.as_written.tour.value_or(TourSettings());
@@ -419,6 +424,7 @@ std::string json_text(const MissionTour& of) {
                      {"gap", of.bound->gap},
                      {"kind", of.bound->kind},
                      {"ignored", of.bound->ignored}};
+    if (const auto height = start_above_home_m(of)) json["bound"]["start_above_home_m"] = *height;
   }
   if (of.fewest) json["positions"] = positions_json(of);
   json["visits"] = Json::array();
