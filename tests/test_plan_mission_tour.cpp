@@ -94,7 +94,9 @@ void expect_photos(const MissionTour& tour, const Mission& mission) {
   EXPECT_NEAR(check.length_m, length_m, 1e-9 * length_m);
   for (const FlightPoint& point : plan.flight.points) hold_s += point.hold_s;
   for (const FlightPoint& point : tour.tour.flight.points) planned_s += point.hold_s;
-  if (!tour.settings.simultaneous) EXPECT_NEAR(hold_s, planned_s, 1e-9);
+  if (!tour.settings.simultaneous) {
+    EXPECT_NEAR(hold_s, planned_s, 1e-9);
+  }
   std::map<std::string, int> photos;
   for (std::size_t i = 0; i < plan.actions.size(); ++i) {
     const FlightAction& action = plan.actions[i];
