@@ -98,6 +98,7 @@ TourRegion::TourRegion(std::string name, const Mesh& volume, double margin_m)
   size_ = (mesh_box.max - mesh_box.min).norm();
   rounding_ = kOfSize * size_ + kRoundings * (origin_.cwiseAbs().maxCoeff() + size_);
   least_depth_ = margin_ + rounding_;
+  sought_depth_ = least_depth_ + rounding_;
   box_ = {mesh_box.min.array() + margin_ + origin_.array(), mesh_box.max.array() - margin_ + origin_.array()};
 
   std::vector<core::Bounds> bounds(mesh_.triangles.size());
@@ -158,7 +159,7 @@ std::optional<Vec3> TourRegion::first_inside(const Vec3& from, const Vec3& to) c
   const double length = (to - from).norm(), least_step = length / 200;
   for (double s = 0;;) {
     const Vec3 point = length > 0 ? Vec3(from + s / length * (to - from)) : from;
-    const double lack = least_depth_ - depth(point);
+    const double lack = sought_depth_ - depth(point);
     if (lack <= 0) return point;
     if (s >= length || lack > length - s) return std::nullopt;
     s = std::min(length, s + std::max(lack, least_step));
@@ -183,8 +184,8 @@ std::optional<Vec3> TourRegion::by_cuts(const Vec3& start, const Vec3& a, const 
   constexpr int kMostCuts = 16;
   for (int i = 0; i < kMostCuts; ++i) {
     const Surface surface = surface_at(point);
-    if (surface.depth >= least_depth_) return point;
-    cuts.add(surface.inward, surface.inward.dot(surface.nearest) + least_depth_ + rounding_);
+    if (surface.depth >= sought_depth_) return point;
+    cuts.add(surface.inward, surface.inward.dot(surface.nearest) + sought_depth_ + rounding_);
     const std::optional<Vec3> next = cuts.shortest_way(a, b, smoothing);
     if (!next) return std::nullopt;
     point = *next;
@@ -203,10 +204,10 @@ Vec3 TourRegion::from_anchors(const Vec3& towards, const Vec3& a, const Vec3& b)
   constexpr int kHalvings = 12;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (inside + outside) / 2;
-    (depth(best + middle * (towards - best)) >= least_depth_ ? inside : outside) = middle;
+    (depth(best + middle * (towards - best)) >= sought_depth_ ? inside : outside) = middle;
   }
   const Vec3 moved_on = best + inside * (towards - best);
-  return depth(moved_on) >= least_depth_ ? moved_on : best;
+  return depth(moved_on) >= sought_depth_ ? moved_on : best;
 }
 
 /// From a point of the region to better ones: the cuts next to it and next to where they lead, then as far that way as
@@ -217,7 +218,7 @@ Vec3 TourRegion::descend(const Vec3& start, const Vec3& a, const Vec3& b, double
   for (int move = 0; move < kMostMoves; ++move) {
     HalfSpaces cuts;
     const auto add = [&](const Surface& surface) {
-      cuts.add(surface.inward, surface.inward.dot(surface.nearest) + least_depth_ + rounding_);
+      cuts.add(surface.inward, surface.inward.dot(surface.nearest) + sought_depth_ + rounding_);
     };
     add(surface_at(point));
     Vec3 wanted = point;
@@ -226,7 +227,7 @@ Vec3 TourRegion::descend(const Vec3& start, const Vec3& a, const Vec3& b, double
       if (!next) break;
       wanted = *next;
       const Surface surface = surface_at(wanted);
-      if (surface.depth >= least_depth_) break;
+      if (surface.depth >= sought_depth_) break;
       add(surface);
     }
     const double before = way_length(a, point, b, smoothing);
@@ -234,7 +235,7 @@ Vec3 TourRegion::descend(const Vec3& start, const Vec3& a, const Vec3& b, double
     double share = 1;
     for (int h = 0; h < kHalvings && best == point; ++h, share /= 2) {
       const Vec3 moved = point + share * (wanted - point);
-      if (way_length(a, moved, b, smoothing) < before && depth(moved) >= least_depth_) best = moved;
+      if (way_length(a, moved, b, smoothing) < before && depth(moved) >= sought_depth_) best = moved;
     }
     point = best;
     if (before - way_length(a, point, b, smoothing) <= 1e-5 * before) break;
@@ -251,7 +252,7 @@ Vec3 TourRegion::touch(const Vec3& a, const Vec3& b, double smoothing_m, const V
   const Vec3 of_mesh = touch_of_mesh(from, to, smoothing_m);
   std::optional<Vec3> found = by_cuts(of_mesh, from, to, smoothing_m);
   // Much longer than past the mesh itself: the margin took away what was there, and another part may do better.
-  if (!found || length(*found) - length(of_mesh) > 4 * least_depth_) {
+  if (!found || length(*found) - length(of_mesh) > 4 * sought_depth_) {
     const Vec3 other = descend(from_anchors(of_mesh, from, to), from, to, smoothing_m);
     if (!found || length(other) < length(*found)) found = other;
   }
@@ -259,14 +260,15 @@ Vec3 TourRegion::touch(const Vec3& a, const Vec3& b, double smoothing_m, const V
   return *found + origin_;
 }
 
-std::vector<LegInterval> TourRegion::stretches(const Leg& leg) const {
+std::vector<LegInterval> TourRegion::parts_deeper(const Leg& leg, double least, double grain) const {
   const Vec3 from = leg.from - origin_, along = leg.to - leg.from;
-  const double length = along.norm(), grain = std::max(kGrain * size_, rounding_);
-  if (!(length > 0)) return holds(leg.from) ? std::vector<LegInterval>{{0, 1}} : std::vector<LegInterval>{};
+  const double length = along.norm();
+  if (!(length > 0)) return depth(from) >= least ? std::vector<LegInterval>{{0, 1}} : std::vector<LegInterval>{};
   std::vector<LegInterval> found;
   for (double s = 0; s < length;) {
-    const double spare = depth(from + s / length * along) - least_depth_;
-    if (spare < grain) {
+    const double spare = depth(from + s / length * along) - least;
+    // What is left of the leg may be shorter than the grain.
+    if (spare < std::min(grain, length - s)) {
       s += std::max(grain - spare, grain);
       continue;
     }
@@ -278,13 +280,19 @@ std::vector<LegInterval> TourRegion::stretches(const Leg& leg) const {
   return found;
 }
 
+std::vector<LegInterval> TourRegion::stretches(const Leg& leg) const {
+  return parts_deeper(leg, sought_depth_, std::max(kGrain * size_, rounding_));
+}
+
+/// Between two places of a stretch, a point is as deep as half of the grain more than is asked for, or the rest of the
+/// stretch is nearer than that.
 bool TourRegion::holds_leg(const Leg& leg) const {
-  const std::vector<LegInterval> parts = stretches(leg);
+  const std::vector<LegInterval> parts = parts_deeper(leg, least_depth_, std::max(kGrain * size_, rounding_) / 2);
   return parts.size() == 1 && parts[0].begin == 0 && parts[0].end == 1;
 }
 
 void TourRegion::add_anchor(const Vec3& point) {
-  if (anchors_.size() < kMostAnchors && depth(point) >= least_depth_) anchors_.push_back(point + origin_);
+  if (anchors_.size() < kMostAnchors && depth(point) >= sought_depth_) anchors_.push_back(point + origin_);
 }
 
 /// The deepest point by best-first search in an octree: no point of a cube is deeper than its middle by more than half
@@ -305,13 +313,13 @@ void TourRegion::find_anchors() {
   for (int cubes = 0; cubes < kMostCubes && !open.empty();) {
     const Cube cube = open.top();
     open.pop();
-    const bool is_enough = deepest >= least_depth_ && cube.bound <= 1.05 * deepest;
-    if (cube.bound < least_depth_ || is_enough) break;
+    const bool is_enough = deepest >= sought_depth_ && cube.bound <= 1.05 * deepest;
+    if (cube.bound < sought_depth_ || is_enough) break;
     for (int corner = 0; corner < 8; ++corner, ++cubes) {
       const double half = cube.half / 2;
       const Vec3 middle = cube.middle + half * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       const double found = depth(middle);
-      if (found >= least_depth_) points.emplace_back(found, middle);
+      if (found >= sought_depth_) points.emplace_back(found, middle);
       deepest = std::max(deepest, found);
       open.push({found + root_of_3 * half, middle, half});
     }
@@ -327,7 +335,7 @@ void TourRegion::find_anchors() {
     const Vec3 outward = (t[1] - t[0]).cross(t[2] - t[0]);
     const double area = outward.norm();
     if (!(area > 0)) continue;
-    add_anchor((t[0] + t[1] + t[2]) / 3 - (least_depth_ + rounding_) / area * outward);
+    add_anchor((t[0] + t[1] + t[2]) / 3 - (sought_depth_ + rounding_) / area * outward);
   }
   if (!anchors_.empty()) return;
   throw Error(

@@ -22,7 +22,7 @@ namespace vantage::internal::flight::tour {
 constexpr double kPlanRoundingM = 0.01;
 
 /// What lies at least a margin inside a closed mesh: of several pieces, of any genus. Immutable; any number of threads
-/// may ask one. Every point that it returns is in it: its depth was asked for. Scene frame, metres.
+/// may ask one. It holds every point that it returns. Scene frame, metres.
 ///
 /// The depth of a point is its distance to the nearest triangle, if the mesh winds round it at least once. Where pieces
 /// overlap, triangles inside count too: on the safe side.
@@ -60,6 +60,7 @@ class TourRegion {
   /// The parts of a leg that are in it for sure, in order. What is less than `kGrain` of the region's size deeper than
   /// the margin may be left out.
   std::vector<LegInterval> stretches(const Leg& leg) const;
+  /// Whether all of a leg is in it for sure. Any part of a leg's stretch is.
   bool holds_leg(const Leg& leg) const;
 
   static constexpr double kGrain = 1e-5;
@@ -74,6 +75,8 @@ class TourRegion {
 
   double depth(const Vec3& point) const;
   double signed_depth(double distance, const Vec3& point) const;
+  /// The parts of a leg that are at least `least` deep for sure, but for some that are less than `grain` deeper.
+  std::vector<LegInterval> parts_deeper(const Leg& leg, double least, double grain) const;
   Surface surface_at(const Vec3& point) const;
   Vec3 touch_of_mesh(const Vec3& a, const Vec3& b, double smoothing) const;
   std::optional<Vec3> on_segment(const Vec3& a, const Vec3& b) const;
@@ -90,7 +93,9 @@ class TourRegion {
   core::TriangleTree tree_;
   std::vector<Corners> corners_;  ///< in the order of the leaves of `bvh_`
   core::Bvh bvh_;
-  double margin_ = 0, least_depth_ = 0, size_ = 0, rounding_ = 0;
+  double margin_ = 0, size_ = 0, rounding_ = 0;
+  double least_depth_ = 0;   ///< of points of the scene frame
+  double sought_depth_ = 0;  ///< about the origin: points are still as deep as they must be when they are moved back
   Box box_;
   std::vector<Vec3> anchors_;  ///< scene frame
 };
