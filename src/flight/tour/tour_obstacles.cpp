@@ -109,6 +109,7 @@ class LazyRoadmap {
     State state;
   };
 
+  /// As it is flown: the other way round, rounding may decide otherwise.
   bool check(std::size_t from, std::size_t to) {
     Edge::State state = Edge::State::unknown;
     for (const Edge& edge : edges_[from]) {
@@ -117,10 +118,8 @@ class LazyRoadmap {
     if (state == Edge::State::unknown) {
       state = airspace_.allows({nodes_[from], nodes_[to]}, 0) ? Edge::State::free : Edge::State::blocked;
     }
-    for (const auto& [a, b] : {std::pair(from, to), std::pair(to, from)}) {
-      for (Edge& edge : edges_[a]) {
-        if (edge.to == b) edge.state = state;
-      }
+    for (Edge& edge : edges_[from]) {
+      if (edge.to == to) edge.state = state;
     }
     return state == Edge::State::free;
   }

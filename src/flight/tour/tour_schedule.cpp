@@ -112,7 +112,9 @@ double turning_seconds(const TourRequest& request, const Scheduled& from, const 
 Way::Way(std::vector<Vec3> points) : points_(std::move(points)) {
   stations_.push_back(0);
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-    stations_.push_back(stations_.back() + (points_[i + 1] - points_[i]).norm());
+    const double before = stations_.back(), station = before + (points_[i + 1] - points_[i]).norm();
+    const bool is_lost = station == before && points_[i + 1] != points_[i];
+    stations_.push_back(is_lost ? std::nextafter(before, std::numeric_limits<double>::infinity()) : station);
   }
 }
 

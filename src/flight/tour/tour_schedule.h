@@ -11,7 +11,8 @@
 
 namespace vantage::internal::flight::tour {
 
-/// A polyline, with where it is after each point.
+/// A polyline, with where it is after each point. Points that differ are at different stations, also where they are
+/// nearer to each other than rounding of a long way.
 class Way {
  public:
   explicit Way(std::vector<Vec3> points);
