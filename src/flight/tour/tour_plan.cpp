@@ -7,6 +7,7 @@
 #include "core/format.h"
 #include "core/progress_reporter.h"
 #include "core/stopwatch.h"
+#include "flight/tour/tour_breach.h"
 #include "flight/tour/tour_course.h"
 #include "flight/tour/tour_obstacles.h"
 #include "flight/tour/tour_random.h"
@@ -113,14 +114,13 @@ class MultirotorPlan {
     const SearchResult found = search_order(regions_, kind, options, progress_);
     end_ = end_of(found.end);
     FlownCourse flown = fly(different(found.courses));
-    join_stops(flown.course, regions_, request_.airspace.get());
-    begin_at_turn(flown.course);
-    Tour tour = tour_of(flown, false);
-    if (!is_sound(tour)) {
-      tour = tour_of(flown, true);
-      if (!is_sound(tour)) throw Error(ErrorCode::internal_defect, "a tour breaks its own limits", "", "");
+    for (;;) {
+      join_stops(flown.course, regions_, request_.airspace.get());
+      begin_at_turn(flown.course);
+      const auto [tour, breaches] = judged(flown);
+      if (breaches.empty()) return tour;
+      flown = without(problem_of(tour, breaches.front(), request_, 0), flown);
     }
-    return tour;
   }
 
  private:
@@ -146,7 +146,46 @@ class MultirotorPlan {
     return *best;
   }
 
-  Tour tour_of(const FlownCourse& flown, bool hovers_only) const {
+  struct Judged {
+    Tour tour;
+    std::vector<Breach> breaches;
+  };
+
+  /// A way that is cut where views begin and end differs from it by a rounding: where that breaks a limit, the vehicle
+  /// hovers for the target, and the way stays as it was found.
+  Judged judged(const FlownCourse& flown) const {
+    std::vector<bool> hovers(regions_.size(), false);
+    for (;;) {
+      Tour tour = tour_of(flown, hovers);
+      std::vector<Breach> breaches = breaches_of(tour);
+      bool is_changed = false;
+      for (const TourVisit& visit : tour.visits) {
+        const bool is_broken = std::any_of(breaches.begin(), breaches.end(), [&](const Breach& breach) {
+          if (!breach.leg) return tour.visits[breach.visit].target == visit.target;
+          return visit.first_point <= *breach.leg + 1 && visit.last_point >= *breach.leg;
+        });
+        if (!is_broken || visit.first_point == visit.last_point) continue;
+        hovers[visit.target] = is_changed = true;
+      }
+      if (!is_changed) return {std::move(tour), std::move(breaches)};
+    }
+  }
+
+  /// Flown again without the target of a problem.
+  FlownCourse without(const TourProblem& problem, const FlownCourse& flown) {
+    Course course = flown.course;
+    std::erase_if(course.stops, [&](const Stop& stop) {
+      return stop.region == kBend || stop.region == static_cast<int>(problem.target);
+    });
+    FlownCourse rest = fly({course});
+    std::vector<TourProblem> problems = flown.problems;
+    problems.push_back(problem);
+    rest.problems.insert(rest.problems.begin(), problems.begin(), problems.end());
+    return rest;
+  }
+
+  /// `hovers`: for which targets, whether or not the vehicle passes them for long enough.
+  Tour tour_of(const FlownCourse& flown, const std::vector<bool>& hovers) const {
     Tour tour;
     tour.problems = flown.problems;
     tour.end = end_;
@@ -164,7 +203,7 @@ class MultirotorPlan {
       if (stops[i].region < 0) continue;
       const auto target = static_cast<std::size_t>(stops[i].region);
       viewings.push_back({target, way.station(i), {}});
-      if (!hovers_only) {
+      if (!hovers[target]) {
         viewings.back().stretches =
             stretches_followed(stretches_in(*regions_[target], way), way, request_.targets[target], request_.settings);
       }
@@ -178,21 +217,23 @@ class MultirotorPlan {
   }
 
   /// All legs and all visits, as they are in the flight.
-  bool is_sound(const Tour& tour) const {
-    const Flight& flight = tour.flight;
-    for (std::size_t i = 0; i < flight.leg_count(); ++i) {
-      if (request_.airspace && !request_.airspace->allows(flight.leg(i), 0)) return false;
+  std::vector<Breach> breaches_of(const Tour& tour) const {
+    std::vector<Breach> breaches = breaches_of_legs(tour, request_, 0);
+    for (std::size_t i = 0; i < tour.visits.size(); ++i) {
+      if (!is_kept(tour.visits[i], tour.flight)) breaches.push_back({std::nullopt, i});
     }
-    return std::all_of(tour.visits.begin(), tour.visits.end(), [&](const TourVisit& visit) {
-      const TourRegion& region = *regions_[visit.target];
-      double seconds = 0;
-      for (std::size_t i = visit.first_point; i <= visit.last_point; ++i) seconds += flight.points[i].hold_s;
-      for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
-        if (!region.holds_leg(flight.leg(i))) return false;
-        seconds += length_of(flight.leg(i)) / request_.settings.vehicle.speed_m_s;
-      }
-      return region.holds(flight.points[visit.first_point].position) && seconds >= visit.dwell_s;
-    });
+    return breaches;
+  }
+
+  bool is_kept(const TourVisit& visit, const Flight& flight) const {
+    const TourRegion& region = *regions_[visit.target];
+    double seconds = 0;
+    for (std::size_t i = visit.first_point; i <= visit.last_point; ++i) seconds += flight.points[i].hold_s;
+    for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
+      if (!region.holds_leg(flight.leg(i))) return false;
+      seconds += length_of(flight.leg(i)) / request_.settings.vehicle.speed_m_s;
+    }
+    return region.holds(flight.points[visit.first_point].position) && seconds >= visit.dwell_s;
   }
 
   static double length_of(const Leg& leg) { return (leg.to - leg.from).norm(); }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/format.h"
 #include "core/portable_math.h"
 #include "core/stopwatch.h"
+#include "flight/tour/tour_breach.h"
 #include "flight/tour/tour_random.h"
 #include "flight/tour/tour_schedule.h"
 #include "flight/tour/tour_search.h"
@@ -49,7 +51,8 @@ Layout layout_of(const WingCourse& course, const WingSpace& space) {
     for (int k = 0; k < static_cast<int>(times); ++k) add(chords);
     layout.views.emplace_back(first, layout.points.size() - 1);
     if (i < course.path_count()) {
-      if (const auto path = space.path(view, course.views[course.next(i)])) add(space.chords(*path));
+      const View& next = course.views[course.next(i)];
+      if (const auto path = space.path(view, next)) add(space.chords(*path, view, next));
     }
   }
   return layout;
@@ -83,7 +86,7 @@ class WingPlan {
     }
     best_ = std::move(shortest.best);
     passed_ = std::move(shortest.passed);
-    return tour();
+    return sound_tour();
   }
 
  private:
@@ -128,7 +131,12 @@ class WingPlan {
     TourRequest bare = request_;
     bare.airspace = nullptr;
     const WingSpace everywhere(bare, regions_);
-    for (std::size_t i = 0; i < course.stops.size(); ++i) {
+    // In the order of the request: so the first target that is wrong is told.
+    std::vector<std::size_t> stops(course.stops.size());
+    std::iota(stops.begin(), stops.end(), std::size_t{0});
+    std::sort(stops.begin(), stops.end(),
+              [&](std::size_t a, std::size_t b) { return course.stops[a].region < course.stops[b].region; });
+    for (const std::size_t i : stops) {
       const Stop& stop = course.stops[i];
       if (stop.region == Stop::kFixed) continue;
       progress_.check();
@@ -290,7 +298,7 @@ class WingPlan {
       if (view.region == Stop::kFixed || best_->course.views.size() < 4) continue;
       WingCourse rest = best_->course;
       rest.views.erase(rest.views.begin() + static_cast<std::ptrdiff_t>(i));
-      if (std::optional<WingCourse> better = inserted(rest, view, best_->length - 1e-3)) {
+      if (std::optional<WingCourse> better = inserted(rest, view, best_->length - 1e-3, gap_that_is_blocked(rest, i))) {
         best_->course = std::move(*better);
         best_->length = length_m(best_->course, space_);
         changed = true;
@@ -299,8 +307,18 @@ class WingPlan {
     return changed;
   }
 
-  /// With one more view, where it costs least, if the whole is shorter than `most`.
-  std::optional<WingCourse> inserted(const WingCourse& course, const View& view, double most) {
+  /// The path of a course past a view that was taken out before view `i`, if it is not clear.
+  std::optional<std::size_t> gap_that_is_blocked(const WingCourse& course, std::size_t i) const {
+    const std::size_t count = course.views.size(), path = (i + count - 1) % count;
+    const bool has_path = path < course.path_count();
+    if (!has_path || space_.is_clear(course.views[path], course.views[course.next(path)])) return std::nullopt;
+    return path;
+  }
+
+  /// With one more view, where it costs least, if the whole is shorter than `most`. `only`: in this path, as it is not
+  /// clear itself; all others are.
+  std::optional<WingCourse> inserted(const WingCourse& course, const View& view, double most,
+                                     std::optional<std::size_t> only) {
     progress_.check();
     const double base = length_m(course, space_);
     std::vector<View> views = choices_[static_cast<std::size_t>(view.region)];
@@ -312,6 +330,7 @@ class WingPlan {
     };
     std::vector<Try> tries;
     for (std::size_t p = 0; p < course.path_count(); ++p) {
+      if (only && p != *only) continue;
       const View &a = course.views[p], &b = course.views[course.next(p)];
       const double between = space_.path_m(a, b);
       if (is_late()) return std::nullopt;
@@ -419,7 +438,32 @@ class WingPlan {
     return std::nullopt;
   }
 
-  Tour tour() const {
+  /// The best tour. Where it breaks a limit, views are chosen anew, then what breaks a limit is left out.
+  Tour sound_tour() {
+    for (bool is_best = true;; is_best = false) {
+      Tour tour = flown();
+      const std::vector<Breach> breaches = breaches_of(tour);
+      if (breaches.empty()) return tour;
+      std::vector<TourProblem> problems = best_->problems;
+      std::vector<int> order;
+      for (const std::size_t target : tour.order) order.push_back(static_cast<int>(target));
+      if (!is_best) {
+        problems.push_back(problem_of(tour, breaches.front(), request_, request_.chord_error_m));
+        std::erase(order, static_cast<int>(problems.back().target));
+      }
+      Candidate next = of_order(order);
+      for (const TourProblem& problem : next.problems) {
+        if (std::find(order.begin(), order.end(), static_cast<int>(problem.target)) != order.end()) {
+          problems.push_back(problem);
+        }
+      }
+      next.problems = std::move(problems);
+      best_ = std::move(next);
+      passed_.clear();
+    }
+  }
+
+  Tour flown() const {
     Tour tour;
     tour.end = end_;
     tour.problems = best_->problems;
@@ -434,9 +478,7 @@ class WingPlan {
       tour.flight.points.push_back(point);
     }
     const std::optional<std::vector<TourVisit>> visits = views_of(course);
-    if (!visits || !is_sound(tour.flight, *visits)) {
-      throw Error(ErrorCode::internal_defect, "a tour breaks its own limits", "", "");
-    }
+    if (!visits) throw Error(ErrorCode::internal_defect, "a tour does not pass what it is to pass", "", "");
     tour.visits = *visits;
     for (const TourVisit& visit : tour.visits) tour.order.push_back(visit.target);
     tour.length_m = length_m(course, space_);
@@ -444,19 +486,23 @@ class WingPlan {
     return tour;
   }
 
-  bool is_sound(const Flight& flight, const std::vector<TourVisit>& visits) const {
-    for (std::size_t i = 0; i < flight.leg_count(); ++i) {
-      if (request_.airspace && !request_.airspace->allows(flight.leg(i), request_.chord_error_m)) return false;
+  /// All legs and all visits, as they are in the flight.
+  std::vector<Breach> breaches_of(const Tour& tour) const {
+    std::vector<Breach> breaches = breaches_of_legs(tour, request_, request_.chord_error_m);
+    for (std::size_t i = 0; i < tour.visits.size(); ++i) {
+      if (!is_kept(tour.visits[i], tour.flight)) breaches.push_back({std::nullopt, i});
     }
-    return std::all_of(visits.begin(), visits.end(), [&](const TourVisit& visit) {
-      const TourRegion& region = *regions_[visit.target];
-      for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
-        const Leg leg = flight.leg(i);
-        if (!region.holds_leg(leg)) return false;
-        if (!space_.can_follow(static_cast<int>(visit.target), {leg.from, leg.to}, {})) return false;
-      }
-      return region.holds(flight.points[visit.first_point].position);
-    });
+    return breaches;
+  }
+
+  bool is_kept(const TourVisit& visit, const Flight& flight) const {
+    const TourRegion& region = *regions_[visit.target];
+    for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
+      const Leg leg = flight.leg(i);
+      if (!region.holds_leg(leg)) return false;
+      if (!space_.can_follow(static_cast<int>(visit.target), {leg.from, leg.to}, {})) return false;
+    }
+    return region.holds(flight.points[visit.first_point].position);
   }
 
   const TourRequest& request_;

@@ -69,9 +69,11 @@ std::vector<Vec3> WingSpace::chords(const View& view) const {
   return points;
 }
 
-std::vector<Vec3> WingSpace::chords(const DubinsAirplanePath& path) const {
+std::vector<Vec3> WingSpace::chords(const DubinsAirplanePath& path, const View& from, const View& to) const {
   std::vector<Vec3> points;
   for (const double station : path.stations(request_.chord_error_m)) points.push_back(path.at(station).position);
+  points.front() = leave(from).position;
+  points.back() = to.enter.position;
   return points;
 }
 
@@ -187,7 +189,7 @@ bool WingSpace::is_clear(const View& from, const View& to) const {
       if (degrees > seconds * request_.settings.gimbal_rate_deg_s) return false;
     }
   }
-  return !request_.airspace || is_allowed(chords(*found), request_.chord_error_m);
+  return !request_.airspace || is_allowed(chords(*found, from, to), request_.chord_error_m);
 }
 
 }  // namespace vantage::internal::flight::tour

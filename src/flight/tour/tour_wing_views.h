@@ -55,8 +55,8 @@ class WingSpace {
   /// Whether the airspace allows it all, and the camera can turn from the one target to the other meanwhile.
   bool is_clear(const View& from, const View& to) const;
 
-  /// Chords of a path or a view, with both ends.
-  std::vector<Vec3> chords(const DubinsAirplanePath& path) const;
+  /// Chords of a path or a view, with both ends. Those of a path are the ends of its views: rounding took it past them.
+  std::vector<Vec3> chords(const DubinsAirplanePath& path, const View& from, const View& to) const;
   std::vector<Vec3> chords(const View& view) const;
 
  private:
