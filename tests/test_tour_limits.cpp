@@ -167,7 +167,7 @@ class CoinAirspace : public Airspace {
     return hash % 3 == 0;
   }
   std::string obstacle(const Leg& leg, double deviation_m) const override {
-    return allows(leg, deviation_m) ? "" : "a coin";
+    return allows(leg, deviation_m) ? "" : "coin";
   }
   Box bounds() const override { return {Vec3(-200, -200, -0.4), Vec3(200, 200, 0.4)}; }
 };
@@ -218,7 +218,7 @@ class ChangingAirspace : public Airspace {
   bool allows(const Leg& leg, double /*deviation_m*/) const override {
     return ++asked_ <= allowed_ || testing::distance_to(closed_, leg) > 0;
   }
-  std::string obstacle(const Leg& /*leg*/, double /*deviation_m*/) const override { return "a closed place"; }
+  std::string obstacle(const Leg& /*leg*/, double /*deviation_m*/) const override { return "gate"; }
   Box bounds() const override { return {Vec3::Constant(-2000), Vec3::Constant(2000)}; }
   long asked() const { return asked_; }
 
@@ -264,7 +264,7 @@ TEST_P(ToursOfAll, LeaveOutWhatBreaksALimitAtTheEnd) {
   testing::judge(request, tour, nullptr);
   ASSERT_EQ(tour.problems.size(), 1);
   EXPECT_EQ(tour.problems[0].target, 2);
-  EXPECT_EQ(tour.problems[0].obstacle, "a closed place");
+  EXPECT_EQ(tour.problems[0].obstacle, "gate");
   for (std::size_t i = 0; i < tour.flight.leg_count(); ++i) {
     EXPECT_GT(testing::distance_to(closed, tour.flight.leg(i)), 0);
   }
