@@ -451,11 +451,18 @@ class WingPlan {
         problems.push_back(problem_of(tour, breaches.front(), request_, request_.chord_error_m));
         std::erase(order, static_cast<int>(problems.back().target));
       }
-      Candidate next = of_order(order);
-      for (const TourProblem& problem : next.problems) {
-        if (std::find(order.begin(), order.end(), static_cast<int>(problem.target)) != order.end()) {
-          problems.push_back(problem);
-        }
+      Candidate next = *of_order(order, false);
+      const auto add = [&](const TourProblem& problem) {
+        const bool is_told = std::any_of(problems.begin(), problems.end(),
+                                         [&](const TourProblem& other) { return other.target == problem.target; });
+        const bool is_asked = std::find(order.begin(), order.end(), static_cast<int>(problem.target)) != order.end();
+        if (is_asked && !is_told) problems.push_back(problem);
+      };
+      std::for_each(next.problems.begin(), next.problems.end(), add);
+      // Of these no view was drawn in the last attempt, or its time was over before it told why.
+      for (const int region : order) {
+        const auto target = static_cast<std::size_t>(region);
+        if (choices_[target].empty()) add({TourProblem::Kind::no_place, target, std::nullopt, ""});
       }
       next.problems = std::move(problems);
       best_ = std::move(next);
