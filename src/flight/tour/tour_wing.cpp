@@ -200,8 +200,8 @@ class WingPlan {
       if (has_home) choices.push_back(home_views());
       for (const int region : order) choices.push_back(choices_[static_cast<std::size_t>(region)]);
       if (has_home && closed) choices.push_back(home_views());
-      const Choice choice =
-          choose(choices, closed && !has_home, space_, progress_, [&] { return may_stop && is_late(); });
+      const Choice choice = choose(
+          choices, closed && !has_home, space_, progress_, [this] { return is_late(); }, !may_stop);
       if (choice.is_stopped) return std::nullopt;
       if (choice.course) {
         candidate.course = *choice.course;

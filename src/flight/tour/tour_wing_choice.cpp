@@ -125,7 +125,7 @@ class Refinement {
         }
         choices.push_back(std::move(some));
       }
-      const Choice choice = choose(choices, course_.cyclic, space_, progress_, is_over_);
+      const Choice choice = choose(choices, course_.cyclic, space_, progress_, is_over_, false);
       if (choice.is_stopped) return;
       if (!choice.course) continue;
       if (length_m(*choice.course, space_) < length_m(course_, space_) && keeps_(*choice.course)) {
@@ -223,7 +223,7 @@ double length_m(const WingCourse& course, const WingSpace& space) {
 }
 
 Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const core::ProgressReporter& progress,
-              const IsOver& is_over) {
+              const IsOver& is_over, bool must_find) {
   const std::size_t places = choices.size();
   std::vector<Lengths> lengths;
   for (std::size_t p = 0; p + 1 < places; ++p) {
@@ -236,13 +236,15 @@ Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const
     progress.check();
     const Picked picked = pick(choices, lengths, cyclic);
     if (picked.views.empty()) break;
-    bool is_known = true;
+    bool is_known = true, is_clear = true;
     for (std::size_t p = 0; p < lengths.size(); ++p) {
-      if (is_over()) return {std::nullopt, 0, true};
+      if (!must_find && is_over()) return {std::nullopt, 0, true};
       const std::size_t i = picked.views[p], j = picked.views[next(p)];
       if (!lengths[p].know(i, j, choices[p][i], choices[next(p)][j], space)) is_known = false;
+      is_clear = is_clear && lengths[p].at(i, j) < kImpossible;
     }
-    if (!is_known) continue;
+    // Later on it may turn out that another one is shorter.
+    if (!is_known && !(is_clear && is_over())) continue;
     WingCourse course;
     course.cyclic = cyclic;
     for (std::size_t p = 0; p < places; ++p) course.views.push_back(choices[p][picked.views[p]]);

@@ -37,9 +37,10 @@ using IsOver = std::function<bool()>;
 
 /// The shortest course that takes one view of each place, all paths clear. How long a path is, and whether it is clear,
 /// is asked only when the shortest course by bounds takes it. Cost: k^2 bounds for k views in neighbouring places, and
-/// k^3 sums for each of some tens of courses.
+/// k^3 sums for each of some tens of courses. When the time is over it stops or, if it must find one, goes on to the
+/// first course whose paths are clear.
 Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const core::ProgressReporter& progress,
-              const IsOver& is_over);
+              const IsOver& is_over, bool must_find);
 
 /// Draws views near those of the course and chooses again, nearer each time; then moves and turns single views while
 /// that shortens the course, all paths staying clear, until the time is over. `keeps` is asked of each shorter course.
