@@ -36,6 +36,7 @@ class PlanMissionTour : public ::testing::Test {
   Mission mission(const std::string& tour, const std::string& more = "") const {
     return of_text(plaza_mission(tour, more));
   }
+  Mission of_two_targets(const std::string& tour) const;
   Mission of_text(const std::string& text) const {
     write_bytes(folder_ / "mission.yaml", text);
     MissionFile file = read_mission(folder_ / "mission.yaml");
@@ -133,29 +134,30 @@ TEST_F(PlanMissionTour, SharesOfTargetsAreRefused) {
   expect_code([&] { plan_mission_tour(of_text(of_share), {.with_bound = false}); }, ErrorCode::not_applicable);
 }
 
+/// Two targets that are seen from one position far from both.
+Mission PlanMissionTour::of_two_targets(const std::string& tour) const {
+  return of_text(std::string(kPlazaScene) +
+                 "sensor: {max_range: 160}\ntargets:\n"
+                 "  - {name: west, vertices: [[-83, -3, 0.1], [-77, -3, 0.1], [-77, 3, 0.1], [-83, 3, 0.1]]}\n"
+                 "  - {name: south, vertices: [[-3, -83, 0.1], [3, -83, 0.1], [3, -77, 0.1], [-3, -77, 0.1]]}\n"
+                 "tour: {home: [-20, -20, 0], gap: 0.9, time_limit: 2, " +
+                 tour + "}\n");
+}
+
+MissionTour from_one_position(const Mission& mission) {
+  return plan_mission_tour(mission, {.with_bound = false, .positions = std::vector<Vec3>(2, {-30, -30, 80})});
+}
+
 TEST_F(PlanMissionTour, PhotosOfViewsFromOnePlaceLookAtEachTarget) {
-  const Mission mission =
-      of_text(std::string(kPlazaScene) +
-              "sensor: {max_range: 160}\ntargets:\n"
-              "  - {name: west, vertices: [[-83, -3, 0.1], [-77, -3, 0.1], [-77, 3, 0.1], [-83, 3, 0.1]]}\n"
-              "  - {name: south, vertices: [[-3, -83, 0.1], [3, -83, 0.1], [3, -77, 0.1], [-3, -77, 0.1]]}\n"
-              "tour: {home: [-20, -20, 0], view: {dwell: 3, margin: 0}, gap: 0.9, time_limit: 2}\n");
-  const std::vector<Vec3> positions(2, {-30, -30, 80});
-  const MissionTour tour = plan_mission_tour(mission, {.with_bound = false, .positions = positions});
-  ASSERT_EQ(tour.tour.visits.size(), positions.size());
+  const Mission mission = of_two_targets("view: {dwell: 3, margin: 0}");
+  const MissionTour tour = from_one_position(mission);
+  ASSERT_EQ(tour.tour.visits.size(), 2U);
   expect_photos(tour, mission);
 }
 
 TEST_F(PlanMissionTour, PhotosFromOnePlaceLeaveTimeToTurn) {
-  const Mission mission =
-      of_text(std::string(kPlazaScene) +
-              "sensor: {max_range: 160}\ntargets:\n"
-              "  - {name: west, vertices: [[-83, -3, 0.1], [-77, -3, 0.1], [-77, 3, 0.1], [-83, 3, 0.1]]}\n"
-              "  - {name: south, vertices: [[-3, -83, 0.1], [3, -83, 0.1], [3, -77, 0.1], [-3, -77, 0.1]]}\n"
-              "tour: {home: [-20, -20, 0], view: {dwell: 1, margin: 0, simultaneous: true}, gimbal: {rate: 5}, "
-              "gap: 0.9, time_limit: 2}\n");
-  const std::vector<Vec3> positions(2, {-30, -30, 80});
-  const MissionTour tour = plan_mission_tour(mission, {.with_bound = false, .positions = positions});
+  const Mission mission = of_two_targets("view: {dwell: 1, margin: 0, simultaneous: true}, gimbal: {rate: 5}");
+  const MissionTour tour = from_one_position(mission);
   expect_photos(tour, mission);
   const FlightOut plan = plan_of_tour(tour, mission);
   std::vector<std::size_t> photos;
