@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "vantage/sensor.h"
-#include "vantage/target.h"
 
 namespace vantage::internal::flight {
 namespace {
@@ -15,6 +14,12 @@ constexpr double kNotKnown = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+std::vector<Vec3> corners_of(const TargetFrame& part) {
+  std::vector<Vec3> corners;
+  for (const Eigen::Vector2d& corner : part.polygon) corners.push_back(part.to_scene({corner.x(), corner.y(), 0}));
+  return corners;
+}
+
 TargetView::TargetView(const Mission& mission) {
   Box box;
   std::size_t part_count = 0;
@@ -22,11 +27,8 @@ TargetView::TargetView(const Mission& mission) {
     Parts parts;
     for (std::size_t i = 0; i < target.parts.size(); ++i) {
       const TargetFrame frame = make_target_frame(target, i);
-      Part part{{}, frame.origin, frame.normal, frame.all_sides};
-      for (const Eigen::Vector2d& corner : frame.polygon) {
-        part.corners.push_back(frame.to_scene({corner.x(), corner.y(), 0}));
-        box.extend(part.corners.back());
-      }
+      Part part{corners_of(frame), frame.origin, frame.normal, frame.all_sides};
+      for (const Vec3& corner : part.corners) box.extend(corner);
       centre_ = frame.origin;
       ++part_count;
       parts.push_back(std::move(part));

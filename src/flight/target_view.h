@@ -6,8 +6,12 @@
 
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::flight {
+
+/// Of one part of a target, scene frame.
+std::vector<Vec3> corners_of(const TargetFrame& part);
 
 /// Measures of the target of one volume. With a `reach_m` of more than 0 they are bounds: no position that near to the
 /// given one has less. Distances, and heights over a plane, change by no more than the position is moved.

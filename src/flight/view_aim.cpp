@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flight/target_view.h"
 #include "vantage/camera_aim.h"
-#include "vantage/target.h"
 
 namespace vantage::internal::flight {
 namespace {
 
 void add_corners(const Target& target, std::vector<Vec3>& corners) {
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
-    const TargetFrame frame = make_target_frame(target, i);
-    for (const Eigen::Vector2d& corner : frame.polygon) corners.push_back(frame.to_scene({corner.x(), corner.y(), 0}));
+    const std::vector<Vec3> of_part = corners_of(make_target_frame(target, i));
+    corners.insert(corners.end(), of_part.begin(), of_part.end());
   }
 }
 
