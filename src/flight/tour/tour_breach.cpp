@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "vantage/error.h"
+
 namespace vantage::internal::flight::tour {
 
 std::vector<Breach> breaches_of_legs(const Tour& tour, const TourRequest& request, double deviation_m) {
@@ -16,6 +18,10 @@ std::vector<Breach> breaches_of_legs(const Tour& tour, const TourRequest& reques
   const Vec3& only = flight.points.front().position;
   if (!request.airspace->allows({only, only}, deviation_m)) breaches.push_back({});
   return breaches;
+}
+
+void check_has_visits(const Tour& tour) {
+  if (tour.visits.empty()) throw Error(ErrorCode::internal_defect, "a tour breaks its own limits", "", "");
 }
 
 TourProblem problem_of(const Tour& tour, const Breach& breach, const TourRequest& request, double deviation_m) {

@@ -18,6 +18,9 @@ struct Breach {
 /// Legs that the airspace of the request does not allow; of a flight that is one point, its first visit.
 std::vector<Breach> breaches_of_legs(const Tour& tour, const TourRequest& request, double deviation_m);
 
+/// Where a tour without visits breaks a limit nothing can be left out: throws Error(internal_defect).
+void check_has_visits(const Tour& tour);
+
 /// Of the target that is viewed on a leg, or next, else last; or that is visited. Of a tour with a visit.
 TourProblem problem_of(const Tour& tour, const Breach& breach, const TourRequest& request, double deviation_m);
 

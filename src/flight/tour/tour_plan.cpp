@@ -119,6 +119,7 @@ class MultirotorPlan {
       begin_at_turn(flown.course);
       const auto [tour, breaches] = judged(flown);
       if (breaches.empty()) return tour;
+      check_has_visits(tour);
       flown = without(problem_of(tour, breaches.front(), request_, 0), flown);
     }
   }

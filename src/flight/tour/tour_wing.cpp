@@ -444,6 +444,7 @@ class WingPlan {
       Tour tour = flown();
       const std::vector<Breach> breaches = breaches_of(tour);
       if (breaches.empty()) return tour;
+      check_has_visits(tour);
       std::vector<TourProblem> problems = best_->problems;
       std::vector<int> order;
       for (const std::size_t target : tour.order) order.push_back(static_cast<int>(target));
