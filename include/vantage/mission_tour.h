@@ -109,11 +109,11 @@ struct MissionTourOptions {
 VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& options = {},
                                           const Progress& progress = {});
 
-/// The tour as a plan for ground stations: photos where targets are seen, with yaw and gimbal pitch that centre them.
-/// Where several are viewed one after the other from one place, its point comes once for each, with a share of the
-/// hold. From a home it takes off; it returns there if the tour is closed. Heights are above the home, where there is
-/// one. Of a scene without a place on the earth it is x, y and z of the scene frame, which a table (CSV) alone can
-/// state.
+/// The tour as a plan for ground stations: photos where targets are seen, the camera turned so that they are whole in
+/// the picture. Where several are viewed one after the other from one place, its point comes once for each, with a
+/// share of the hold. From a home it takes off; it returns there if the tour is closed. Heights are above the home,
+/// where there is one. Of a scene without a place on the earth it is x, y and z of the scene frame, which a table (CSV)
+/// alone can state.
 VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission);
 /// The same as a format can state it: KML, GPX and GeoJSON have no heights above the home, and get those they know.
 /// Throws Error(not_georeferenced) where the format needs a place on the earth, and the scene has none.

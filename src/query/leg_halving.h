@@ -9,7 +9,7 @@ namespace vantage::internal::query {
 
 /// Calls look(piece, is_last) with these parts of a leg, and with both halves of each piece for which it returns true:
 /// longer ones first. A leg along a border is on neither side of it at any length. So there are at most so many pieces
-/// that may be halved, and of those of a whole leg that are left then none is longer than a 8192nd of it.
+/// that may be halved, and of those of a whole leg that are left then none is longer than an 8192nd of it.
 template <typename Look>
 void halve(const LegIntervals& parts, const Look& look) {
   constexpr int kMostPieces = 20'000;
