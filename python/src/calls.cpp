@@ -49,6 +49,7 @@ class Workers {
 
  private:
   [[noreturn]] void serve() {
+    const HeldSignals held;
     std::unique_lock lock(mutex_);
     while (true) {
       ++idle_;

@@ -93,6 +93,7 @@ auto computed_here(nb::object callback, int threads, Work&& work) {
   {
     const Released released;
     const Computing computing;
+    const HeldSignals held;
     try {
       with_threads(threads, [&] { value.emplace(work(bridge.progress_here())); });
     } catch (...) {

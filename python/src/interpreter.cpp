@@ -59,6 +59,19 @@ void wait_for_end() noexcept {
   while (true) pause();
 }
 
+HeldSignals::HeldSignals() {
+  sigset_t held;
+  sigemptyset(&held);
+  // Those of what the thread itself does are never held.
+  if (PyThread_get_thread_ident() != main_thread) {
+    sigfillset(&held);
+    for (const int own : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&held, own);
+  }
+  pthread_sigmask(SIG_BLOCK, &held, &before_);
+}
+
+HeldSignals::~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
 Computing::Computing() { ++computing; }
 Computing::~Computing() { --computing; }
 

@@ -6,6 +6,8 @@
 
 #include <nanobind/nanobind.h>
 
+#include <csignal>
+
 namespace vantage::python {
 
 namespace nb = nanobind;
@@ -24,6 +26,20 @@ bool is_ending();
 
 /// Waits until the process ends. For a thread that is not wanted any more.
 [[noreturn]] void wait_for_end() noexcept;
+
+/// While it lives, this thread and the threads that it makes take none of the process's signals: they are the main
+/// thread's, which wakes from what it waits for (say, the end of a thread) only where it takes Ctrl-C itself. A thread
+/// that makes others takes what is pending (Linux: clone). Does nothing on the main thread.
+class HeldSignals {
+ public:
+  HeldSignals();
+  ~HeldSignals();
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_ = {};
+};
 
 /// While it lives, someone computes: the end of the interpreter waits for it, for a while.
 class Computing {

@@ -85,6 +85,43 @@ def test_ctrl_c_while_the_main_thread_waits_for_one_in_vantage():
     assert "nanobind" not in said and "leaked" not in said and "terminate" not in said
 
 
+def test_threads_of_vantage_leave_signals_to_the_main_thread():
+    """Else one of them may take Ctrl-C, and the main thread goes on waiting."""
+    code, told, said = ended("""
+        def holds(task, number):
+            try:
+                with open(f"/proc/self/task/{task}/status") as status:
+                    held = next(line for line in status if line.startswith("SigBlk")).split()[1]
+            except (FileNotFoundError, ProcessLookupError):
+                return None  # it has ended
+            return bool(int(held, 16) >> (number - 1) & 1)
+
+        def tasks():
+            return {int(task) for task in os.listdir("/proc/self/task")}
+
+        def query():
+            while True:
+                result.query([[5, 5, 20]])
+
+        def compute():
+            vt.compute(scene, SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=256), work_limit=1e12)
+
+        result = vt.compute(scene, SQUARE, max_range=60)
+        before = tasks()
+        threading.Thread(target=query, daemon=True).start()
+        time.sleep(0.2)
+        before |= {thread.native_id for thread in threading.enumerate()}
+        print({holds(task, signal.SIGINT) for task in tasks() - before})
+        computing = threading.Thread(target=compute, daemon=True)
+        computing.start()
+        time.sleep(0.2)
+        seen = [holds(task, signal.SIGINT) for task in tasks() - before for _ in range(50) if not time.sleep(0.001)]
+        print(len(seen) > 50, set(seen) - {None}, holds(computing.native_id, signal.SIGSEGV))
+        print(holds(threading.main_thread().native_id, signal.SIGINT))
+        """)
+    assert (code, told, said) == (0, "{True}\nTrue {True} False\nFalse\n", "")
+
+
 def test_nothing_leaks_of_what_ends_by_itself():
     """Our warnings of leaks are off for others. Here they are on."""
     code, told, said = ended("""
