@@ -358,6 +358,31 @@ void shorten(Course& course, const CourseLimits& limits) {
   }
 }
 
+void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
+                    const std::function<bool()>& is_over) {
+  if (!limits.airspace) return;
+  std::vector<Stop>& stops = course.stops;
+  for (std::size_t i = 0; i < stops.size() && !is_over(); ++i) {
+    std::size_t next = i + 1;
+    while (next < stops.size() && stops[next].region == kBend) ++next;
+    if (stops[i].region == kBend || next == i + 1) continue;
+    std::vector<Vec3> points;
+    for (std::size_t k = i; k <= next; ++k) points.push_back(stops[k % stops.size()].point);
+    const auto way = find_way(*limits.airspace, {points.front(), points.back()}, draw, progress);
+    if (!way) continue;
+    std::vector<Vec3> drawn = {points.front()};
+    drawn.insert(drawn.end(), way->begin(), way->end());
+    drawn.push_back(points.back());
+    if (length_of(drawn) >= length_of(points)) continue;
+    const auto first = stops.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    stops.erase(first, stops.begin() + static_cast<std::ptrdiff_t>(next));
+    std::vector<Stop> bends;
+    for (const Vec3& point : *way) bends.push_back({kBend, point});
+    stops.insert(stops.begin() + static_cast<std::ptrdiff_t>(i) + 1, bends.begin(), bends.end());
+  }
+  shorten(course, limits);
+}
+
 FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,
                       const core::ProgressReporter& progress) {
   return ClearFlight(course, limits, draw, progress).run();

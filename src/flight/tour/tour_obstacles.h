@@ -1,6 +1,7 @@
 // Ways round obstacles, and courses that keep clear of them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,11 @@ struct FlownCourse {
 /// shortens the rest. Home must be allowed. On a call to stop it throws Error(cancelled).
 FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,
                       const core::ProgressReporter& progress);
+
+/// Draws the bends between stops anew, keeps those that make the way shorter, and shortens the course; between two
+/// stops it asks whether time is up. On a call to stop it throws Error(cancelled); all legs are allowed then, too.
+void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
+                    const std::function<bool()>& is_over);
 
 /// Moves stops and bends while that shortens the way, and leaves out bends, all legs staying allowed.
 void shorten(Course& course, const CourseLimits& limits);

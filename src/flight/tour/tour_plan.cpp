@@ -2,6 +2,7 @@
 // again.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/format.h"
@@ -24,6 +25,9 @@ namespace {
 
 constexpr double kOfTimeForOrder = 0.6;
 constexpr std::size_t kMostTried = 3;  ///< courses that are flown round obstacles
+constexpr int kMostRounds = 100;       ///< in which ways round obstacles are drawn anew
+constexpr int kMostIdle = 5;           ///< such rounds without a gain, one after the other
+constexpr double kLeastGain = 1e-5;    ///< relative to the length
 
 void check_request(const TourRequest& request) {
   check_tour_settings(request.settings);
@@ -125,26 +129,39 @@ class MultirotorPlan {
   }
 
  private:
+  /// After a call to stop, what was found is still made safe.
+  bool is_over() const { return end_ == Tour::End::cancelled || watch_.seconds() > request_.settings.time_limit_s; }
+
   FlownCourse fly(const std::vector<Course>& courses) {
-    const CourseLimits limits = {regions_, request_.airspace.get()};
     std::optional<FlownCourse> best;
     for (const Course& course : courses) {
-      // After a call to stop, the first course is still made safe.
-      const bool is_over = end_ == Tour::End::cancelled || watch_.seconds() > request_.settings.time_limit_s;
-      if (best && is_over) break;
-      Draw draw(request_.seed);
-      try {
-        const FlownCourse flown = fly_clear(course, limits, draw, is_over ? core::ProgressReporter() : progress_);
-        if (!best || is_better(flown, *best)) best = flown;
-      } catch (const Error& error) {
-        if (error.code() != ErrorCode::cancelled) throw;
-        end_ = Tour::End::cancelled;
-        if (best) break;
-        Draw again(request_.seed);
-        best = fly_clear(course, limits, again, {});
-      }
+      if (best && is_over()) break;
+      const std::optional<FlownCourse> flown = clear_of_obstacles(course, !best);
+      if (flown && (!best || is_better(*flown, *best))) best = flown;
     }
     return *best;
+  }
+
+  /// Nothing where it was told to stop, unless it `must` find one.
+  std::optional<FlownCourse> clear_of_obstacles(const Course& course, bool must) {
+    const CourseLimits limits = {regions_, request_.airspace.get()};
+    std::optional<FlownCourse> flown;
+    try {
+      Draw draw(request_.seed);
+      flown = fly_clear(course, limits, draw, is_over() ? core::ProgressReporter() : progress_);
+      int idle = 0;
+      for (int round = 0; round < kMostRounds && idle < kMostIdle && !is_over(); ++round) {
+        const double before = flown->course.length_m();
+        draw_ways_anew(flown->course, limits, draw, progress_, [this] { return is_over(); });
+        idle = flown->course.length_m() < before * (1 - kLeastGain) ? 0 : idle + 1;
+      }
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::cancelled) throw;
+      end_ = Tour::End::cancelled;
+    }
+    if (flown || !must) return flown;
+    Draw draw(request_.seed);
+    return fly_clear(course, limits, draw, {});
   }
 
   struct Judged {
