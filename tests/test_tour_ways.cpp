@@ -19,6 +19,7 @@ using internal::flight::tour::CourseLimits;
 using internal::flight::tour::Draw;
 using internal::flight::tour::draw_ways_anew;
 using internal::flight::tour::fly_clear;
+using internal::flight::tour::join_bends;
 using internal::flight::tour::Stop;
 using testing::BoxAirspace;
 
@@ -66,6 +67,25 @@ TEST(TourWays, DrawnAnewComeNearToTheShortestOne) {
     if (course.length_m() < 0.999 * once) ++shortened;
   }
   EXPECT_GT(shortened, 5);
+}
+
+TEST(TourWays, BendsAreJoinedWhereThatMakesThemLittleLonger) {
+  const BoxAirspace airspace = walled();
+  const CourseLimits limits = {kNoRegions, &airspace};
+  std::size_t bends = 0, joined = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Draw draw(seed);
+    Course course = flown_once(limits, draw);
+    for (int round = 0; round < 10; ++round) draw_ways_anew(course, limits, draw, ProgressReporter(), never);
+    const double before = course.length_m();
+    bends += course.stops.size() - 2;
+    join_bends(course, limits);
+    joined += course.stops.size() - 2;
+    EXPECT_LE(course.length_m(), before * (1 + 1.0001e-3)) << seed;
+    EXPECT_EQ(course.stops.front().point, kFrom);
+    expect_allowed(course, airspace);
+  }
+  EXPECT_LT(joined, 0.75 * static_cast<double>(bends)) << joined << " of " << bends;
 }
 
 TEST(TourWays, AreLeftAsTheyAreWhenTimeIsUp) {

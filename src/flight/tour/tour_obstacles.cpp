@@ -1,6 +1,7 @@
 #include "flight/tour/tour_obstacles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -285,6 +286,35 @@ class ClearFlight {
   std::vector<TourProblem> problems_;
 };
 
+struct JoinedBend {
+  Vec3 point;
+  double longer_m;  ///< than before
+};
+
+/// Where the lines of two legs come nearest to each other: from[0] to from[1], and to[0] to to[1]; both go on.
+std::optional<Vec3> crossing(const std::array<Vec3, 2>& from, const std::array<Vec3, 2>& to) {
+  const Vec3 u = from[1] - from[0], v = to[1] - to[0], w = to[0] - from[0];
+  const double square = u.cross(v).squaredNorm();
+  if (!(square > 0)) return std::nullopt;
+  const Vec3 normal = u.cross(v);
+  const double s = w.cross(v).dot(normal) / square, t = w.cross(u).dot(normal) / square;
+  return Vec3((from[0] + s * u + to[0] + t * v) / 2);
+}
+
+/// One bend in the place of the two in the middle of a way, where the way is shortest.
+std::optional<JoinedBend> joined_bend(const std::array<Vec3, 4>& way, const CourseLimits& limits) {
+  const auto& [from, a, b, to] = way;
+  std::optional<JoinedBend> best;
+  const auto offer = [&](const Vec3& point) {
+    const double longer = way_length(from, point, to, 0) - (a - from).norm() - (b - a).norm() - (to - b).norm();
+    if (best && longer >= best->longer_m) return;
+    if (limits.allows(from, point) && limits.allows(point, to)) best = {point, longer};
+  };
+  if (const auto point = crossing({from, a}, {to, b})) offer(*point);
+  for (const Vec3& point : {Vec3((a + b) / 2), a, b}) offer(point);
+  return best;
+}
+
 /// Moves one stop or bend, if that shortens the way past it.
 bool improve_stop(Course& course, const CourseLimits& limits, std::size_t i) {
   Stop& stop = course.stops[i];
@@ -381,6 +411,31 @@ void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, cons
     stops.insert(stops.begin() + static_cast<std::ptrdiff_t>(i) + 1, bends.begin(), bends.end());
   }
   shorten(course, limits);
+}
+
+void join_bends(Course& course, const CourseLimits& limits) {
+  constexpr double kMostLonger = 1e-3;
+  constexpr int kSweeps = 6;
+  std::vector<Stop>& stops = course.stops;
+  const double most = course.length_m() * (1 + kMostLonger);
+  double length = course.length_m();
+  // What costs least goes first.
+  for (int sweep = 1; sweep <= kSweeps; ++sweep) {
+    const double most_each = std::ldexp(most * kMostLonger, 2 * (sweep - kSweeps));
+    for (std::size_t i = 1; i + 1 < stops.size();) {
+      const Vec3 *from = course.before(i), *to = course.after(i + 1);
+      const bool are_bends = stops[i].region == kBend && stops[i + 1].region == kBend && from && to;
+      const auto joined = are_bends ? joined_bend({*from, stops[i].point, stops[i + 1].point, *to}, limits)
+                                    : std::optional<JoinedBend>();
+      if (!joined || joined->longer_m > std::min(most_each, most - length)) {
+        ++i;
+        continue;
+      }
+      length += joined->longer_m;
+      stops[i].point = joined->point;
+      stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
+  }
 }
 
 FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,

@@ -45,6 +45,9 @@ FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& dr
 void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
                     const std::function<bool()>& is_over);
 
+/// Makes one bend of two where the way gets little longer, by a thousandth in all at most: the vehicle brakes at each.
+void join_bends(Course& course, const CourseLimits& limits);
+
 /// Moves stops and bends while that shortens the way, and leaves out bends, all legs staying allowed.
 void shorten(Course& course, const CourseLimits& limits);
 

@@ -155,6 +155,8 @@ class MultirotorPlan {
         draw_ways_anew(flown->course, limits, draw, progress_, [this] { return is_over(); });
         idle = flown->course.length_m() < before * (1 - kLeastGain) ? 0 : idle + 1;
       }
+      join_bends(flown->course, limits);
+      shorten(flown->course, limits);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::cancelled) throw;
       end_ = Tour::End::cancelled;
