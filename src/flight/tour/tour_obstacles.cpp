@@ -390,7 +390,6 @@ void shorten(Course& course, const CourseLimits& limits) {
 
 void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
                     const std::function<bool()>& is_over) {
-  if (!limits.airspace) return;
   std::vector<Stop>& stops = course.stops;
   for (std::size_t i = 0; i < stops.size() && !is_over(); ++i) {
     std::size_t next = i + 1;

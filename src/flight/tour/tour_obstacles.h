@@ -41,7 +41,8 @@ FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& dr
                       const core::ProgressReporter& progress);
 
 /// Draws the bends between stops anew, keeps those that make the way shorter, and shortens the course; between two
-/// stops it asks whether time is up. On a call to stop it throws Error(cancelled); all legs are allowed then, too.
+/// stops it asks whether time is up. There must be an airspace. On a call to stop it throws Error(cancelled); all legs
+/// are allowed then, too.
 void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
                     const std::function<bool()>& is_over);
 

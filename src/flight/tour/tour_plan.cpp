@@ -149,14 +149,7 @@ class MultirotorPlan {
     try {
       Draw draw(request_.seed);
       flown = fly_clear(course, limits, draw, is_over() ? core::ProgressReporter() : progress_);
-      int idle = 0;
-      for (int round = 0; round < kMostRounds && idle < kMostIdle && !is_over(); ++round) {
-        const double before = flown->course.length_m();
-        draw_ways_anew(flown->course, limits, draw, progress_, [this] { return is_over(); });
-        idle = flown->course.length_m() < before * (1 - kLeastGain) ? 0 : idle + 1;
-      }
-      join_bends(flown->course, limits);
-      shorten(flown->course, limits);
+      draw_ways(flown->course, draw);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::cancelled) throw;
       end_ = Tour::End::cancelled;
@@ -164,6 +157,19 @@ class MultirotorPlan {
     if (flown || !must) return flown;
     Draw draw(request_.seed);
     return fly_clear(course, limits, draw, {});
+  }
+
+  void draw_ways(Course& course, Draw& draw) const {
+    if (!request_.airspace) return;
+    const CourseLimits limits = {regions_, request_.airspace.get()};
+    int idle = 0;
+    for (int round = 0; round < kMostRounds && idle < kMostIdle && !is_over(); ++round) {
+      const double before = course.length_m();
+      draw_ways_anew(course, limits, draw, progress_, [this] { return is_over(); });
+      idle = course.length_m() < before * (1 - kLeastGain) ? 0 : idle + 1;
+    }
+    join_bends(course, limits);
+    shorten(course, limits);
   }
 
   struct Judged {
