@@ -272,8 +272,11 @@ void FrameSurfaceBuilder::aim_nodes() {
     }
   });
   const auto learn = [&](Node& node, const Node& neighbour) {
-    if (!(std::max(neighbour.view.distance(node.direction), view_.least) < kBetter * node.best)) return false;
-    node.view = finder_.best(node.direction, neighbour.view.aim);
+    const double its_distance = neighbour.view.distance(node.direction);
+    if (!(std::max(its_distance, view_.least) < kBetter * node.best)) return false;
+    // The search from there may end at a worse one: then the same would be learnt again and again.
+    const AimedView found = finder_.best(node.direction, neighbour.view.aim);
+    node.view = found.distance(node.direction) <= its_distance ? found : neighbour.view;
     node.best = std::max(node.view.distance(node.direction), view_.least);
     return true;
   };
