@@ -101,7 +101,7 @@ set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VI
 vantage_join_sources(vantage_helpers)
 
 vantage_component(core
-  MODULES core options geo io scene target query camera sensor prove simplify
+  MODULES core request options geo io scene target query camera sensor prove simplify
   HOT exact
   SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
   LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${CMAKE_DL_LIBS}

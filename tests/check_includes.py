@@ -37,7 +37,8 @@ class NotIn(NamedTuple):
 # src/ ("scene/prepared_data.h"), never by ../. What a module may include comes before it: there are no circles.
 MODULES = {
     "core": [],
-    "options": ["core"],
+    "request": ["core"],
+    "options": ["core", "request"],
     "geo": ["core"],
     "camera": ["core"],
     "io": ["core", "geo", "camera"],
@@ -56,7 +57,7 @@ MODULES = {
     "maps/osm": ["core", "geo"],
     "maps/terrain": ["core", "geo"],
     "maps/city": ["core", "geo", "solid", "maps/osm", "maps/terrain"],
-    "app": ["core", "options", "geo", "io", "scene", "target", "app/components"],
+    "app": ["core", "request", "options", "geo", "io", "scene", "target", "app/components"],
     # What may be missing from a build: each file here has a counterpart without_<component>.cpp.
     "app/components": ["core", "geo", "io", "scene", "app", "solid", "depth", "spheres",
                        "maps/osm", "maps/terrain", "maps/city"],

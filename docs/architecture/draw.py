@@ -25,7 +25,8 @@ MODULES = {  # name: (left, top, width, what it does)
     "geo": (20, 554, 210, "where on the earth (PROJ)"),
     "camera": (250, 554, 150, "cameras by name"),
     "sensor": (420, 554, 240, "limits of the sensor, for points"),
-    "options": (680, 554, 300, "of maps, spheres, devices: names, ranges"),
+    "options": (680, 554, 190, "of maps, memory, devices"),
+    "request": (890, 554, 150, "keys, once each"),
     "core": (20, 644, 1020, "geometry, errors, progress, threads (oneTBB), whole files"),
 }
 USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"), ("cli", "prove"),
@@ -33,7 +34,7 @@ USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"),
         ("query", "exact"), ("picture", "depth"), ("maps/city", "maps/osm"), ("maps/city", "maps/terrain"),
         ("spheres", "solid"), ("exact", "target"), ("depth", "scene"), ("target", "scene"), ("io", "geo"),
         ("io", "camera"), ("scene", "core"), ("geo", "core"), ("camera", "core"),
-        ("options", "core")]
+        ("options", "core"), ("request", "core")]
 HEIGHT = 58
 
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.h"
+#include "request/describe_spheres.h"
+#include "request/json_object.h"
 #include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/mission.h"
@@ -116,16 +118,9 @@ SortedJson sorted_json_of(const Target& target) {
 }
 
 SortedJson sorted_json_of(const SpheresOptions& options) {
-  SortedJson json = {{"sphere", options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative"},
-                     {"cubemap", number_text(options.cubemap)},
-                     {"merge", number_text(options.merge)},
-                     {"split", options.split == SpheresOptions::Split::always ? "always" : "euler"},
-                     {"max_splits", number_text(options.max_splits)},
-                     {"min_edge_m", number_text(options.min_edge_m)}};
-  json["resolution"] = options.resolution
-                           ? SortedJson{number_text((*options.resolution)[0]), number_text((*options.resolution)[1])}
-                           : SortedJson();
-  return json;
+  internal::request::JsonObject<SortedJson, decltype(&number_text)> object(number_text);
+  describe(options, object);
+  return object.json();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/described_section.h"
 #include "app/input_file.h"
 #include "app/links_section.h"
 #include "app/navigation_section.h"
@@ -12,10 +13,11 @@
 #include "app/scene_section.h"
 #include "app/schema.h"
 #include "app/sensor_section.h"
-#include "app/spheres_section.h"
 #include "app/target_section.h"
-#include "app/tour_section.h"
 #include "app/value_reader.h"
+#include "options/spheres_options.h"
+#include "request/describe_spheres.h"
+#include "request/describe_tour.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -49,6 +51,7 @@ class MissionParser : private ValueReader {
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
   void parse_exact(const YamlNode& node);
+  void parse_spheres(const YamlNode& node);
   void parse_work_limit(const YamlNode& node);
 
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
@@ -74,9 +77,9 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   }
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
   if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
-  if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, mission_.spheres);
+  if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres);
   if (const YamlNode* tour = find(root, "tour")) {
-    mission_.tour = parse_tour(*tour, *this);
+    read_section(*tour, *this, mission_.tour.emplace());
     mission_.places.tour = place_in(file(), tour->place);
   }
   if (const YamlNode* links = find(root, "links")) mission_.links = parse_links(*links, *this);
@@ -207,6 +210,14 @@ void MissionParser::parse_method(const YamlNode& node) {
     fail(ErrorCode::unknown_choice, node, "there is no method " + in_quotes(method),
          "write 'method: exact' or 'method: spheres'");
   }
+}
+
+void MissionParser::parse_spheres(const YamlNode& node) {
+  read_section(node, *this, mission_.spheres);
+  with_place(place_in(file(), node.place), [&] {
+    options::check_options(mission_.spheres);
+    return 0;
+  });
 }
 
 void MissionParser::parse_exact(const YamlNode& node) {

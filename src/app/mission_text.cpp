@@ -6,10 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "app/described_section.h"
 #include "app/links_section.h"
 #include "app/sensor_section.h"
-#include "app/tour_section.h"
 #include "app/value_reader.h"
+#include "request/describe_spheres.h"
+#include "request/describe_tour.h"
 #include "vantage/city.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
@@ -75,8 +77,8 @@ class Writer {
     text += std::string("method: ") + name_of(mission_.method) + "\n";
     text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
     if (mission_.exact.work_limit != kWorkLimit) text += "work_limit: " + shortest(mission_.exact.work_limit) + "\n";
-    text += spheres();
-    if (mission_.tour) text += internal::app::tour_section_text(*mission_.tour);
+    text += internal::app::section_text(mission_.spheres);
+    if (mission_.tour) text += internal::app::section_text(*mission_.tour);
     text += internal::app::links_section_text(mission_.links);
     return text;
   }
@@ -309,36 +311,6 @@ class Writer {
     }
     if (!meshes.empty()) section.add("meshes", "[" + meshes + "]");
     return section.text();
-  }
-
-  std::string spheres() const {
-    const SpheresOptions& options = mission_.spheres;
-    Section section("spheres");
-    section.add("sphere", options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative");
-    section.add("cubemap", options.cubemap);
-    if (options.resolution) section.add("resolution", list_of(*options.resolution));
-    section.add("merge", options.merge);
-    section.add("split", options.split == SpheresOptions::Split::always ? "always" : "euler");
-    section.add("max_splits", options.max_splits);
-    section.add("min_edge", options.min_edge_m);
-    section.add("device", text_of(options.device));
-    return section.text();
-  }
-
-  static std::string text_of(const DeviceChoice& device) {
-    switch (device.kind) {
-      case DeviceChoice::Kind::automatic:
-        return "auto";
-      case DeviceChoice::Kind::cpu:
-        return "cpu";
-      case DeviceChoice::Kind::opengl:
-        return "opengl";
-      case DeviceChoice::Kind::gpu:
-        return "gpu";
-      case DeviceChoice::Kind::index:
-        return quoted(std::to_string(device.index));
-    }
-    return "auto";
   }
 
   const MissionFile& mission_;

@@ -5,6 +5,8 @@
 #include "app/point_json.h"
 #include "core/text.h"
 #include "io/georeference_text.h"
+#include "request/describe_spheres.h"
+#include "request/json_object.h"
 #include "vantage/hash.h"
 #include "vantage/result.h"
 #include "vantage/version.h"
@@ -54,16 +56,12 @@ Json json_of(const SpheresRun& run) {
   json["device"] = {
       {"kind", name_of(report.device.kind)}, {"name", report.device.name}, {"driver", report.device.driver}};
   if (!report.device_note.empty()) json["device"]["note"] = report.device_note;
-  json["sphere"] = options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative";
-  if (options.resolution) {
-    json["resolution"] = *options.resolution;
-  } else {
-    json["cubemap"] = options.cubemap;
-  }
-  json["merge"] = options.merge;
-  json["split"] = options.split == SpheresOptions::Split::always ? "always" : "euler";
-  json["max_splits"] = options.max_splits;
-  json["min_edge_m"] = options.min_edge_m;
+  // Numbers without a fraction stay whole ones.
+  const auto number_as = [](auto value) { return Json(value); };
+  internal::request::JsonObject<Json, decltype(number_as)> object(number_as);
+  describe(options, object);
+  json.update(object.json());
+  json.erase(options.resolution ? "cubemap" : "resolution");  // the one that does not count
   json["spheres"] = report.spheres;
   json["pairs"] = report.pairs;
   json["splits"] = report.splits;

@@ -2,66 +2,70 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
+#include "request/describe_spheres.h"
+#include "request/describe_tour.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
 
-struct SectionKeys {
-  Section section;
-  std::string_view name;
-  std::vector<std::string_view> keys;
-};
+using request::KeyList;
 
-const std::array<SectionKeys, 23>& table() {
-  static const std::array<SectionKeys, 23> kTable = {{
+const std::array<std::pair<Section, KeyList>, 18>& table() {
+  static const std::array<std::pair<Section, KeyList>, 18> kTable = {{
       {Section::mission,
-       "the mission",
-       {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres", "tour",
-        "links", "work_limit"}},
+       {"the mission",
+        {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres", "tour",
+         "links", "work_limit"}}},
       {Section::scene,
-       "scene",
-       {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "attribution", "center", "radius",
-        "bbox", "terrain", "error", "without", "defaults", "frame"}},
-      {Section::target, "target", {"name",   "vertices", "edges",  "parts",   "point",   "outline", "holes", "osm",
-                                   "object", "at",       "part",   "facing",  "nearest", "center",  "file",  "feature",
-                                   "volume", "width",    "length", "heading", "offset",  "front",   "sides"}},
+       {"scene",
+        {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "attribution", "center", "radius",
+         "bbox", "terrain", "error", "without", "defaults", "frame"}}},
+      {Section::target, {"target", {"name",   "vertices", "edges",  "parts",   "point",   "outline", "holes", "osm",
+                                    "object", "at",       "part",   "facing",  "nearest", "center",  "file",  "feature",
+                                    "volume", "width",    "length", "heading", "offset",  "front",   "sides"}}},
       {Section::sensor,
-       "sensor",
-       {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos",
-        "link", "visible", "cells"}},
-      {Section::camera, "sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}},
-      {Section::mount, "sensor.mount", {"yaw", "pitch", "roll"}},
-      {Section::gimbal, "sensor.gimbal", {"yaw", "pitch", "roll"}},
-      {Section::pixel, "sensor.pixel", {"size", "kind"}},
-      {Section::sun, "sensor.sun", {"time", "azimuth", "elevation", "exclude"}},
-      {Section::vlos, "sensor.vlos", {"aircraft_size", "kind", "visibility", "eye_height"}},
-      {Section::link, "sensor.link", {"frequency", "clear"}},
+       {"sensor",
+        {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos",
+         "link", "visible", "cells"}}},
+      {Section::camera, {"sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}}},
+      {Section::mount, {"sensor.mount", {"yaw", "pitch", "roll"}}},
+      {Section::gimbal, {"sensor.gimbal", {"yaw", "pitch", "roll"}}},
+      {Section::pixel, {"sensor.pixel", {"size", "kind"}}},
+      {Section::sun, {"sensor.sun", {"time", "azimuth", "elevation", "exclude"}}},
+      {Section::vlos, {"sensor.vlos", {"aircraft_size", "kind", "visibility", "eye_height"}}},
+      {Section::link, {"sensor.link", {"frequency", "clear"}}},
       {Section::navigation,
-       "navigation",
-       {"altitude", "ground", "clearance", "keep_in", "boxes", "keep_out", "meshes"}},
-      {Section::altitude, "navigation.altitude", {"agl", "z"}},
-      {Section::zone, "a zone", {"min", "max", "polygon", "holes", "file", "z", "agl", "heights"}},
-      {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},
-      {Section::exact, "exact", {"tolerance"}},
-      {Section::spheres,
-       "spheres",
-       {"sphere", "cubemap", "resolution", "merge", "split", "max_splits", "min_edge", "device"}},
-      {Section::frame, "scene.frame", {"origin", "ground", "reach"}},
-      {Section::tour, "tour", {"vehicle", "home", "closed", "view", "gimbal", "clearance", "gap", "time_limit"}},
-      {Section::vehicle, "tour.vehicle", {"kind", "speed", "acceleration", "turn_radius", "climb"}},
-      {Section::tour_view, "tour.view", {"dwell", "margin", "simultaneous"}},
-      {Section::tour_gimbal, "tour.gimbal", {"rate"}},
+       {"navigation", {"altitude", "ground", "clearance", "keep_in", "boxes", "keep_out", "meshes"}}},
+      {Section::altitude, {"navigation.altitude", {"agl", "z"}}},
+      {Section::zone, {"a zone", {"min", "max", "polygon", "holes", "file", "z", "agl", "heights"}}},
+      {Section::mesh, {"an entry of navigation.meshes", {"mesh", "up", "scale"}}},
+      {Section::exact, {"exact", {"tolerance"}}},
+      {Section::frame, {"scene.frame", {"origin", "ground", "reach"}}},
       {Section::flight_link,
-       "an entry of links",
-       {"name", "point", "at", "height", "max_range", "vlos", "frequency", "clear"}},
+       {"an entry of links", {"name", "point", "at", "height", "max_range", "vlos", "frequency", "clear"}}},
   }};
   return kTable;
 }
 
-const SectionKeys& row(Section section) { return table()[static_cast<std::size_t>(section)]; }
+const KeyList& list_of(Section section) { return table()[static_cast<std::size_t>(section)].second; }
+
+/// All of them.
+const std::vector<const KeyList*>& lists() {
+  static const std::array kDescribed = {request::key_lists<SpheresOptions>(), request::key_lists<TourSettings>()};
+  static const std::vector<const KeyList*> kLists = [] {
+    std::vector<const KeyList*> all;
+    for (const auto& [section, list] : table()) all.push_back(&list);
+    for (const std::vector<KeyList>& section : kDescribed) {
+      for (const KeyList& list : section) all.push_back(&list);
+    }
+    return all;
+  }();
+  return kLists;
+}
 
 std::string joined(const std::vector<std::string_view>& words) {
   std::string text;
@@ -69,38 +73,37 @@ std::string joined(const std::vector<std::string_view>& words) {
   return text;
 }
 
-/// The section, other than `section`, that knows `key`; null when none does.
-const SectionKeys* owner_of(std::string_view key, Section section) {
-  for (const SectionKeys& candidate : table()) {
-    if (candidate.section == section) continue;
-    if (std::find(candidate.keys.begin(), candidate.keys.end(), key) != candidate.keys.end()) return &candidate;
+/// The list, other than `known`, that has `key`; null when none does.
+const KeyList* owner_of(std::string_view key, const KeyList& known) {
+  for (const KeyList* candidate : lists()) {
+    if (candidate->name == known.name) continue;
+    if (std::find(candidate->keys.begin(), candidate->keys.end(), key) != candidate->keys.end()) return candidate;
   }
   return nullptr;
 }
 
-[[noreturn]] void fail_unknown(const YamlEntry& entry, Section section, const std::string& file) {
-  const std::vector<std::string_view>& keys = row(section).keys;
-  const std::string_view nearest = nearest_name(entry.key, keys);
-  const std::string known = " (keys of " + std::string(row(section).name) + ": " + joined(keys) + ")";
+[[noreturn]] void fail_unknown(const YamlEntry& entry, const KeyList& list, const std::string& file) {
+  const std::string_view nearest = nearest_name(entry.key, list.keys);
+  const std::string known = " (keys of " + list.name + ": " + joined(list.keys) + ")";
   std::string fix = "did you mean '" + std::string(nearest) + "'?" + known;
   // What {max_range: 1,000} holds.
   if (!entry.key.empty() && entry.key.find_first_not_of("0123456789") == std::string::npos)
     fix = "write numbers without a comma: 1000" + known;
   // A key that is right elsewhere is more likely misplaced than misspelt, unless it is one slip from a key of this
   // place.
-  if (const SectionKeys* owner = owner_of(entry.key, section); owner && edit_distance(entry.key, nearest) > 1) {
-    fix = "'" + entry.key + "' belongs to " + std::string(owner->name) + "; the nearest key here is '" +
-          std::string(nearest) + "'" + known;
+  if (const KeyList* owner = owner_of(entry.key, list); owner && edit_distance(entry.key, nearest) > 1) {
+    fix = "'" + entry.key + "' belongs to " + owner->name + "; the nearest key here is '" + std::string(nearest) + "'" +
+          known;
   }
-  throw Error(ErrorCode::unknown_key, "unknown key " + in_quotes(entry.key) + " in " + std::string(row(section).name),
+  throw Error(ErrorCode::unknown_key, "unknown key " + in_quotes(entry.key) + " in " + list.name,
               place_in(file, entry.place), fix);
 }
 
 }  // namespace
 
-std::string_view section_name(Section section) { return row(section).name; }
+std::string_view section_name(Section section) { return list_of(section).name; }
 
-const std::vector<std::string_view>& known_keys(Section section) { return row(section).keys; }
+const std::vector<std::string_view>& known_keys(Section section) { return list_of(section).keys; }
 
 const YamlNode* find(const YamlNode& map, std::string_view key) {
   for (const YamlEntry& entry : map.entries) {
@@ -110,15 +113,19 @@ const YamlNode* find(const YamlNode& map, std::string_view key) {
 }
 
 void check_keys(const YamlNode& node, Section section, const std::string& file) {
+  check_keys(node, list_of(section), file);
+}
+
+void check_keys(const YamlNode& node, const KeyList& known, const std::string& file) {
   if (node.kind != YamlNode::Kind::map) {
-    std::string fix = "write its keys, indented, as 'key: value': " + joined(known_keys(section));
-    if (section == Section::camera) fix = "for a camera by name write {model: NAME}; else " + fix;
-    fail_at(ErrorCode::wrong_type, node, file,
-            std::string(section_name(section)) + " must be a mapping of keys, not " + describe(node), fix);
+    std::string fix = "write its keys, indented, as 'key: value': " + joined(known.keys);
+    if (&known == &list_of(Section::camera)) fix = "for a camera by name write {model: NAME}; else " + fix;
+    fail_at(ErrorCode::wrong_type, node, file, known.name + " must be a mapping of keys, not " + describe(node), fix);
   }
   for (const YamlEntry& entry : node.entries) {
-    const std::vector<std::string_view>& keys = known_keys(section);
-    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) fail_unknown(entry, section, file);
+    if (std::find(known.keys.begin(), known.keys.end(), entry.key) == known.keys.end()) {
+      fail_unknown(entry, known, file);
+    }
   }
 }
 

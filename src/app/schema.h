@@ -1,4 +1,4 @@
-// The keys of a mission file, all in one table, and the errors about them.
+// The keys of a mission file, and the errors about them.
 #pragma once
 
 #include <initializer_list>
@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "app/yaml_tree.h"
+#include "request/key_lists.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::app {
 
-/// The sections of a mission file. A section's keys, and nothing else, may stand in its map.
+/// The sections of a mission file that src/request/ does not describe. A section's keys, and nothing else, may stand in
+/// its map.
 enum class Section {
   mission,
   scene,
@@ -29,12 +31,7 @@ enum class Section {
   zone,
   mesh,
   exact,
-  spheres,
   frame,
-  tour,
-  vehicle,
-  tour_view,
-  tour_gimbal,
   flight_link
 };
 
@@ -49,6 +46,8 @@ const YamlNode* find(const YamlNode& map, std::string_view key);
 /// Throws Error(input) unless `node` is a map with known keys only. For an unknown key the error names the nearest
 /// known one, or the section that it belongs to.
 void check_keys(const YamlNode& node, Section section, const std::string& file);
+/// The same of a map of a described section.
+void check_keys(const YamlNode& node, const request::KeyList& known, const std::string& file);
 
 /// Throws Error(input) at `node`.
 [[noreturn]] void fail_at(ErrorCode code, const YamlNode& node, const std::string& file, const std::string& problem,

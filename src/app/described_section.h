@@ -1,0 +1,114 @@
+// Reads and writes a section of a mission file that is described (request/description.h).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/value_reader.h"
+#include "app/yaml_tree.h"
+#include "request/description.h"
+#include "request/key_lists.h"
+#include "vantage/devices.h"
+#include "vantage/tour_settings.h"
+
+namespace vantage::internal::app {
+
+/// A visitor that sets what the section says. Throws Error(input) with the place.
+class SectionReader : request::Visitor {
+ public:
+  /// `lists`: key_lists() of what is read.
+  SectionReader(const YamlNode& section, const std::vector<request::KeyList>& lists, const ValueReader& reader);
+
+  template <typename Value, typename Choices>
+  void choice(const request::Key& key, Value& value, const Choices& choices) {
+    const YamlNode* const node = required(key);
+    if (node == nullptr) return;
+    const std::string word = reader_.text(*node, name_of(key));
+    std::vector<std::string_view> words;
+    for (const auto& [one, its_word] : choices) {
+      if (word == its_word) {
+        value = one;
+        return;
+      }
+      words.push_back(its_word);
+    }
+    fail_choice(key, *node, word, words);
+  }
+  void number(const request::Key& key, double& value, const request::Bounds& bounds, const request::Only& only) const;
+  void pair(const request::Key& key, double& low, const request::Bounds& of_low, double& high,
+            const request::Bounds& of_high, const request::Only& only) const;
+  void whole(const request::Key& key, int& value, const request::Bounds& bounds) const;
+  void flag(const request::Key& key, bool& value) const;
+  void grid(const request::Key& key, std::optional<std::array<int, 2>>& value, const request::Bounds& of_first,
+            const request::Bounds& of_second) const;
+  void device(const request::Key& key, DeviceChoice& value) const;
+  void home(const request::Key& key, std::optional<TourHome>& value) const;
+
+ private:
+  std::string name_of(const request::Key& key) const { return section_ + "." + std::string(key.path); }
+  /// Null where the section does not have it.
+  const YamlNode* node_of(std::string_view path) const;
+  const YamlNode* required(const request::Key& key) const;
+  const YamlNode* node_for(const request::Key& key, const request::Only& only) const;
+  int whole_of(const YamlNode& node, const std::string& name) const;
+  double value_of(const YamlNode& node, const std::string& name, const request::Bounds& bounds) const;
+  [[noreturn]] void fail_choice(const request::Key& key, const YamlNode& node, const std::string& word,
+                                const std::vector<std::string_view>& words) const;
+
+  const YamlNode& root_;
+  const ValueReader& reader_;
+  std::string section_;
+};
+
+/// A visitor that writes all keys: text() reads back as the same.
+class SectionWriter : request::Visitor {
+ public:
+  explicit SectionWriter(std::string_view section) : text_(std::string(section) + ":\n") {}
+
+  template <typename Value, typename Choices>
+  void choice(const request::Key& key, const Value& value, const Choices& choices) {
+    for (const auto& [one, word] : choices) {
+      if (one == value) add(key.path, std::string(word));
+    }
+  }
+  void number(const request::Key& key, double value, const request::Bounds& bounds, const request::Only& only);
+  void pair(const request::Key& key, double low, const request::Bounds& of_low, double high,
+            const request::Bounds& of_high, const request::Only& only);
+  void whole(const request::Key& key, int value, const request::Bounds& /*bounds*/) {
+    add(key.path, std::to_string(value));
+  }
+  void grid(const request::Key& key, const std::optional<std::array<int, 2>>& value, const request::Bounds& of_first,
+            const request::Bounds& of_second);
+  void device(const request::Key& key, const DeviceChoice& value);
+  void flag(const request::Key& key, bool value) { add(key.path, value ? "true" : "false"); }
+  void home(const request::Key& key, const std::optional<TourHome>& value);
+
+  std::string text();
+
+ private:
+  void add(std::string_view path, const std::string& value);
+  void close();
+
+  std::string text_;
+  std::string map_;  ///< that is open: "view"
+};
+
+/// What the section does not say stays as it is.
+template <typename Settings>
+void read_section(const YamlNode& node, const ValueReader& reader, Settings& settings) {
+  static const std::vector<request::KeyList> kLists = request::key_lists<Settings>();
+  SectionReader visit(node, kLists, reader);
+  describe(settings, visit);
+}
+
+template <typename Settings>
+std::string section_text(const Settings& settings) {
+  SectionWriter visit(request::kSection<Settings>);
+  describe(settings, visit);
+  return visit.text();
+}
+
+}  // namespace vantage::internal::app

@@ -1,0 +1,108 @@
+#include "request/description.h"
+
+#include <cmath>
+
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::request {
+namespace {
+
+/// As errors write them.
+std::string_view words_of(Unit unit) {
+  switch (unit) {
+    case Unit::none:
+      return "";
+    case Unit::degrees_per_second:
+      return "degrees per second";
+    case Unit::metres_per_second_squared:
+      return "m/s2";
+    default:
+      return symbol_of(unit);
+  }
+}
+
+/// "86,400".
+std::string grouped(double value) {
+  std::string text = shortest(value);
+  constexpr std::size_t kGroup = 3, kShortest = 5;  // of digits: 1000, but 10,000
+  if (text.find_first_not_of("0123456789") != std::string::npos || text.size() < kShortest) return text;
+  for (std::size_t at = text.size() - kGroup;; at -= kGroup) {
+    text.insert(at, ",");
+    if (at <= kGroup) return text;
+  }
+}
+
+constexpr double kTiny = 1e-6;  ///< a bound below that only excludes 0
+
+}  // namespace
+
+std::string_view symbol_of(Unit unit) {
+  switch (unit) {
+    case Unit::none:
+      break;
+    case Unit::metres:
+      return "m";
+    case Unit::degrees:
+      return "degrees";
+    case Unit::seconds:
+      return "s";
+    case Unit::metres_per_second:
+      return "m/s";
+    case Unit::metres_per_second_squared:
+      return "m/s\u00b2";
+    case Unit::degrees_per_second:
+      return "degrees/s";
+  }
+  return "";
+}
+
+std::string_view suffix_of(Unit unit) {
+  switch (unit) {
+    case Unit::none:
+      break;
+    case Unit::metres:
+      return "_m";
+    case Unit::degrees:
+      return "_deg";
+    case Unit::seconds:
+      return "_s";
+    case Unit::metres_per_second:
+      return "_m_s";
+    case Unit::metres_per_second_squared:
+      return "_m_s2";
+    case Unit::degrees_per_second:
+      return "_deg_s";
+  }
+  return "";
+}
+
+bool Bounds::hold(double value) const {
+  if (!std::isfinite(value)) return false;
+  const bool is_above = ends == Ends::without_least ? value > least : value >= least;
+  return is_above && (ends == Ends::without_most ? value < most : value <= most);
+}
+
+std::string Bounds::text() const {
+  const std::string end = grouped(most) + (most_word.empty() ? "" : ", " + std::string(most_word));
+  return least > 0 && least < kTiny ? "> 0, at most " + end : grouped(least) + " to " + end;
+}
+
+void check_within(const Bounds& bounds, double value, const std::string& where) {
+  if (bounds.hold(value)) return;
+  std::string range;
+  if (bounds.least >= 0 && !(value > 0 && std::isfinite(value)) && !(value == 0 && bounds.least == 0)) {
+    range = bounds.least > 0 ? "greater than 0" : "0 or more";
+  } else {
+    range = "between " + shortest(bounds.least) + " and " + shortest(bounds.most);
+    if (bounds.ends == Bounds::Ends::without_most) {
+      range = shortest(bounds.least) + " or more, and less than " + shortest(bounds.most);
+    }
+    if (bounds.unit != Unit::none) range.append(" ").append(words_of(bounds.unit));
+    if (!bounds.most_word.empty()) range.append(", ").append(bounds.most_word);
+  }
+  throw Error(ErrorCode::value_out_of_range, where + " must be " + range + ", not " + shortest(value), where,
+              std::string(bounds.fix));
+}
+
+}  // namespace vantage::internal::request

@@ -1,0 +1,117 @@
+// Sections of mission files that are described once (src/request/): what is read, written and documented of them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/described_section.h"
+#include "request/describe_spheres.h"
+#include "request/describe_tour.h"
+#include "support/key_table.h"
+#include "support/places.h"
+#include "support/random.h"
+#include "support/wording.h"
+#include "vantage/mission.h"
+
+namespace vantage {
+namespace {
+
+using internal::app::section_text;
+using internal::request::key_lists;
+using internal::request::kSection;
+
+/// What lies between two lines of a document that name the section. It is written anew with VANTAGE_UPDATE_GOLDEN=1.
+template <typename Settings>
+void expect_documented() {
+  const std::filesystem::path file = testing::source_folder() / "docs/mission-file.md";
+  std::ostringstream content;
+  content << std::ifstream(file).rdbuf();
+  std::string text = content.str();
+  const std::string begin = "<!-- keys of " + std::string(kSection<Settings>) + ": written by a test -->\n";
+  const std::size_t from = text.find(begin) + begin.size(), to = text.find("<!-- end of keys -->", from);
+  ASSERT_NE(text.find(begin), std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  const Settings settings;
+  testing::KeyTable table(kSection<Settings>);
+  describe(settings, table);
+  if (std::getenv("VANTAGE_UPDATE_GOLDEN") != nullptr) {
+    std::ofstream(file) << text.replace(from, to - from, table.text());
+    return;
+  }
+  EXPECT_EQ(text.substr(from, to - from), table.text()) << "run it with VANTAGE_UPDATE_GOLDEN=1";
+}
+
+TEST(DescribedKeys, OfTheSpheresAreDocumented) { expect_documented<SpheresOptions>(); }
+TEST(DescribedKeys, OfATourAreDocumented) { expect_documented<TourSettings>(); }
+
+TEST(DescribedKeys, OfATourAreListedMapByMap) {
+  const auto lists = key_lists<TourSettings>();
+  ASSERT_EQ(lists.size(), 4);
+  EXPECT_EQ(lists[0].name, "tour");
+  EXPECT_EQ(lists[0].keys, (std::vector<std::string_view>{"vehicle", "home", "closed", "view", "gimbal", "clearance",
+                                                          "gap", "time_limit"}));
+  EXPECT_EQ(lists[1].name, "tour.vehicle");
+  EXPECT_EQ(lists[1].keys, (std::vector<std::string_view>{"kind", "speed", "acceleration", "turn_radius", "climb"}));
+  EXPECT_EQ(lists[2].name, "tour.view");
+  EXPECT_EQ(lists[3].name, "tour.gimbal");
+}
+
+TEST(DescribedKeys, OfATourAreReadBackAsTheyWereWritten) {
+  testing::Random random(81);
+  for (int i = 0; i < 200; ++i) {
+    TourSettings tour;
+    const bool is_wing = random.chance(0.5);
+    tour.vehicle.kind = is_wing ? TourVehicle::Kind::fixed_wing : TourVehicle::Kind::multirotor;
+    tour.vehicle.speed_m_s = random.uniform(1, 30);
+    (is_wing ? tour.vehicle.turn_radius_m : tour.vehicle.acceleration_m_s2) = random.uniform(1, 30);
+    if (is_wing) tour.vehicle.min_climb_deg = random.uniform(-80, -1);
+    if (random.chance(0.5)) tour.home = TourHome{{}, random.point(-100, 100)};
+    if (random.chance(0.3)) tour.home = TourHome{std::array{random.uniform(-80, 80), random.uniform(-170, 170)}, {}};
+    tour.closed = random.chance(0.5);
+    tour.dwell_s = random.uniform(0, 100);
+    tour.simultaneous = random.chance(0.5);
+    tour.gap = random.uniform(0, 0.9);
+    tour.time_limit_s = random.uniform(1, 100);
+    const std::string text = section_text(tour);
+    const MissionFile file =
+        read_mission_text(text + "target: {vertices: [[0, 0, 0], [9, 0, 0], [0, 9, 0]]}\nsensor: {max_range: 100}\n",
+                          "memory.yaml", SceneSource());
+    ASSERT_TRUE(file.tour) << text;
+    EXPECT_EQ(section_text(*file.tour), text);
+    const auto& [vehicle, home, closed, dwell_s, margin_m, simultaneous, rate, clearance_m, gap, time_limit_s] =
+        *file.tour;
+    EXPECT_EQ(vehicle.kind, tour.vehicle.kind);
+    EXPECT_EQ(vehicle.turn_radius_m, tour.vehicle.turn_radius_m);
+    EXPECT_EQ(vehicle.min_climb_deg, tour.vehicle.min_climb_deg);
+    EXPECT_EQ(home.has_value(), tour.home.has_value());
+    EXPECT_EQ(closed, tour.closed);
+    EXPECT_EQ(dwell_s, tour.dwell_s);
+    EXPECT_EQ(simultaneous, tour.simultaneous);
+    EXPECT_EQ(gap, tour.gap);
+    EXPECT_EQ(time_limit_s, tour.time_limit_s);
+  }
+}
+
+TEST(Bounds, TellWhichNumbersTheyTake) {
+  using internal::request::Bounds;
+  using internal::request::Unit;
+  const Bounds share = {0, 1, Unit::none, "", "", Bounds::Ends::without_most};
+  EXPECT_TRUE(share.hold(0));
+  EXPECT_FALSE(share.hold(1));
+  EXPECT_FALSE(share.hold(std::nan("")));
+  const Bounds descent = {-90, -0.1, Unit::degrees, "", "", Bounds::Ends::without_least};
+  EXPECT_FALSE(descent.hold(-90));
+  EXPECT_TRUE(descent.hold(-0.1));
+  EXPECT_EQ((Bounds{0.01, 1e5}).text(), "0.01 to 100,000");
+  EXPECT_EQ((Bounds{1e-9, 604'800, Unit::seconds, "", "a week"}).text(), "> 0, at most 604,800, a week");
+  EXPECT_EQ((Bounds{0, 1000}).text(), "0 to 1000");
+}
+
+}  // namespace
+}  // namespace vantage
