@@ -18,6 +18,18 @@ std::string list_text(std::initializer_list<double> numbers) {
   return "[" + text + "]";
 }
 
+/// Null where there is none. `path`: "view.dwell".
+const YamlNode* node_at(const YamlNode& map, std::string_view path) {
+  const YamlNode* node = &map;
+  while (node != nullptr) {
+    const std::size_t dot = path.find('.');
+    node = find(*node, path.substr(0, dot));
+    if (dot == std::string_view::npos) break;
+    path.remove_prefix(dot + 1);
+  }
+  return node;
+}
+
 std::string text_of(const DeviceChoice& device) {
   switch (device.kind) {
     case DeviceChoice::Kind::automatic:
@@ -36,31 +48,21 @@ std::string text_of(const DeviceChoice& device) {
 
 }  // namespace
 
-SectionReader::SectionReader(const YamlNode& section, const std::vector<request::KeyList>& lists,
-                             const ValueReader& reader)
-    : root_(section), reader_(reader), section_(lists.front().name) {
+void check_maps(const YamlNode& section, const std::vector<request::KeyList>& lists, const ValueReader& reader) {
+  const std::string& name = lists.front().name;
   for (const request::KeyList& list : lists) {
-    const YamlNode* const map = &list == &lists.front() ? &root_ : node_of(list.name.substr(section_.size() + 1));
-    if (map) check_keys(*map, list, reader_.file());
+    const bool is_whole = &list == &lists.front();
+    const YamlNode* const map =
+        is_whole ? &section : node_at(section, std::string_view(list.name).substr(name.size() + 1));
+    if (map) check_keys(*map, list, reader.file());
   }
-}
-
-const YamlNode* SectionReader::node_of(std::string_view path) const {
-  const YamlNode* node = &root_;
-  while (node != nullptr) {
-    const std::size_t dot = path.find('.');
-    node = find(*node, path.substr(0, dot));
-    if (dot == std::string_view::npos) break;
-    path.remove_prefix(dot + 1);
-  }
-  return node;
 }
 
 const YamlNode* SectionReader::required(const request::Key& key) const {
-  const YamlNode* const node = node_of(key.path);
+  const YamlNode* const node = node_at(root_, key.path);
   if (node != nullptr || !key.is_required) return node;
   const std::size_t dot = key.path.rfind('.');
-  const YamlNode* const map = dot == std::string_view::npos ? &root_ : node_of(key.path.substr(0, dot));
+  const YamlNode* const map = dot == std::string_view::npos ? &root_ : node_at(root_, key.path.substr(0, dot));
   if (map == nullptr) return nullptr;
   const std::string map_name = section_ + (dot == std::string_view::npos ? "" : "." + std::string(key.path, 0, dot));
   const std::string word(key.path.substr(dot == std::string_view::npos ? 0 : dot + 1));
@@ -190,28 +192,9 @@ void SectionReader::fail_choice(const request::Key& key, const YamlNode& node, c
                std::string(key.form));
 }
 
-void SectionWriter::add(std::string_view path, const std::string& value) {
-  const std::size_t dot = path.find('.');
-  const std::string map(dot == std::string_view::npos ? "" : path.substr(0, dot));
-  const std::string key(dot == std::string_view::npos ? path : path.substr(dot + 1));
-  if (map != map_) close();
-  if (map.empty()) {
-    text_ += "  " + key + ": " + value + "\n";
-    return;
-  }
-  text_ += map_.empty() ? "  " + map + ": {" : ", ";
-  text_ += key + ": " + value;
-  map_ = map;
-}
-
-void SectionWriter::close() {
-  if (!map_.empty()) text_ += "}\n";
-  map_.clear();
-}
-
 void SectionWriter::number(const request::Key& key, double value, const request::Bounds& /*bounds*/,
                            const request::Only& only) {
-  if (only.holds) add(key.path, shortest(value));
+  if (only.holds && !(key.is_none_at_zero && value == 0)) add(key.path, shortest(value));
 }
 
 void SectionWriter::pair(const request::Key& key, double low, const request::Bounds& /*of_low*/, double high,
@@ -235,9 +218,27 @@ void SectionWriter::grid(const request::Key& key, const std::optional<std::array
 
 void SectionWriter::device(const request::Key& key, const DeviceChoice& value) { add(key.path, text_of(value)); }
 
-std::string SectionWriter::text() {
-  close();
-  return text_;
+std::string SectionWriter::text(std::string_view section) const {
+  std::string text = std::string(section) + ":\n", open;
+  for (const auto& [path, value] : entries_) {
+    const std::size_t dot = path.find('.');
+    const std::string map(dot == std::string_view::npos ? "" : path.substr(0, dot));
+    const std::string key(dot == std::string_view::npos ? path : path.substr(dot + 1));
+    if (!open.empty() && open != map) text += "}\n";
+    if (map.empty()) {
+      text += "  " + key + ": " + value + "\n";
+    } else {
+      text += (open == map ? ", " : "  " + map + ": {") + key + ": " + value;
+    }
+    open = map;
+  }
+  return open.empty() ? text : text + "}\n";
+}
+
+std::string SectionWriter::flow() const {
+  std::string text;
+  for (const auto& [path, value] : entries_) text += (text.empty() ? "" : ", ") + std::string(path) + ": " + value;
+  return "{" + text + "}";
 }
 
 }  // namespace vantage::internal::app

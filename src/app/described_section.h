@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/value_reader.h"
@@ -19,8 +20,9 @@ namespace vantage::internal::app {
 /// A visitor that sets what the section says. Throws Error(input) with the place.
 class SectionReader : request::Visitor {
  public:
-  /// `lists`: key_lists() of what is read.
-  SectionReader(const YamlNode& section, const std::vector<request::KeyList>& lists, const ValueReader& reader);
+  /// `name`: how messages call the map.
+  SectionReader(const YamlNode& map, std::string name, const ValueReader& reader)
+      : root_(map), reader_(reader), section_(std::move(name)) {}
 
   template <typename Value, typename Choices>
   void choice(const request::Key& key, Value& value, const Choices& choices) {
@@ -49,8 +51,6 @@ class SectionReader : request::Visitor {
 
  private:
   std::string name_of(const request::Key& key) const { return section_ + "." + std::string(key.path); }
-  /// Null where the section does not have it.
-  const YamlNode* node_of(std::string_view path) const;
   const YamlNode* required(const request::Key& key) const;
   const YamlNode* node_for(const request::Key& key, const request::Only& only) const;
   int whole_of(const YamlNode& node, const std::string& name) const;
@@ -63,11 +63,9 @@ class SectionReader : request::Visitor {
   std::string section_;
 };
 
-/// A visitor that writes all keys: text() reads back as the same.
+/// A visitor that writes all keys that count.
 class SectionWriter : request::Visitor {
  public:
-  explicit SectionWriter(std::string_view section) : text_(std::string(section) + ":\n") {}
-
   template <typename Value, typename Choices>
   void choice(const request::Key& key, const Value& value, const Choices& choices) {
     for (const auto& [one, word] : choices) {
@@ -86,29 +84,50 @@ class SectionWriter : request::Visitor {
   void flag(const request::Key& key, bool value) { add(key.path, value ? "true" : "false"); }
   void home(const request::Key& key, const std::optional<TourHome>& value);
 
-  std::string text();
+  /// "tour:" and a line for each key below it.
+  std::string text(std::string_view section) const;
+  /// "{size: 0.02, kind: worst}"; of a map without others in it.
+  std::string flow() const;
 
  private:
-  void add(std::string_view path, const std::string& value);
-  void close();
+  void add(std::string_view path, const std::string& value) { entries_.emplace_back(path, value); }
 
-  std::string text_;
-  std::string map_;  ///< that is open: "view"
+  std::vector<std::pair<std::string_view, std::string>> entries_;
 };
 
-/// What the section does not say stays as it is.
+/// Throws Error(input) for a key that is not known, and for what is no map.
+void check_maps(const YamlNode& section, const std::vector<request::KeyList>& lists, const ValueReader& reader);
+
+/// What the map says of `settings`, which may be some of its keys alone; the rest stays as it is.
 template <typename Settings>
-void read_section(const YamlNode& node, const ValueReader& reader, Settings& settings) {
-  static const std::vector<request::KeyList> kLists = request::key_lists<Settings>();
-  SectionReader visit(node, kLists, reader);
+void read_keys(const YamlNode& map, const std::string& name, const ValueReader& reader, Settings& settings) {
+  SectionReader visit(map, name, reader);
   describe(settings, visit);
 }
 
+/// The same of a map that has no other keys. `name`: how messages call it.
+template <typename Settings>
+void read_section(const YamlNode& node, const ValueReader& reader, Settings& settings,
+                  const std::string& name = std::string(request::kSection<Settings>)) {
+  static const std::vector<request::KeyList> kLists = request::key_lists<Settings>();
+  check_maps(node, kLists, reader);
+  read_keys(node, name, reader, settings);
+}
+
+/// The text of a section, which reads back as the same.
 template <typename Settings>
 std::string section_text(const Settings& settings) {
-  SectionWriter visit(request::kSection<Settings>);
+  SectionWriter visit;
   describe(settings, visit);
-  return visit.text();
+  return visit.text(request::kSection<Settings>);
+}
+
+/// The same as a map on one line.
+template <typename Settings>
+std::string flow_text(const Settings& settings) {
+  SectionWriter visit;
+  describe(settings, visit);
+  return visit.flow();
 }
 
 }  // namespace vantage::internal::app

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "app/described_section.h"
 #include "app/places.h"
 #include "app/schema.h"
-#include "app/sensor_section.h"
 #include "app/tour_home.h"
+#include "request/describe_sensor.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
@@ -54,17 +55,10 @@ void parse_reach(const YamlNode& node, const std::string& what, const ValueReade
   }
   if (range) link.max_range_m = reader.positive_length(*range, what + ".max_range");
   if (vlos) {
-    link.vlos = parse_vlos(*vlos, what + ".vlos", reader);
+    read_section(*vlos, reader, link.vlos.emplace(), what + ".vlos");
     link.max_range_m = visual_range_m(link.vlos->range);
   }
-  if (find(node, "frequency") || clear) link.radio = parse_radio_link(node, what, reader);
-  if (!link.radio) return;
-  Sensor sensor{.max_range_m = 1};
-  sensor.link = link.radio;
-  with_place(link.place, [&] {
-    check_sensor(sensor);
-    return 0;
-  });
+  if (find(node, "frequency") || clear) read_keys(node, what, reader, link.radio.emplace());
 }
 
 MissionLink parse_link(const YamlNode& node, std::size_t index, const ValueReader& reader) {
@@ -110,7 +104,7 @@ std::string links_section_text(const std::vector<MissionLink>& links) {
       if (link.height_m > 0) text += "    height: " + shortest(link.height_m) + "\n";
     }
     if (link.vlos) {
-      text += "    " + vlos_text(*link.vlos) + "\n";
+      text += "    vlos: " + flow_text(*link.vlos) + "\n";
     } else if (link.max_range_m) {
       text += "    max_range: " + shortest(*link.max_range_m) + "\n";
     }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.h"
+#include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
 #include "request/json_object.h"
 #include "vantage/hash.h"
@@ -18,6 +19,13 @@ using SortedJson = nlohmann::json;
 
 /// Numbers are written as vantage writes them: the shortest decimal that reads back the same.
 SortedJson number_text(double value) { return shortest(value + 0.0); }
+
+template <typename Settings>
+SortedJson described_json(const Settings& settings) {
+  internal::request::JsonObject<SortedJson, decltype(&number_text)> object(number_text);
+  describe(settings, object);
+  return object.json();
+}
 
 SortedJson sorted_json_of(const Vec3& v) { return {number_text(v.x()), number_text(v.y()), number_text(v.z())}; }
 
@@ -85,16 +93,11 @@ SortedJson sorted_json_of(const Sensor& sensor) {
                      {"pitch_deg", {number_text(mount.min_pitch_deg), number_text(mount.max_pitch_deg)}},
                      {"roll_deg", number_text(mount.roll_deg)}};
   }
-  if (pixel) {
-    json["pixel"] = {{"size_m", number_text(pixel->size_m)},
-                     {"kind", pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular"}};
-  }
+  if (pixel) json["pixel"] = described_json(*pixel);
   if (sun) {
     json["sun"] = {{"direction", sorted_json_of(sun->direction)}, {"exclude_deg", number_text(sun->exclude_deg)}};
   }
-  if (link) {
-    json["link"] = {{"frequency_ghz", number_text(link->frequency_ghz)}, {"clear", number_text(link->clear)}};
-  }
+  if (link) json["link"] = described_json(*link);
   if (visible) {
     json["visible"] = {{"share", number_text(visible->share)},
                        {"cells", number_text(static_cast<double>(visible->cells))}};
@@ -117,12 +120,6 @@ SortedJson sorted_json_of(const Target& target) {
   return json;
 }
 
-SortedJson sorted_json_of(const SpheresOptions& options) {
-  internal::request::JsonObject<SortedJson, decltype(&number_text)> object(number_text);
-  describe(options, object);
-  return object.json();
-}
-
 }  // namespace
 
 std::string mission_hash(const Mission& mission) {
@@ -141,7 +138,7 @@ std::string mission_hash(const Mission& mission) {
     json["combine"] = volume_count(mission) > 1 ? "each" : "all";
   }
   if (mission.as_written.method == Method::spheres) {
-    json["options"] = sorted_json_of(mission.as_written.spheres);
+    json["options"] = described_json(mission.as_written.spheres);
   } else {
     json["options"] = {{"tolerance_m", number_text(mission.as_written.exact.tolerance_m)}};
   }

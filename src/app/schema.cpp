@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/error.h"
@@ -14,8 +15,8 @@ namespace {
 
 using request::KeyList;
 
-const std::array<std::pair<Section, KeyList>, 18>& table() {
-  static const std::array<std::pair<Section, KeyList>, 18> kTable = {{
+const std::array<std::pair<Section, KeyList>, 15>& table() {
+  static const std::array<std::pair<Section, KeyList>, 15> kTable = {{
       {Section::mission,
        {"the mission",
         {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres", "tour",
@@ -34,10 +35,7 @@ const std::array<std::pair<Section, KeyList>, 18>& table() {
       {Section::camera, {"sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}}},
       {Section::mount, {"sensor.mount", {"yaw", "pitch", "roll"}}},
       {Section::gimbal, {"sensor.gimbal", {"yaw", "pitch", "roll"}}},
-      {Section::pixel, {"sensor.pixel", {"size", "kind"}}},
       {Section::sun, {"sensor.sun", {"time", "azimuth", "elevation", "exclude"}}},
-      {Section::vlos, {"sensor.vlos", {"aircraft_size", "kind", "visibility", "eye_height"}}},
-      {Section::link, {"sensor.link", {"frequency", "clear"}}},
       {Section::navigation,
        {"navigation", {"altitude", "ground", "clearance", "keep_in", "boxes", "keep_out", "meshes"}}},
       {Section::altitude, {"navigation.altitude", {"agl", "z"}}},
@@ -55,7 +53,9 @@ const KeyList& list_of(Section section) { return table()[static_cast<std::size_t
 
 /// All of them.
 const std::vector<const KeyList*>& lists() {
-  static const std::array kDescribed = {request::key_lists<SpheresOptions>(), request::key_lists<TourSettings>()};
+  static const std::array kDescribed = {request::key_lists<PixelLimit>(), request::key_lists<PilotSight>(),
+                                        request::key_lists<RadioLink>(), request::key_lists<SpheresOptions>(),
+                                        request::key_lists<TourSettings>()};
   static const std::vector<const KeyList*> kLists = [] {
     std::vector<const KeyList*> all;
     for (const auto& [section, list] : table()) all.push_back(&list);

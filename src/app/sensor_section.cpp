@@ -7,9 +7,11 @@
 #include <regex>
 #include <utility>
 
+#include "app/described_section.h"
 #include "app/places.h"
 #include "app/schema.h"
 #include "core/portable_math.h"
+#include "request/describe_sensor.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -38,7 +40,6 @@ class SensorParser {
   void parse_mount(const YamlNode& mount);
   void parse_gimbal(const YamlNode& gimbal);
   void parse_roll(const YamlNode& map, const std::string& what);
-  void parse_pixel(const YamlNode& pixel);
   void parse_dori(const YamlNode& dori);
   void parse_sun(const YamlNode& sun);
   void parse_share();
@@ -175,24 +176,6 @@ void SensorParser::parse_gimbal(const YamlNode& gimbal) {
   parse_roll(gimbal, "sensor.gimbal");
 }
 
-void SensorParser::parse_pixel(const YamlNode& pixel) {
-  check_keys(pixel, Section::pixel, reader_.file());
-  PixelLimit limit;
-  limit.size_m = reader_.positive_length(
-      require(pixel, "size", "sensor.pixel", "write {size: 0.02}: metres of the target in one pixel"),
-      "sensor.pixel.size");
-  if (const YamlNode* kind = find(pixel, "kind")) {
-    const std::string text = reader_.text(*kind, "sensor.pixel.kind");
-    if (text != "worst" && text != "perpendicular") {
-      reader_.fail(ErrorCode::unknown_choice, *kind,
-                   "sensor.pixel.kind must be worst or perpendicular, not " + in_quotes(text),
-                   "write worst, which counts the slant of the view, or perpendicular, which does not");
-    }
-    limit.kind = text == "worst" ? PixelLimit::Kind::worst : PixelLimit::Kind::perpendicular;
-  }
-  result_.sensor.pixel = limit;
-}
-
 void SensorParser::parse_dori(const YamlNode& dori) {
   const std::string text = reader_.text(dori, "sensor.dori");
   for (const auto& [name, pixels_per_metre] : kDori) {
@@ -268,7 +251,7 @@ SensorSection SensorParser::parse() {
     sensor.max_range_m = reader_.positive_length(*range, "sensor.max_range");
   refuse_both("max_range", "vlos", "keep the range, or let it follow from the aircraft");
   if (const YamlNode* vlos = find(node_, "vlos")) {
-    result_.vlos = parse_vlos(*vlos, "sensor.vlos", reader_);
+    read_section(*vlos, reader_, result_.vlos.emplace());
     sensor.max_range_m = visual_range_m(result_.vlos->range);
   }
   if (const YamlNode* range = find(node_, "min_range"))
@@ -290,12 +273,11 @@ SensorSection SensorParser::parse() {
   }
   if (const YamlNode* mount = find(node_, "mount")) parse_mount(*mount);
   if (const YamlNode* gimbal = find(node_, "gimbal")) parse_gimbal(*gimbal);
-  if (const YamlNode* pixel = find(node_, "pixel")) parse_pixel(*pixel);
+  if (const YamlNode* pixel = find(node_, "pixel")) read_section(*pixel, reader_, sensor.pixel.emplace());
   if (const YamlNode* dori = find(node_, "dori")) parse_dori(*dori);
   if (const YamlNode* sun = find(node_, "sun")) parse_sun(*sun);
   if (const YamlNode* link = find(node_, "link")) {
-    check_keys(*link, Section::link, reader_.file());
-    sensor.link = parse_radio_link(*link, "sensor.link", reader_);
+    read_section(*link, reader_, sensor.link.emplace());
   }
   parse_share();
   if (!find(node_, "max_range") && !result_.vlos && !sensor.pixel) {
@@ -348,18 +330,6 @@ std::string mount_text(const Mount& mount) {
          ", roll: " + shortest(mount.roll_deg) + "}\n";
 }
 
-}  // namespace
-
-std::string vlos_text(const PilotSight& sight) {
-  const auto& [aircraft_size_m, kind, visibility_m] = sight.range;
-  return "vlos: {aircraft_size: " + shortest(aircraft_size_m) +
-         ", kind: " + (kind == VisualRange::Kind::multirotor ? "multirotor" : "fixed_wing") +
-         ", visibility: " + shortest(visibility_m) +
-         (sight.eye_height_m > 0 ? ", eye_height: " + shortest(sight.eye_height_m) : "") + "}";
-}
-
-namespace {
-
 std::string sun_text(const MissionFile& mission) {
   const SunLimit& sun = *mission.sensor.sun;
   std::string direction;
@@ -375,48 +345,6 @@ std::string sun_text(const MissionFile& mission) {
 
 }  // namespace
 
-PilotSight parse_vlos(const YamlNode& vlos, const std::string& what, const ValueReader& reader) {
-  check_keys(vlos, Section::vlos, reader.file());
-  const auto required = [&](const char* key) -> const YamlNode& {
-    if (const YamlNode* found = find(vlos, key)) return *found;
-    reader.fail(ErrorCode::missing_key, vlos, what + " lacks the key '" + key + "'",
-                "write {aircraft_size: 0.35, kind: multirotor, visibility: 5000}: metres");
-  };
-  PilotSight sight;
-  sight.range.aircraft_size_m = reader.positive_length(required("aircraft_size"), what + ".aircraft_size");
-  sight.range.visibility_m = reader.positive_length(required("visibility"), what + ".visibility");
-  const YamlNode& kind = required("kind");
-  const std::string text = reader.text(kind, what + ".kind");
-  if (text != "multirotor" && text != "fixed_wing") {
-    reader.fail(ErrorCode::unknown_choice, kind,
-                what + ".kind must be multirotor or fixed_wing, not " + in_quotes(text),
-                "write multirotor also for a helicopter");
-  }
-  sight.range.kind = text == "multirotor" ? VisualRange::Kind::multirotor : VisualRange::Kind::fixed_wing;
-  if (const YamlNode* height = find(vlos, "eye_height")) {
-    sight.eye_height_m = reader.positive_length(*height, what + ".eye_height");
-  }
-  return sight;
-}
-
-RadioLink parse_radio_link(const YamlNode& map, const std::string& what, const ValueReader& reader) {
-  RadioLink result;
-  const YamlNode* frequency = find(map, "frequency");
-  if (frequency == nullptr) {
-    reader.fail(ErrorCode::missing_key, map, what + " lacks the key 'frequency'",
-                "write {frequency: 2.4, clear: 0.6}: GHz");
-  }
-  result.frequency_ghz = reader.positive(*frequency, what + ".frequency");
-  if (const YamlNode* clear = find(map, "clear")) {
-    result.clear = reader.positive(*clear, what + ".clear");
-    if (result.clear > 1) {
-      reader.fail(ErrorCode::value_out_of_range, *clear, what + ".clear is more than all of the first zone",
-                  "write a share of the zone's radius: 0.6 is usual, 1 is all of it");
-    }
-  }
-  return result;
-}
-
 SensorSection parse_sensor_section(const YamlNode& node, const ValueReader& reader) {
   return SensorParser(node, reader).parse();
 }
@@ -426,20 +354,16 @@ std::string sensor_section_text(const MissionFile& mission) {
   const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = mission.sensor;
   std::string text = "sensor:\n";
   if (mission.vlos) {
-    text += "  " + vlos_text(*mission.vlos) + "\n";
+    text += "  vlos: " + flow_text(*mission.vlos) + "\n";
   } else if (std::isfinite(max_range_m)) {
     text += "  max_range: " + shortest(max_range_m) + "\n";
   }
   if (min_range_m > 0) text += "  min_range: " + shortest(min_range_m) + "\n";
   if (incidence_deg) text += "  incidence: " + shortest(*incidence_deg) + "\n";
   if (camera) text += camera_text(mission) + mount_text(mount);
-  if (pixel) {
-    text += "  pixel: {size: " + shortest(pixel->size_m) +
-            ", kind: " + (pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular") + "}\n";
-  }
+  if (pixel) text += "  pixel: " + flow_text(*pixel) + "\n";
   if (sun) text += sun_text(mission);
-  if (link)
-    text += "  link: {frequency: " + shortest(link->frequency_ghz) + ", clear: " + shortest(link->clear) + "}\n";
+  if (link) text += "  link: " + flow_text(*link) + "\n";
   if (visible) {
     text += "  visible: " + shortest(visible->share) + "\n  cells: " + std::to_string(visible->cells) + "\n";
   }

@@ -20,14 +20,6 @@ struct SensorSection {
 /// Throws Error(input) with the place for what docs/mission-file.md does not allow.
 SensorSection parse_sensor_section(const YamlNode& node, const ValueReader& reader);
 
-/// `vlos` of a pilot's sight. `what`: how messages call it.
-PilotSight parse_vlos(const YamlNode& vlos, const std::string& what, const ValueReader& reader);
-/// "vlos: {...}".
-std::string vlos_text(const PilotSight& sight);
-
-/// `frequency` and `clear`, which stand in a map whose keys are checked. `what`: how messages call it.
-RadioLink parse_radio_link(const YamlNode& map, const std::string& what, const ValueReader& reader);
-
 /// The section's text, which reads back as the same; "sensor:" and lines below it.
 std::string sensor_section_text(const MissionFile& mission);
 

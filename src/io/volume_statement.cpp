@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/sidecar.h"
+#include "request/describe_sensor.h"
+#include "request/json_object.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 
@@ -30,6 +32,20 @@ double length_of(const Json& json) {
   return value;
 }
 
+template <typename Settings>
+Json described_json(const Settings& settings) {
+  const auto number_as = [](auto value) { return Json(value); };
+  request::JsonObject<Json, decltype(number_as)> object(number_as);
+  describe(settings, object);
+  return object.json();
+}
+
+template <typename Settings>
+void read_described(const Json& json, Settings& settings) {
+  request::JsonReader<Json> reader(json, request::kSection<Settings>);
+  describe(settings, reader);
+}
+
 // All members are named, here and below: a limit that is added does not compile before it is stated.
 Json limits_json(const Sensor& sensor) {
   const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
@@ -43,12 +59,9 @@ Json limits_json(const Sensor& sensor) {
         {"min_pitch_deg", mount.min_pitch_deg}, {"max_pitch_deg", mount.max_pitch_deg}, {"roll_deg", mount.roll_deg}};
     if (mount.yaw_deg) json["mount"]["yaw_deg"] = *mount.yaw_deg;
   }
-  if (pixel) {
-    json["pixel"] = {{"size_m", pixel->size_m},
-                     {"kind", pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular"}};
-  }
+  if (pixel) json["pixel"] = described_json(*pixel);
   if (sun) json["sun"] = {{"direction", json_of(sun->direction)}, {"exclude_deg", sun->exclude_deg}};
-  if (link) json["link"] = {{"frequency_ghz", link->frequency_ghz}, {"clear", link->clear}};
+  if (link) json["link"] = described_json(*link);
   if (visible) json["visible"] = {{"share", visible->share}, {"cells", visible->cells}};
   return json;
 }
@@ -69,17 +82,11 @@ void read_sensor(const Json& json, Sensor& sensor) {
     mount.roll_deg = angles.at("roll_deg").get<double>();
     if (angles.contains("yaw_deg")) mount.yaw_deg = angles.at("yaw_deg").get<double>();
   }
-  if (json.contains("pixel")) {
-    const bool is_worst = json.at("pixel").at("kind").get<std::string>() == "worst";
-    pixel = PixelLimit{length_of(json.at("pixel").at("size_m")),
-                       is_worst ? PixelLimit::Kind::worst : PixelLimit::Kind::perpendicular};
-  }
+  if (json.contains("pixel")) read_described(json.at("pixel"), pixel.emplace());
   if (json.contains("sun")) {
     sun = SunLimit{vector_of(json.at("sun").at("direction")), json.at("sun").at("exclude_deg").get<double>()};
   }
-  if (json.contains("link")) {
-    link = RadioLink{length_of(json.at("link").at("frequency_ghz")), length_of(json.at("link").at("clear"))};
-  }
+  if (json.contains("link")) read_described(json.at("link"), link.emplace());
   if (json.contains("visible")) {
     const Json& share = json.at("visible");
     visible = VisibleShare{share.at("share").get<double>(), share.at("cells").get<std::size_t>()};

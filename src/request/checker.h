@@ -19,7 +19,7 @@ class Checker : Visitor {
   template <typename Value, typename Choices>
   void choice(const Key& /*key*/, const Value& /*value*/, const Choices& /*choices*/) {}
   void number(const Key& key, double value, const Bounds& bounds, const Only& /*only*/) const {
-    check_within(bounds, value, name_of(key));
+    if (!key.is_none_at_zero || value != 0) check_within(bounds, value, name_of(key));
   }
   void pair(const Key& key, double low, const Bounds& of_low, double high, const Bounds& of_high,
             const Only& /*only*/) const {

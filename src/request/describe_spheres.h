@@ -56,7 +56,7 @@ void describe(Settings& settings, Visit& visit) {
   visit.whole({"max_splits", "how often an edge may be halved"}, max_splits,
               {0, 16, Unit::none, "give how often an edge may be halved, such as 6"});
   visit.number({"min_edge", "an edge is not halved into parts shorter than this"}, min_edge_m,
-               {1e-9, 1e9, Unit::metres, "give for example 0.5"}, Only{});
+               {0, kLongest, Unit::metres, "give for example 0.5", "", Bounds::Ends::without_least}, Only{});
   visit.device({.path = "device",
                 .says = "`auto`, `cpu`, `opengl`, `gpu`, or a number of `vantage devices`. `auto` falls back to the "
                         "CPU. With the others, a device that is missing is an error. `vantage compute --device` "

@@ -53,6 +53,8 @@ std::string_view symbol_of(Unit unit) {
       return "m/s\u00b2";
     case Unit::degrees_per_second:
       return "degrees/s";
+    case Unit::gigahertz:
+      return "GHz";
   }
   return "";
 }
@@ -73,6 +75,8 @@ std::string_view suffix_of(Unit unit) {
       return "_m_s2";
     case Unit::degrees_per_second:
       return "_deg_s";
+    case Unit::gigahertz:
+      return "_ghz";
   }
   return "";
 }
@@ -84,15 +88,17 @@ bool Bounds::hold(double value) const {
 }
 
 std::string Bounds::text() const {
+  const bool is_above_zero = (least > 0 && least < kTiny) || (least == 0 && ends == Ends::without_least);
+  if (is_above_zero && most >= kLongest) return "> 0";
   const std::string end = grouped(most) + (most_word.empty() ? "" : ", " + std::string(most_word));
-  return least > 0 && least < kTiny ? "> 0, at most " + end : grouped(least) + " to " + end;
+  return is_above_zero ? "> 0, at most " + end : grouped(least) + " to " + end;
 }
 
 void check_within(const Bounds& bounds, double value, const std::string& where) {
   if (bounds.hold(value)) return;
   std::string range;
-  if (bounds.least >= 0 && !(value > 0 && std::isfinite(value)) && !(value == 0 && bounds.least == 0)) {
-    range = bounds.least > 0 ? "greater than 0" : "0 or more";
+  if (bounds.least >= 0 && !(value > 0 && std::isfinite(value))) {
+    range = bounds.least > 0 || bounds.ends == Bounds::Ends::without_least ? "greater than 0" : "0 or more";
   } else {
     range = "between " + shortest(bounds.least) + " and " + shortest(bounds.most);
     if (bounds.ends == Bounds::Ends::without_most) {

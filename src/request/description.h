@@ -20,14 +20,28 @@ struct Key {
   /// The map round it must have it. `form`: what to write then.
   bool is_required = false;
   std::string_view form = "";
+  /// A number of 0 says the same as no key, which takes no 0.
+  bool is_none_at_zero = false;
 };
 
-enum class Unit { none, metres, degrees, seconds, metres_per_second, metres_per_second_squared, degrees_per_second };
+enum class Unit {
+  none,
+  metres,
+  degrees,
+  seconds,
+  metres_per_second,
+  metres_per_second_squared,
+  degrees_per_second,
+  gigahertz
+};
 
 /// "m/s"; nothing without a unit.
 std::string_view symbol_of(Unit unit);
 /// What names of members end with: "_m_s".
 std::string_view suffix_of(Unit unit);
+
+/// Metres: no key takes longer lengths (ValueReader::length), and lists of keys do not say so.
+inline constexpr double kLongest = 1e9;
 
 /// Which numbers a key takes.
 struct Bounds {

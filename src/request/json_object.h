@@ -1,14 +1,18 @@
-// What is set, as an object of JSON.
+// What is set, as an object of JSON, and read from one.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "request/description.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::request {
+
+inline std::string name_in_json(const Key& key, Unit unit) { return std::string(key.path).append(suffix_of(unit)); }
 
 /// A visitor. Its keys are those of the mission file with their units: "min_edge_m". Settings of the machine, such as a
 /// device, are left out. `number_as` makes JSON of a double; what is not given is null.
@@ -22,7 +26,7 @@ class JsonObject : Visitor {
     add(key, Unit::none) = std::string(word_of(choices, value));
   }
   void number(const Key& key, double value, const Bounds& bounds, const Only& /*only*/) {
-    add(key, bounds.unit) = number_as_(value);
+    if (!key.is_none_at_zero || value != 0) add(key, bounds.unit) = number_as_(value);
   }
   void whole(const Key& key, int value, const Bounds& bounds) { add(key, bounds.unit) = number_as_(value); }
   void grid(const Key& key, const std::optional<std::array<int, 2>>& value, const Bounds& /*of_first*/,
@@ -35,10 +39,41 @@ class JsonObject : Visitor {
   const Json& json() const { return json_; }
 
  private:
-  Json& add(const Key& key, Unit unit) { return json_[std::string(key.path).append(suffix_of(unit))]; }
+  Json& add(const Key& key, Unit unit) { return json_[name_in_json(key, unit)]; }
 
   NumberAs number_as_;
   Json json_ = Json::object();
+};
+
+/// A visitor that reads what JsonObject wrote with numbers as numbers. Throws what `Json` throws for what is missing or
+/// of another type, and Error(input) for what is out of its range.
+template <typename Json>
+class JsonReader : Visitor {
+ public:
+  JsonReader(const Json& json, std::string_view section) : json_(json), section_(section) {}
+
+  template <typename Value, typename Choices>
+  void choice(const Key& key, Value& value, const Choices& choices) const {
+    const std::string word = json_.at(name_in_json(key, Unit::none)).template get<std::string>();
+    for (const auto& [one, its_word] : choices) {
+      if (word != its_word) continue;
+      value = one;
+      return;
+    }
+    throw Error(ErrorCode::unknown_choice, "'" + word + "' is not known", name_of(key), std::string(key.form));
+  }
+  void number(const Key& key, double& value, const Bounds& bounds, const Only& /*only*/) const {
+    const std::string name = name_in_json(key, bounds.unit);
+    if (key.is_none_at_zero && !json_.contains(name)) return;
+    value = json_.at(name).template get<double>();
+    check_within(bounds, value, name_of(key));
+  }
+
+ private:
+  std::string name_of(const Key& key) const { return section_ + "." + std::string(key.path); }
+
+  const Json& json_;
+  std::string section_;
 };
 
 }  // namespace vantage::internal::request

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "core/text.h"
+#include "request/checker.h"
+#include "request/describe_sensor.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -12,15 +14,20 @@ namespace {
 
 using internal::core::number_text;
 
-constexpr double kLargestRange = 1e9;       // metres; as scenes
-constexpr double kLargestTangent = 1e3;     // half a picture of 179.9 degrees
-constexpr double kHighestFrequency = 3000;  // GHz: radio waves end there (ITU Radio Regulations, 1.5)
+constexpr double kLargestRange = 1e9;    // metres; as scenes
+constexpr double kLargestTangent = 1e3;  // half a picture of 179.9 degrees
 constexpr std::size_t kMostCells = 1024;
 constexpr double kSmallestTangent = 1e-6;  // and one of a fifth of a second of arc
 
 void require(bool holds, const char* problem, const char* where, const char* fix,
              ErrorCode code = ErrorCode::value_out_of_range) {
   if (!holds) throw Error(code, problem, where, fix);  // false for NaN too
+}
+
+template <typename Settings>
+void check_described(const Settings& settings) {
+  internal::request::Checker checker(internal::request::kSection<Settings>);
+  describe(settings, checker);
 }
 
 void check_camera(const Pinhole& camera) {
@@ -49,18 +56,9 @@ void check_mount(const Mount& mount) {
 }
 
 void check_pixel(const Sensor& sensor) {
-  require(sensor.pixel->size_m > 0 && std::isfinite(sensor.pixel->size_m),
-          "the size of a pixel is not a positive number of metres", "sensor.pixel",
-          "give how much of the target a pixel may cover: 0.02");
+  check_described(*sensor.pixel);
   require(sensor.camera && sensor.camera->focal_px, "the size of a pixel needs a focal length in pixels",
           "sensor.pixel", "give a camera with its width and height in pixels", ErrorCode::missing_key);
-}
-
-void check_link(const RadioLink& link) {
-  require(link.frequency_ghz > 0 && link.frequency_ghz <= kHighestFrequency,
-          "the frequency is not between 0 and 3000 GHz", "sensor.link", "give it in GHz: 2.4");
-  require(link.clear > 0 && link.clear <= 1, "the share of the zone that must be clear is not between 0 and 1",
-          "sensor.link", "0.6 is usual, 1 is all of the first zone");
 }
 
 void check_share(const VisibleShare& visible) {
@@ -87,7 +85,7 @@ void check_sensor(const Sensor& sensor) {
   if (camera) check_camera(*camera);
   check_mount(mount);
   if (pixel) check_pixel(sensor);
-  if (link) check_link(*link);
+  if (link) check_described(*link);
   require(max_range_m > 0, "max_range must be a positive, finite number of metres", "sensor",
           "give the farthest distance at which the target can be seen");
   const double range_m = range_limit_m(sensor);
