@@ -86,6 +86,7 @@ foreach(file
     core/stars core/system_limits core/text core/triangle_contact core/triangle_distance
     core/triangle_tree core/weld core/zone_check geo/coordinate_system geo/local_frame
     geo/longitudes geo/proj_files geo/proj_library io/json_text io/write_zip io/zip options/spheres_options
+    request/description
     target/lengths target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()

@@ -6,13 +6,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/described_section.h"
+#include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
+#include "request/json_object.h"
 #include "support/key_table.h"
 #include "support/places.h"
 #include "support/random.h"
@@ -98,6 +101,38 @@ TEST(DescribedKeys, OfATourAreReadBackAsTheyWereWritten) {
   }
 }
 
+TEST(DescribedKeys, AreReadFromTheJsonThatWasWritten) {
+  using Json = nlohmann::ordered_json;
+  const auto number_as = [](auto value) { return Json(value); };
+  internal::request::JsonObject<Json, decltype(number_as)> object(number_as);
+  const PixelLimit pixel = {0.02, PixelLimit::Kind::perpendicular};
+  describe(pixel, object);
+  EXPECT_EQ(object.json().dump(), R"({"size_m":0.02,"kind":"perpendicular"})");
+  const auto read = [](const char* text) {
+    const Json json = Json::parse(text);
+    PixelLimit limit;
+    internal::request::JsonReader<Json> reader(json, kSection<PixelLimit>);
+    describe(limit, reader);
+    return limit;
+  };
+  EXPECT_EQ(read(R"({"size_m": 0.02, "kind": "perpendicular"})").kind, PixelLimit::Kind::perpendicular);
+  EXPECT_EQ(read(R"({"size_m": 0.02, "kind": "worst"})").size_m, 0.02);
+  testing::expect_code([&] { read(R"({"size_m": 0.02, "kind": "wurst"})"); }, ErrorCode::unknown_choice,
+                       "sensor.pixel.kind");
+  testing::expect_code([&] { read(R"({"size_m": 0, "kind": "worst"})"); }, ErrorCode::value_out_of_range,
+                       "sensor.pixel.size");
+  EXPECT_THROW(read(R"({"kind": "worst"})"), std::exception);
+}
+
+TEST(DescribedKeys, ANumberThatIsNoneAtZeroIsLeftOutThen) {
+  const PilotSight seated = {{0.35, VisualRange::Kind::multirotor, 5000}, 0};
+  EXPECT_EQ(internal::app::flow_text(seated), "{aircraft_size: 0.35, kind: multirotor, visibility: 5000}");
+  PilotSight standing = seated;
+  standing.eye_height_m = 1.7;
+  EXPECT_EQ(internal::app::flow_text(standing),
+            "{aircraft_size: 0.35, kind: multirotor, visibility: 5000, eye_height: 1.7}");
+}
+
 TEST(Bounds, TellWhichNumbersTheyTake) {
   using internal::request::Bounds;
   using internal::request::Unit;
@@ -111,6 +146,9 @@ TEST(Bounds, TellWhichNumbersTheyTake) {
   EXPECT_EQ((Bounds{0.01, 1e5}).text(), "0.01 to 100,000");
   EXPECT_EQ((Bounds{1e-9, 604'800, Unit::seconds, "", "a week"}).text(), "> 0, at most 604,800, a week");
   EXPECT_EQ((Bounds{0, 1000}).text(), "0 to 1000");
+  const Bounds length = {0, internal::request::kLongest, Unit::metres, "", "", Bounds::Ends::without_least};
+  EXPECT_FALSE(length.hold(0));
+  EXPECT_EQ(length.text(), "> 0");
 }
 
 }  // namespace
