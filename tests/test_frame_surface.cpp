@@ -32,6 +32,34 @@ std::vector<Vec3> square_facing(const Vec3& front) {
   return corners;
 }
 
+TEST(FrameSurface, EndsWhereTheSearchFromANeighbourIsNoBetter) {
+  // A camera that is turned on its side, on a gimbal of few pitches: it went on without end.
+  const std::vector<std::vector<Vec3>> targets = {{{80.5164474, 103.025911, 3.0},
+                                                   {-77.1513534, 94.7292877, 3.0},
+                                                   {-77.1513534, 94.7292877, 70.6203289},
+                                                   {80.5164474, 103.025911, 70.6203289}},
+                                                  {{-64.1430675, 18.4369372, 3.0},
+                                                   {-92.1779213, -26.0215811, 3.0},
+                                                   {-92.1779213, -26.0215811, 41.6558135},
+                                                   {-64.1430675, 18.4369372, 41.6558135}}};
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Vec3> corners = targets[static_cast<std::size_t>(round) % targets.size()];
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& corner : corners) middle += corner / 4;
+    for (Vec3& corner : corners) corner -= middle;
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    Mount mount;
+    mount.min_pitch_deg = -45;
+    mount.max_pitch_deg = -30;
+    mount.roll_deg = round < 4 ? 90 : 180;
+    FrameView view{.corners = corners, .front = normal, .camera = pinhole_of_fov(60, 45), .mount = mount};
+    if (round / 2 % 2 == 1) view.front = Vec3(-normal);
+    view.reach = 700;
+    view.least = 7e-4;
+    EXPECT_GT(make_frame_surface(view).mesh.triangles.size(), 700);
+  }
+}
+
 class FrameSurfaces : public ::testing::TestWithParam<std::pair<Vec3, Mount>> {
  protected:
   const Vec3 front = GetParam().first.normalized();
