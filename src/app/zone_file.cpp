@@ -39,7 +39,8 @@ std::string kml_of_archive(std::string_view text, const std::filesystem::path& f
     std::string kml = io::unzipped(text, "doc.kml", ".kml", kMostZoneBytes);
     if (!io::is_zip(kml)) return kml;
   } catch (const io::ZipProblem& problem) {
-    fail_in_zones(problem.is_too_large ? ErrorCode::file_too_large : ErrorCode::zone_file_syntax, file, "",
+    const bool is_too_large = problem.kind == io::ZipProblem::Kind::too_large;
+    fail_in_zones(is_too_large ? ErrorCode::file_too_large : ErrorCode::zone_file_syntax, file, "",
                   "the file is a zip archive, as KMZ is, and " + problem.text,
                   "give a KMZ file, or the .kml that is in it");
   }

@@ -139,7 +139,7 @@ std::string unzipped(std::string_view archive, std::string_view name, std::strin
     };
     found = files.first(is_wanted);
   }
-  if (!found) fail("there is no " + std::string(extension) + " in it");
+  if (!found) throw ZipProblem("there is no " + std::string(extension) + " in it", ZipProblem::Kind::missing);
   if (found->flags & 1) fail("what it holds is encrypted");
   if (found->packed_bytes == kIsElsewhere || found->bytes == kIsElsewhere || found->offset == kIsElsewhere) {
     fail(kIsZip64);
@@ -147,7 +147,7 @@ std::string unzipped(std::string_view archive, std::string_view name, std::strin
   if (found->bytes > most_bytes) {
     throw ZipProblem("the " + std::string(extension) + " in it is too large: " + std::to_string(found->bytes) +
                          " bytes, at most " + std::to_string(most_bytes),
-                     true);
+                     ZipProblem::Kind::too_large);
   }
   const std::string_view packed = files.packed(*found);
   std::string made;

@@ -11,11 +11,12 @@ namespace vantage::internal::io {
 
 /// Why there is no such file, or why it cannot be read.
 struct ZipProblem : std::exception {
-  explicit ZipProblem(std::string why, bool too_large = false) : text(std::move(why)), is_too_large(too_large) {}
+  enum class Kind { damaged, too_large, missing };  ///< missing: the archive is right, and has no such file
+  explicit ZipProblem(std::string why, Kind which = Kind::damaged) : text(std::move(why)), kind(which) {}
   const char* what() const noexcept override { return text.c_str(); }
 
   std::string text;  ///< ends a sentence about the archive: "it is cut off"
-  bool is_too_large;
+  Kind kind;
 };
 
 /// Whether it begins as an archive does.

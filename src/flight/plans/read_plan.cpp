@@ -28,14 +28,16 @@ constexpr const char* kPlanAdvice =
 /// What is in a KMZ archive: DJI's waylines, or else "doc.kml" or the first KML.
 std::string unpacked(const plans::PlanSource& source) {
   const auto fail = [&](const ZipProblem& problem) {
-    source.fail(problem.is_too_large ? ErrorCode::file_too_large : ErrorCode::plan_syntax, "",
+    const bool is_too_large = problem.kind == ZipProblem::Kind::too_large;
+    source.fail(is_too_large ? ErrorCode::file_too_large : ErrorCode::plan_syntax, "",
                 "the file is a zip archive, as KMZ is, and " + problem.text,
                 "give a KMZ file, or the .kml or .wpml that is in it");
   };
   try {
     return internal::io::unzipped(source.text, "wpmz/waylines.wpml", ".wpml", kMostPlanBytes);
   } catch (const ZipProblem& problem) {
-    if (problem.is_too_large) fail(problem);
+    // One that is damaged is not replaced by the other one, which may be another flight.
+    if (problem.kind != ZipProblem::Kind::missing) fail(problem);
   }
   try {
     return internal::io::unzipped(source.text, "doc.kml", ".kml", kMostPlanBytes);
