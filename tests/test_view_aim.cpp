@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "support/flight_cases.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "vantage/camera_aim.h"
 #include "vantage/mission.h"
 #include "vantage/view_description.h"
 
@@ -89,6 +91,69 @@ TEST(ViewAim, HasTheWholeTargetInThePictureWhereSomeOrientationHas) {
   }
   EXPECT_GT(whole, 40);
   EXPECT_GT(off_centre, 10);
+}
+
+/// Where points lie that the camera has at these tangents from the middle of its picture.
+std::vector<Vec3> seen_at(const CameraAim& aim, double roll_deg, double across, double up) {
+  const double yaw = aim.yaw_deg * kRadian, pitch = aim.pitch_deg * kRadian, roll = roll_deg * kRadian;
+  const Vec3 ahead(std::cos(pitch) * std::sin(yaw), std::cos(pitch) * std::cos(yaw), std::sin(pitch));
+  const Vec3 level(std::cos(yaw), -std::sin(yaw), 0), above = level.cross(ahead);
+  const Vec3 right = std::cos(roll) * level - std::sin(roll) * above, top = right.cross(ahead);
+  std::vector<Vec3> points;
+  for (const double x : {-across, across}) {
+    for (const double y : {-up, up}) points.push_back(50 * (ahead + x * right + y * top));
+  }
+  return points;
+}
+
+TEST(FitInPicture, FindsOrientationsWithLittleRoom) {
+  const std::uint64_t seed = 11;
+  std::cout << "seed " << seed << "\n";
+  Random random(seed);
+  Pinhole camera;
+  camera.half_width = std::tan(10 * kRadian);
+  camera.half_height = std::tan(7.5 * kRadian);
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    Mount mount = {.min_pitch_deg = random.uniform(-80, -10), .roll_deg = 90.0 * random.integer(-1, 2)};
+    mount.max_pitch_deg = mount.min_pitch_deg + random.uniform(0, 30);
+    // At an end of the pitches that the mount allows, or between them.
+    const double share = 0.5 * random.integer(0, 2);
+    const CameraAim aim = {random.uniform(0, 360),
+                           mount.min_pitch_deg + share * (mount.max_pitch_deg - mount.min_pitch_deg)};
+    if (random.chance(0.3)) mount.yaw_deg = aim.yaw_deg;
+    const double room = std::tan(random.uniform(2e-4, 1e-3) * kRadian);
+    const std::vector<Vec3> points =
+        seen_at(aim, mount.roll_deg, camera.half_width * (1 - 4 * room), camera.half_height * (1 - 6 * room));
+    ASSERT_TRUE(is_in_picture(camera, mount.roll_deg, aim, points));
+    const auto found = fit_in_picture(camera, mount, points);
+    ASSERT_TRUE(found) << room;
+    EXPECT_GE(found->aim.pitch_deg, mount.min_pitch_deg - 1e-9);
+    EXPECT_LE(found->aim.pitch_deg, mount.max_pitch_deg + 1e-9);
+  }
+}
+
+TEST(FitInPicture, TakesNoPointThatIsNotFinite) {
+  Pinhole camera;
+  camera.half_width = 0.5;
+  camera.half_height = 0.5;
+  const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(fit_in_picture(camera, {}, {Vec3(0, 10, 0)}));
+  EXPECT_FALSE(fit_in_picture(camera, {}, {Vec3(0, 10, 0), Vec3(nan, nan, nan)}));
+  EXPECT_FALSE(fit_in_picture(camera, {}, {Vec3(0, 10, 0), Vec3(0, infinite, 0)}));
+}
+
+TEST(FitInPicture, LeavesAsLittleOutsideAsCanBe) {
+  Pinhole camera;
+  camera.half_width = std::tan(10 * kRadian);
+  camera.half_height = std::tan(10 * kRadian);
+  const std::vector<Vec3> points = seen_at({30, -40}, 0, std::tan(14 * kRadian), 0.01);
+  EXPECT_FALSE(fit_in_picture(camera, {}, points));
+  EXPECT_FALSE(fit_in_picture(camera, {}, points, 3));
+  const auto found = fit_in_picture(camera, {}, points, 10);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->aim.yaw_deg, 30, 1);
+  EXPECT_NEAR(found->room_deg, -4, 0.1);
 }
 
 }  // namespace

@@ -49,17 +49,26 @@ AimedCamera ViewAim::at(const Vec3& position, const Vec3& centre) const {
   const Vec3 line = centre - position;
   const AimedCamera nearest = allowed(aim_at(position, centre), !(line.head<2>().norm() > 0), mount_);
   if (!camera_) return nearest;
-  std::optional<FittingAim> best;
-  for (const std::vector<Vec3>& corners : choices_) {
-    std::vector<Vec3> seen;
-    for (const Vec3& corner : corners) seen.push_back(corner - position);
-    const CameraAim aim{nearest.aim.yaw_deg, nearest.aim.pitch_deg};
-    if (nearest.is_centred && is_in_picture(*camera_, mount_.roll_deg, aim, seen)) return nearest;
-    const std::optional<FittingAim> fit = fit_in_picture(*camera_, mount_, seen);
-    if (fit && (!best || fit->room_deg > best->room_deg)) best = fit;
+  std::vector<std::vector<Vec3>> seen = choices_;
+  for (std::vector<Vec3>& corners : seen) {
+    for (Vec3& corner : corners) corner -= position;
   }
-  if (!best) return {nearest.aim, false};
-  return {{best->aim.yaw_deg, best->aim.pitch_deg}, false};
+  const CameraAim aim{nearest.aim.yaw_deg, nearest.aim.pitch_deg};
+  if (nearest.is_centred && std::any_of(seen.begin(), seen.end(), [&](const std::vector<Vec3>& corners) {
+        return is_in_picture(*camera_, mount_.roll_deg, aim, corners);
+      })) {
+    return nearest;
+  }
+  // Where the whole target is in no picture, by a rounding or more, as little as can be is outside.
+  for (const double outside_deg : {0.0, 0.001, 0.01, 0.1, 1.0, 10.0, 45.0}) {
+    std::optional<FittingAim> best;
+    for (const std::vector<Vec3>& corners : seen) {
+      const std::optional<FittingAim> fit = fit_in_picture(*camera_, mount_, corners, outside_deg);
+      if (fit && (!best || fit->room_deg > best->room_deg)) best = fit;
+    }
+    if (best) return {{best->aim.yaw_deg, best->aim.pitch_deg}, false};
+  }
+  return {nearest.aim, false};
 }
 
 }  // namespace vantage::internal::flight

@@ -27,14 +27,17 @@ bool is_in_picture(const Pinhole& camera, double roll_deg, const CameraAim& aim,
   });
 }
 
-std::optional<FittingAim> fit_in_picture(const Pinhole& camera, const Mount& mount, const std::vector<Vec3>& points) {
-  constexpr double kFine = 1e-4, kTouches = 1e-6;  // sines
+std::optional<FittingAim> fit_in_picture(const Pinhole& camera, const Mount& mount, const std::vector<Vec3>& points,
+                                         double outside_deg) {
+  constexpr double kFine = 1e-4, kTouches = 1e-6, kFinest = 1e-7;  // sines
   constexpr int kMostPitches = 1000;
   std::optional<FittingAim> best;
-  double low = -kTouches, high = 1;  // of the room
+  const auto is_finite = [](const Vec3& point) { return point.allFinite(); };
+  if (!std::all_of(points.begin(), points.end(), is_finite)) return best;
+  double low = -kTouches - std::sin(outside_deg * kRadian), high = 1;  // of the room
   for (double room = low; high - low > kFine; room = 0.5 * (low + high)) {
-    const auto found =
-        internal::sensor::find_aim(camera, mount, points, kFine / 10, {.outside = -room}, kMostPitches).aim;
+    const double slack = best ? kFine / 10 : kFinest;
+    const auto found = internal::sensor::find_aim(camera, mount, points, slack, {.outside = -room}, kMostPitches).aim;
     if (!found && !best) return best;
     if (found) best = {degrees_of(*found), std::asin(room) / kRadian};
     (found ? low : high) = room;

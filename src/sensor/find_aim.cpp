@@ -103,6 +103,10 @@ class Search {
       open.emplace_back(low, pitch);
       open.emplace_back(pitch, high);
     }
+    // Where it is the mount that leaves no room, one of its ends may be all that does.
+    for (const double end : {min_pitch, max_pitch}) {
+      if (const auto yaw = yaw_for(end, 0)) return {Aim{*yaw, end}, false};
+    }
     return {};
   }
 
