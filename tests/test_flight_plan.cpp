@@ -420,8 +420,49 @@ TEST(ReadFlightPlan, TakesTablesWhoseColumnsSayWhatTheyAre) {
   EXPECT_EQ(litchi.items[1].position.datum, HeightDatum::ground);
   expect_error([] { parsed_plan("a,b,c\n1,2,3\n"); }, ErrorCode::plan_syntax, "line 1");
   expect_error([] { parsed_plan("lat,lon,msl\n48,11,high\n"); }, ErrorCode::not_a_number, "line 2, column 3");
-  expect_error([] { parsed_plan("x,y,z\n1,2\n"); }, ErrorCode::plan_syntax, "line 2");
+  expect_error([] { parsed_plan("x,y,z\n1,2,\n"); }, ErrorCode::plan_syntax, "line 2");
   expect_error([] { parsed_plan("lat,lon,msl\n"); }, ErrorCode::plan_empty);
+}
+
+TEST(ReadFlightPlan, TakesNoFieldForAnotherColumns) {
+  // A decimal comma, and a row that is cut off.
+  expect_error([] { parsed_plan("lon,lat,msl,hold_s\n11.1,48.1,530,184773,3\n"); }, ErrorCode::plan_syntax, "line 2");
+  expect_error([] { parsed_plan("lon,lat,msl,hold_s\n11.1,48.1,530\n"); }, ErrorCode::plan_syntax, "line 2");
+  EXPECT_EQ(parsed_plan("lon,lat,msl,hold_s\n11.1,48.1,530,,\n").items.at(0).hold_s, 0);
+  expect_error([] { parsed_plan("x,y,z,hold_s,hold_s\n1,2,3,4,5\n"); }, ErrorCode::plan_syntax, "line 1");
+}
+
+TEST(ReadFlightPlan, TakesUnitsThatAColumnCanHave) {
+  const auto item = [](const std::string& text) { return parsed_plan(text).items.at(0); };
+  EXPECT_NEAR(item("x,y,z,speed_kn\n1,2,3,36\n").speed_m_s, 18.52, 1e-9);
+  EXPECT_NEAR(item("x,y,z,speed (km/h)\n1,2,3,36\n").speed_m_s, 10, 1e-9);
+  EXPECT_NEAR(item("x,y,z,speed_mph\n1,2,3,10\n").speed_m_s, 4.4704, 1e-9);
+  EXPECT_EQ(item("x,y,z,hold_min\n1,2,3,2\n").hold_s, 120);
+  // What it is not told of is left out with a word.
+  for (const char* const column : {"hold_ft", "speed_furlongs", "hold (h)"}) {
+    const FlightPlan plan = parsed_plan(std::string("x,y,z,") + column + "\n1,2,3,7\n");
+    EXPECT_TRUE(has_note(plan.notes, WarningCode::plan_left_out)) << column;
+    EXPECT_EQ(plan.items.at(0).hold_s, 0);
+    EXPECT_TRUE(std::isnan(plan.items.at(0).speed_m_s));
+  }
+  EXPECT_TRUE(parsed_plan("x,y,z,name,battery_left\n1,2,3,a,7\n").notes.empty());
+}
+
+TEST(ReadFlightPlan, RefusesAStayThatIsGivenTwice) {
+  const auto point = [](const std::string& number, const std::string& hold) {
+    return "<Placemark><ExtendedData><Data name=\"point\"><value>" + number +
+           "</value></Data><Data name=\"hold_s\"><value>" + hold + "</value></Data>" +
+           "</ExtendedData><Point><altitudeMode>absolute</altitudeMode><coordinates>11,48,500</coordinates></Point>" +
+           "</Placemark>\n";
+  };
+  const std::string line = kml_line("11,48,500 11.001,48,500");
+  EXPECT_EQ(parsed_plan(kml(line + point("1", "3"))).items.at(0).hold_s, 3);
+  EXPECT_EQ(parsed_plan(kml(line + point("1", "3") + point("1", "3"))).items.at(0).hold_s, 3);
+  expect_code([&] { parsed_plan(kml(line + point("1", "3") + point("1", "30"))); }, ErrorCode::conflicting_keys,
+              "line");
+  const std::string twice = "</value></Data><Data name=\"hold_s\"><value>";
+  expect_code([&] { parsed_plan(kml(line + point("1", "3" + twice + "9"))); }, ErrorCode::conflicting_keys, "line");
+  EXPECT_EQ(parsed_plan(kml(line + point("1", "3" + twice + "3"))).items.at(0).hold_s, 3);
 }
 
 TEST(ReadFlightPlan, TellsWhatIsWrong) {

@@ -17,7 +17,7 @@
 namespace vantage::internal::flight::plans {
 namespace {
 
-constexpr double kFootM = 0.3048;
+constexpr double kFootM = 0.3048, kKnotMS = 1852.0 / 3600;
 
 enum class Column { longitude, latitude, height, x, y, z, hold, speed, yaw, gimbal_yaw, gimbal_pitch, mode, curve };
 
@@ -87,19 +87,66 @@ constexpr KnownColumn kColumns[] = {
     {"curvesize", Column::curve},
 };
 
+enum class Measure { none, length, angle, time, speed };
+
+Measure measure_of(Column column) {
+  switch (column) {
+    case Column::height:
+    case Column::x:
+    case Column::y:
+    case Column::z:
+    case Column::curve:
+      return Measure::length;
+    case Column::longitude:
+    case Column::latitude:
+    case Column::yaw:
+    case Column::gimbal_yaw:
+    case Column::gimbal_pitch:
+      return Measure::angle;
+    case Column::hold:
+      return Measure::time;
+    case Column::speed:
+      return Measure::speed;
+    case Column::mode:
+      break;
+  }
+  return Measure::none;
+}
+
 struct Unit {
   std::string_view name;
+  Measure measure;
   double factor;
 };
-constexpr std::array kUnits = {Unit{"m", 1},         Unit{"metres", 1}, Unit{"meters", 1},    Unit{"ft", kFootM},
-                               Unit{"feet", kFootM}, Unit{"deg", 1},    Unit{"degrees", 1},   Unit{"s", 1},
-                               Unit{"m/s", 1},       Unit{"m_s", 1},    Unit{"km/h", 1 / 3.6}};
+// Those that end with another one's name come before it.
+constexpr std::array kUnits = {Unit{"metres", Measure::length, 1},
+                               Unit{"meters", Measure::length, 1},
+                               Unit{"feet", Measure::length, kFootM},
+                               Unit{"ft", Measure::length, kFootM},
+                               Unit{"degrees", Measure::angle, 1},
+                               Unit{"deg", Measure::angle, 1},
+                               Unit{"m/s", Measure::speed, 1},
+                               Unit{"m_s", Measure::speed, 1},
+                               Unit{"km/h", Measure::speed, 1 / 3.6},
+                               Unit{"kmh", Measure::speed, 1 / 3.6},
+                               Unit{"knots", Measure::speed, kKnotMS},
+                               Unit{"kn", Measure::speed, kKnotMS},
+                               Unit{"mph", Measure::speed, 1609.344 / 3600},
+                               Unit{"min", Measure::time, 60},
+                               Unit{"s", Measure::time, 1},
+                               Unit{"m", Measure::length, 1}};
 
 /// A column that is used.
 struct Use {
   std::size_t index;
   KnownColumn known;
   double factor;
+};
+
+/// What a title says.
+struct Title {
+  std::optional<Use> use;
+  bool has_unknown_unit = false;  ///< it is the name of a known column, and something behind it
 };
 
 /// Fields of a line; in quotes there may be separators, and a quote that is written twice.
@@ -122,28 +169,31 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
   return fields;
 }
 
+std::optional<KnownColumn> known_column(std::string_view word) {
+  while (!word.empty() && word.back() == '_') word.remove_suffix(1);
+  for (const KnownColumn& column : kColumns) {
+    if (column.name == word) return column;
+  }
+  return std::nullopt;
+}
+
 /// "Altitude (m)", "altitude_m", "altitude(m)" are "altitude" and "m".
-std::optional<Use> use_of(std::string_view title, std::size_t index) {
+Title read_title(std::string_view title, std::size_t index) {
   std::string name;
   for (const char c : title)
     name += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto known = [&](std::string_view word, double factor) -> std::optional<Use> {
-    while (!word.empty() && word.back() == '_') word.remove_suffix(1);
-    for (const KnownColumn& column : kColumns) {
-      if (column.name == word) return Use{index, column, factor};
-    }
-    return std::nullopt;
-  };
-  if (const auto whole = known(name, 1)) return whole;
-  std::optional<Use> found;
+  if (const auto whole = known_column(name)) return {Use{index, *whole, 1}};
   for (const Unit& unit : kUnits) {
     for (const std::string& end :
          {"(" + std::string(unit.name) + ")", "[" + std::string(unit.name) + "]", "_" + std::string(unit.name)}) {
       const bool ends_so = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-      if (ends_so && !found) found = known(std::string_view{name}.substr(0, name.size() - end.size()), unit.factor);
+      if (!ends_so) continue;
+      const auto column = known_column(std::string_view{name}.substr(0, name.size() - end.size()));
+      if (column && measure_of(column->column) == unit.measure) return {Use{index, *column, unit.factor}};
     }
   }
-  return found;
+  const std::size_t last = name.find_last_of("_([");
+  return {std::nullopt, last != std::string::npos && known_column(std::string_view{name}.substr(0, last)).has_value()};
 }
 
 class PlanTable {
@@ -159,12 +209,21 @@ class PlanTable {
     do {
       if (!lines.next(line)) fail_header("the table has no header");
     } while (without_blanks(line).empty() || line.front() == '#');
-    read_header(line, lines.place());
+    read_header(line, lines.place(), plan);
     plan.is_in_scene_frame = is_in_scene_frame_;
     while (lines.next(line)) {
       source_.progress.tick();
       if (without_blanks(line).empty() || line.front() == '#') continue;
-      add(fields_of(line, separator_), source_.place(lines.place()), plan);
+      std::vector<std::string> fields = fields_of(line, separator_);
+      while (fields.size() > columns_ && fields.back().empty()) fields.pop_back();
+      const std::string where = source_.place(lines.place());
+      if (fields.size() != columns_) {
+        PlanSource::fail_at(
+            ErrorCode::plan_syntax, where,
+            "the row has " + std::to_string(fields.size()) + " fields, and the header " + std::to_string(columns_),
+            "write numbers with a decimal point, and a field for each column, which may be empty");
+      }
+      add(fields, where, plan);
       check_count(plan.items.size(), source_);
     }
     check_plan(plan, source_);
@@ -178,12 +237,22 @@ class PlanTable {
                  "height_agl_m, height_home_m), or x, y and z");
   }
 
-  void read_header(std::string_view line, const std::string& place) {
+  void read_header(std::string_view line, const std::string& place, FlightPlan& plan) {
     const auto count = [&](char c) { return std::count(line.begin(), line.end(), c); };
     separator_ = count(';') > 0 ? ';' : count('\t') > 0 ? '\t' : ',';
     const std::vector<std::string> titles = fields_of(line, separator_);
+    columns_ = titles.size();
     for (std::size_t i = 0; i < titles.size(); ++i) {
-      if (const auto use = use_of(titles[i], i)) uses_.push_back(*use);
+      const Title title = read_title(titles[i], i);
+      if (title.use) uses_.push_back(*title.use);
+      if (title.has_unknown_unit) {
+        plan.notes.push_back({WarningCode::plan_left_out, source_.name + ": the column " + in_quotes(titles[i]) +
+                                                              " is left out: its unit is not known"});
+      }
+      if (title.use && std::find(titles.begin(), titles.begin() + static_cast<std::ptrdiff_t>(i), titles[i]) !=
+                           titles.begin() + static_cast<std::ptrdiff_t>(i)) {
+        fail_header("two columns are called " + in_quotes(titles[i]), place);
+      }
     }
     const bool is_geographic = find(Column::longitude) && find(Column::latitude);
     is_in_scene_frame_ = !is_geographic;
@@ -252,6 +321,7 @@ class PlanTable {
 
   const PlanSource& source_;
   char separator_ = ',';
+  std::size_t columns_ = 0;
   std::vector<Use> uses_;
   std::optional<Use> height_;
   bool is_in_scene_frame_ = false;

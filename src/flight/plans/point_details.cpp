@@ -18,6 +18,14 @@ bool is_same_place(const PlanPosition& a, const PlanPosition& b) {
   return is_same_height && (a.horizontal - b.horizontal).cwiseAbs().maxCoeff() < kSameDeg;
 }
 
+/// `stated`: whether it was said before.
+void refuse_second(std::string_view name, double value, bool stated, double before, const PlanItem& item) {
+  if (!stated || before == value) return;
+  PlanSource::fail_at(ErrorCode::conflicting_keys, item.place,
+                      in_quotes(name) + " is given twice: " + shortest(before) + " and " + shortest(value),
+                      "keep one of them");
+}
+
 bool is_known(std::string_view name) {
   return name == "hold_s" || name == "speed_m_s" || name == "yaw_deg" || name == "gimbal_pitch_deg";
 }
@@ -38,10 +46,22 @@ std::vector<std::pair<const char*, std::string>> details_of(const OutPoint& poin
 }
 
 void set_detail(std::string_view name, double value, PlanItem& item, std::size_t* number) {
-  if (name == "hold_s") item.hold_s = value;
-  if (name == "speed_m_s") item.speed_m_s = value;
-  if (name == "yaw_deg") item.yaw_deg = value;
-  if (name == "gimbal_pitch_deg") item.gimbal_pitch_deg = value;
+  if (name == "hold_s") {
+    refuse_second(name, value, item.hold_s != 0, item.hold_s, item);
+    item.hold_s = value;
+  }
+  if (name == "speed_m_s") {
+    refuse_second(name, value, !std::isnan(item.speed_m_s), item.speed_m_s, item);
+    item.speed_m_s = value;
+  }
+  if (name == "yaw_deg") {
+    refuse_second(name, value, item.yaw_deg.has_value(), item.yaw_deg.value_or(0), item);
+    item.yaw_deg = value;
+  }
+  if (name == "gimbal_pitch_deg") {
+    refuse_second(name, value, item.gimbal_pitch_deg.has_value(), item.gimbal_pitch_deg.value_or(0), item);
+    item.gimbal_pitch_deg = value;
+  }
   const bool is_number = value >= 1 && value <= static_cast<double>(kMostPlanItems) && value == std::floor(value);
   if (name == "point" && number && is_number) *number = static_cast<std::size_t>(value);
 }
@@ -63,6 +83,7 @@ void take_details(DetailPoints points, std::vector<PlanTrack>& lines, const Plan
     return;
   }
   std::size_t lost = 0;
+  std::vector<bool> is_told(lines.front().items.size(), false);
   for (std::size_t i = 0; i < points.track.items.size(); ++i) {
     const PlanItem& point = points.track.items[i];
     const std::size_t number = points.numbers[i];
@@ -74,6 +95,13 @@ void take_details(DetailPoints points, std::vector<PlanTrack>& lines, const Plan
       continue;
     }
     PlanItem& item = items[number - 1];
+    if (is_told[number - 1] && point.hold_s != item.hold_s) {
+      PlanSource::fail_at(
+          ErrorCode::conflicting_keys, point.place,
+          "another point says what is done at position " + std::to_string(number) + " of the line, with another stay",
+          "keep one of them");
+    }
+    is_told[number - 1] = true;
     item.hold_s = point.hold_s;
     item.speed_m_s = point.speed_m_s;
     item.yaw_deg = point.yaw_deg;
