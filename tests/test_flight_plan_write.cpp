@@ -302,6 +302,38 @@ TEST(WriteFlightPlan, PacksTheTwoFilesOfDji) {
   EXPECT_EQ(plan.items[1].position.height_m, 40);
 }
 
+TEST(WriteFlightPlan, ADamagedFileOfDjiIsNotReplacedByItsTemplate) {
+  const std::string archive = flight_plan_bytes(flight_out(), PlanFormat::wpml);
+  EXPECT_EQ(parse_flight_plan(archive, "flight.kmz").format, PlanFormat::wpml);
+  // The bytes of waylines.wpml lie behind its name, those of the template before or behind them.
+  const std::size_t name = archive.find("wpmz/waylines.wpml");
+  int refused = 0;
+  for (std::size_t at = name + 60; at < name + 400; at += 17) {
+    std::string damaged = archive;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    expect_code([&] { parse_flight_plan(damaged, "flight.kmz"); }, ErrorCode::plan_syntax, "flight.kmz");
+    ++refused;
+  }
+  EXPECT_EQ(refused, 20);
+}
+
+TEST(WriteFlightPlan, DrawsAsManyVolumesInKmlAsAreReadBack) {
+  FlightOut out = flight_out();
+  out.heights = HeightDatum::sea_level;
+  Mesh large;
+  large.vertices = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  large.triangles.assign(100'000, Triangle{0, 1, 2});
+  out.volumes = {{"one", large}, {"two", large}};
+  const std::string text = flight_plan_bytes(out, PlanFormat::kml);
+  EXPECT_LT(text.size(), kMostPlanBytes);
+  EXPECT_NE(text.find("<name>one<"), std::string::npos);
+  EXPECT_EQ(text.find("<name>two<"), std::string::npos);
+  EXPECT_EQ(parse_flight_plan(text, "flight.kml").items.size(), out.flight.points.size());
+  const auto is_of_volumes = [](const std::string& note) { return note.find("volumes") != std::string::npos; };
+  const std::vector<std::string> notes = plan_notes(out, PlanFormat::kml);
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), is_of_volumes));
+}
+
 TEST(WriteFlightPlan, SaysWhatIsMissing) {
   const auto refuse = [](const FlightOut& out, PlanFormat format, ErrorCode code) {
     expect_error([&] { flight_plan_bytes(out, format); }, code);

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "flight/plans/plan_writer.h"
 #include "vantage/flight_plan.h"
 
 namespace vantage {
@@ -46,6 +47,13 @@ std::vector<std::string> plan_notes(const FlightOut& flight, PlanFormat format) 
   const std::size_t count = flight.flight.points.size();
   if (count == 0 || (!flight.actions.empty() && flight.actions.size() != count)) return {};  // what cannot be written
   std::vector<std::string> notes;
+  if (format == PlanFormat::kml) {
+    const std::size_t drawn = internal::flight::plans::drawn_in_kml(flight);
+    if (drawn < flight.volumes.size()) {
+      notes.push_back("of " + std::to_string(flight.volumes.size()) + " volumes the first " + std::to_string(drawn) +
+                      " are drawn: with more the file would be too large to be read; raise 'exact.tolerance'");
+    }
+  }
   if (is_of_autopilot(format)) {
     for (const std::string& text : {note_of_ways(flight), note_of_end(flight)}) {
       if (!text.empty()) notes.push_back(text);

@@ -14,6 +14,20 @@
 
 namespace vantage::internal::flight::plans {
 
+/// Of all volumes in a KML file: it takes 300 bytes for each, and must be no larger than what is read (kMostPlanBytes).
+inline constexpr std::size_t kMostKmlTriangles = 150'000;
+
+/// How many of the flight's volumes a KML file draws: the first ones that it has room for.
+inline std::size_t drawn_in_kml(const FlightOut& flight) {
+  std::size_t triangles = 0, drawn = 0;
+  for (const NamedVolume& volume : flight.volumes) {
+    triangles += volume.mesh.triangles.size();
+    if (triangles > kMostKmlTriangles) break;
+    ++drawn;
+  }
+  return drawn;
+}
+
 /// A point as it is written.
 struct OutPoint {
   Vec3 position;                     ///< scene frame

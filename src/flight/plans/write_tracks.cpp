@@ -118,7 +118,7 @@ std::string write_kml(const FlightOut& flight) {
     text += "</ExtendedData><Point><altitudeMode>absolute</altitudeMode><coordinates>" +
             kml_position(writer, points[i].position) + "</coordinates></Point></Placemark>\n";
   }
-  for (const NamedVolume& volume : flight.volumes) text += kml_volume(writer, volume);
+  for (std::size_t i = 0; i < drawn_in_kml(flight); ++i) text += kml_volume(writer, flight.volumes[i]);
   return text + "</Document>\n</kml>\n";
 }
 
