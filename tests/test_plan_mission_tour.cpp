@@ -348,6 +348,31 @@ TEST_F(PlanMissionTour, AHomeUnderARoofIsRefused) {
   expect_error([&] { plan_mission_tour(of); }, ErrorCode::viewpoint_inside_solid, "mission.yaml:9:");
 }
 
+TEST_F(PlanMissionTour, AHomeUnderAZoneToStayOutOfIsRefused) {
+  const std::string home = "home: [-20, -20, 0]";
+  const auto with = [](const std::string& zone) {
+    return "navigation: {altitude: [12, 100], keep_out: [" + zone + "]}\n";
+  };
+  for (const std::string zone : {"{min: [-22, -22, 0.5], max: [-18, -18, 10]}",
+                                 "{polygon: [[-22, -22], [-18, -22], [-18, -18], [-22, -18]], z: [2, 3]}"}) {
+    const Mission of = mission(home, with(zone));
+    expect_error([&] { plan_mission_tour(of); }, ErrorCode::limits_empty, "mission.yaml:9:");
+  }
+  EXPECT_TRUE(plan_mission_tour(mission(home, with("{min: [-18, -22, 0.5], max: [-15, -18, 10]}"))).is_complete());
+}
+
+TEST_F(PlanMissionTour, BeginsInABandAboveTheHomeHoweverNarrowOrHigh) {
+  const auto start = [&](const std::string& altitude) {
+    const Mission of = mission("home: [-20, -20, 0]", "navigation: {altitude: " + altitude + "}\n");
+    const PreparedScene scene(of.scene());
+    const auto airspace = make_airspace(scene, 1, of.navigation);
+    return internal::flight::tour::start_above(*of.home, of, scene, *airspace, 0).z();
+  };
+  EXPECT_EQ(start("[12, 100]"), 12);
+  EXPECT_NEAR(start("[12.1, 12.4]"), 12.1, 1e-9);
+  EXPECT_NEAR(start("[1000.5, 1100]"), 1000.5, 1e-9);
+}
+
 TEST(MissionTourLimits, TheWidthOfZonesIsThatOfTheNarrowestStrip) {
   using internal::flight::tour::least_width_m;
   EXPECT_EQ(least_width_m({}), std::numeric_limits<double>::infinity());

@@ -148,9 +148,39 @@ std::optional<std::string> note_of_narrow_zones(const Mission& mission, const To
               "give a smaller tour.vehicle.turn_radius, or a wider zone in 'navigation'");
 }
 
+namespace {
+
+/// The lowest height above `home` at which flying is allowed, of those in steps of 0.5 m; where none of them is
+/// allowed, of 200 between the bounds of the airspace. Metres; nothing where there is none.
+std::optional<double> lowest_allowed_m(const Vec3& home, const Airspace& airspace, double deviation_m) {
+  constexpr double kStep = 0.5, kHighest = 1000, kSteps = 200;
+  const auto lowest = [&](double low, double high, double step) -> std::optional<double> {
+    for (double height = low; step > 0 && height <= high; height += step) {
+      const Vec3 at = home + Vec3(0, 0, height);
+      if (airspace.allows({at, at}, deviation_m)) return height;
+    }
+    return std::nullopt;
+  };
+  if (const auto height = lowest(0, kHighest, kStep)) return height;
+  const Box bounds = airspace.bounds();
+  const double low = std::max(0.0, bounds.min.z() - home.z() + deviation_m);
+  const double high = std::min(bounds.max.z() - home.z(), low + kHighest);
+  return lowest(low, high, (high - low) / kSteps);
+}
+
+/// What there is to stay out of on a leg; nothing where the way is free.
+std::string kept_out_on(const Leg& leg, const Navigation& navigation) {
+  Navigation zones;
+  zones.keep_out = navigation.keep_out;
+  zones.keep_out_zones = navigation.keep_out_zones;
+  const std::vector<LegBreak> broken = zones.empty() ? std::vector<LegBreak>() : LegLimits(zones).broken(leg, 0);
+  return broken.empty() ? std::string() : broken.front().limit;
+}
+
+}  // namespace
+
 Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene& scene, const Airspace& airspace,
                  double deviation_m) {
-  constexpr double kStep = 0.5, kHighest = 1000;
   const Vec3 home = on_ground(given, mission);
   const Vec3 off_ground = home + Vec3(0, 0, 0.008);
   const std::string& where = mission.as_written.places.tour;
@@ -162,20 +192,27 @@ Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene&
       throw error.with_where(where + (where.empty() ? "" : ", ") + error.where());
     }
   }
-  for (double height = 0; height <= kHighest; height += kStep) {
-    Vec3 at = home + Vec3(0, 0, height);
-    if (!airspace.allows({at, at}, deviation_m)) continue;
-    LegDistanceOptions options;
-    options.without_ground = true;
-    const LegDistance nearest = LegDistances(scene, options).nearest({off_ground, at});
-    if (nearest.distance_m > 0) return at;
+  const auto height = lowest_allowed_m(home, airspace, deviation_m);
+  if (!height) {
+    constexpr double kOffGround = 0.5, kAbove = 1000;
+    throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
+                "move it into the zones of 'navigation', or widen these; nearest above it: " +
+                    airspace.obstacle({home + Vec3(0, 0, kOffGround), home + Vec3(0, 0, kAbove)}, 0));
+  }
+  const Vec3 at = home + Vec3(0, 0, *height);
+  LegDistanceOptions options;
+  options.without_ground = true;
+  const LegDistance nearest = LegDistances(scene, options).nearest({off_ground, at});
+  if (!(nearest.distance_m > 0)) {
     throw Error(ErrorCode::viewpoint_inside_solid,
                 "tour.home lies inside or under " + (nearest.name.empty() ? "the scene" : nearest.name), where,
                 "move it to where the way up is free");
   }
-  throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
-              "move it into the zones of 'navigation', or widen these; nearest above it: " +
-                  airspace.obstacle({home + Vec3(0, 0, kStep), home + Vec3(0, 0, kHighest)}, 0));
+  if (const std::string zone = kept_out_on({off_ground, at}, mission.navigation); !zone.empty()) {
+    throw Error(ErrorCode::limits_empty, "tour.home lies inside or under " + zone + ", to stay out of", where,
+                "move it to where the way up is free");
+  }
+  return at;
 }
 
 double room_above_m(const Vec3& home, const Vec3& start, const Airspace& airspace) {
