@@ -31,10 +31,12 @@ BoxAirspace walled() {
   return {{{"wall", {Vec3(-5, -20, -10), Vec3(5, 60, 10)}}}, 1, {Vec3(-100, -100, -0.4), Vec3(100, 100, 0.4)}};
 }
 
+bool never() { return false; }
+
 /// There and back.
 Course flown_once(const CourseLimits& limits, Draw& draw) {
   const Course straight = {true, {{Stop::kFixed, kFrom}, {Stop::kFixed, kTo}}};
-  return fly_clear(straight, limits, draw, ProgressReporter()).course;
+  return fly_clear(straight, limits, draw, ProgressReporter(), never).course;
 }
 
 void expect_allowed(const Course& course, const BoxAirspace& airspace) {
@@ -42,8 +44,6 @@ void expect_allowed(const Course& course, const BoxAirspace& airspace) {
     EXPECT_EQ(airspace.obstacle({course.stops[i].point, *course.after(i)}, 0), "");
   }
 }
-
-bool never() { return false; }
 
 TEST(TourWays, DrawnAnewComeNearToTheShortestOne) {
   const BoxAirspace airspace = walled();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -190,8 +191,9 @@ Vec3 draw_about(const Leg& leg, double reach, const Box& bounds, Draw& draw) {
 
 class ClearFlight {
  public:
-  ClearFlight(const Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress)
-      : course_(course), limits_(limits), draw_(draw), progress_(progress) {}
+  ClearFlight(const Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
+              const std::function<bool()>& is_late)
+      : course_(course), limits_(limits), draw_(draw), progress_(progress), is_late_(is_late) {}
 
   FlownCourse run() {
     if (!limits_.airspace) return {course_, {}};
@@ -264,8 +266,7 @@ class ClearFlight {
       const std::size_t next = (i + 1) % count;
       const Vec3 from = course_.stops[i].point, to = course_.stops[next].point;
       if (limits_.allows(from, to)) continue;
-      const std::optional<std::vector<Vec3>> way = find_way(*limits_.airspace, {from, to}, draw_, progress_);
-      if (way) {
+      if (const auto& way = way_between(i, next)) {
         for (const Vec3& point : *way) stops.push_back({kBend, point});
         continue;
       }
@@ -279,10 +280,23 @@ class ClearFlight {
     return true;
   }
 
+  /// Each is looked for once, however often legs are looked at again.
+  const std::optional<std::vector<Vec3>>& way_between(std::size_t i, std::size_t next) {
+    const Vec3 &from = course_.stops[i].point, &to = course_.stops[next].point;
+    const auto [known, is_new] = ways_.try_emplace({from.x(), from.y(), from.z(), to.x(), to.y(), to.z()});
+    if (is_new) {
+      const Effort effort = is_late_() ? Effort::little : Effort::full;
+      known->second = find_way(*limits_.airspace, {from, to}, draw_, progress_, effort);
+    }
+    return known->second;
+  }
+
   Course course_;
   const CourseLimits& limits_;
   Draw& draw_;
   const core::ProgressReporter& progress_;
+  const std::function<bool()>& is_late_;
+  std::map<std::array<double, 6>, std::optional<std::vector<Vec3>>> ways_;  ///< by their ends
   std::vector<TourProblem> problems_;
 };
 
@@ -341,16 +355,16 @@ bool improve_stop(Course& course, const CourseLimits& limits, std::size_t i) {
 }  // namespace
 
 std::optional<std::vector<Vec3>> find_way(const Airspace& airspace, const Leg& leg, Draw& draw,
-                                          const core::ProgressReporter& progress) {
+                                          const core::ProgressReporter& progress, Effort effort) {
   std::optional<std::vector<Vec3>> best = way_over(airspace, leg);
   if (best) pull_tight(*best, airspace, draw);
   const double direct = (leg.to - leg.from).norm();
   const Box bounds = airspace.bounds();
   std::vector<Vec3> nodes = {leg.from, leg.to};
   double reach = 1.15 * direct + 10;
-  constexpr int kGrowths = 6;
+  const int growths = effort == Effort::full ? 6 : 1;
   constexpr std::size_t kEach = 120;
-  for (int growth = 0; growth < kGrowths; ++growth, reach *= 1.7) {
+  for (int growth = 0; growth < growths; ++growth, reach *= 1.7) {
     if (best && length_of(*best) <= 1.02 * direct) break;
     for (std::size_t i = 0; i < kEach; ++i) {
       progress.check();
@@ -438,8 +452,8 @@ void join_bends(Course& course, const CourseLimits& limits) {
 }
 
 FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,
-                      const core::ProgressReporter& progress) {
-  return ClearFlight(course, limits, draw, progress).run();
+                      const core::ProgressReporter& progress, const std::function<bool()>& is_late) {
+  return ClearFlight(course, limits, draw, progress, is_late).run();
 }
 
 }  // namespace vantage::internal::flight::tour

@@ -12,12 +12,15 @@
 
 namespace vantage::internal::flight::tour {
 
+/// How long a way is looked for. `little`: when time is over; what is not near at hand is not found then.
+enum class Effort { full, little };
+
 /// A way of bends from one allowed place to another, each leg of it allowed: over what stands there, or round it. Bends
 /// are drawn about the straight way, in a space that grows; of the graph of their neighbours the shortest way is taken
 /// whose legs are allowed, asked only as needed (R. Bohlin and L. E. Kavraki, "Path planning using lazy PRM", 2000).
 /// Then it is shortened. Nothing where none was found. Without the ends.
 std::optional<std::vector<Vec3>> find_way(const Airspace& airspace, const Leg& leg, Draw& draw,
-                                          const core::ProgressReporter& progress);
+                                          const core::ProgressReporter& progress, Effort effort = Effort::full);
 
 /// What a course is to keep.
 struct CourseLimits {
@@ -36,9 +39,10 @@ struct FlownCourse {
 };
 
 /// Moves stops to allowed places, puts bends in where legs are not allowed, leaves out what cannot be reached, and
-/// shortens the rest. Home must be allowed. On a call to stop it throws Error(cancelled).
+/// shortens the rest. Home must be allowed. Ways are looked for with little effort where it `is_late`. On a call to
+/// stop it throws Error(cancelled).
 FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,
-                      const core::ProgressReporter& progress);
+                      const core::ProgressReporter& progress, const std::function<bool()>& is_late);
 
 /// Draws the bends between stops anew, keeps those that make the way shorter, and shortens the course; between two
 /// stops it asks whether time is up. There must be an airspace. On a call to stop it throws Error(cancelled); all legs

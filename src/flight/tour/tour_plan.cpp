@@ -83,19 +83,27 @@ void begin_at_turn(Course& course) {
   std::rotate(course.stops.begin(), course.stops.begin() + static_cast<std::ptrdiff_t>(sharpest), course.stops.end());
 }
 
-/// Stops that lie within 2 cm of the next one move there, where their region and the airspace allow it: the vehicle
-/// hovers once then. The way gets no longer.
+/// Stops that lie within 2 cm of the next point or the one before move there, where their region and the airspace allow
+/// it: the vehicle hovers once then. The way gets no longer.
 void join_stops(Course& course, const Regions& regions, const Airspace* airspace) {
   constexpr double kNear = 0.02;
   constexpr int kPasses = 2;  // the second one for stops on both sides of where the course begins
   const std::size_t count = course.stops.size();
+  const auto allows = [&](const Vec3* from, const Vec3* to) {
+    return !airspace || !from || !to || airspace->allows({*from, *to}, 0);
+  };
   for (std::size_t k = 0; k < kPasses * count; ++k) {
     const std::size_t i = count - 1 - k % count;
     const Vec3 *next = course.after(i), *before = course.before(i);
     Stop& stop = course.stops[i];
-    if (stop.region < 0 || !next || *next == stop.point || (*next - stop.point).norm() > kNear) continue;
-    if (!regions[static_cast<std::size_t>(stop.region)]->holds(*next)) continue;
-    if (!airspace || !before || airspace->allows({*before, *next}, 0)) stop.point = *next;
+    for (const Vec3* to : {next, before}) {
+      if (stop.region < 0 || !to || (*to - stop.point).norm() > kNear) continue;
+      if (*to == stop.point) break;
+      if (!regions[static_cast<std::size_t>(stop.region)]->holds(*to)) continue;
+      if (!allows(to == next ? before : to, to == next ? to : next)) continue;
+      stop.point = *to;
+      break;
+    }
   }
 }
 
@@ -148,7 +156,8 @@ class MultirotorPlan {
     std::optional<FlownCourse> flown;
     try {
       Draw draw(request_.seed);
-      flown = fly_clear(course, limits, draw, is_over() ? core::ProgressReporter() : progress_);
+      const auto is_late = [this] { return is_over(); };
+      flown = fly_clear(course, limits, draw, is_over() ? core::ProgressReporter() : progress_, is_late);
       draw_ways(flown->course, draw);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::cancelled) throw;
@@ -156,7 +165,7 @@ class MultirotorPlan {
     }
     if (flown || !must) return flown;
     Draw draw(request_.seed);
-    return fly_clear(course, limits, draw, {});
+    return fly_clear(course, limits, draw, {}, [] { return true; });
   }
 
   void draw_ways(Course& course, Draw& draw) const {
