@@ -22,10 +22,16 @@ std::string_view words_of(Unit unit) {
   }
 }
 
+/// "100000", where the shortest text is "1e+05".
+std::string plain(double value) {
+  const bool is_whole = std::abs(value) < 1e15 && value == std::floor(value);
+  return is_whole ? std::to_string(static_cast<long long>(value)) : shortest(value);
+}
+
 /// "86,400".
 std::string grouped(double value) {
-  std::string text = shortest(value);
   constexpr std::size_t kGroup = 3, kShortest = 5;  // of digits: 1000, but 10,000
+  std::string text = plain(value);
   if (text.find_first_not_of("0123456789") != std::string::npos || text.size() < kShortest) return text;
   for (std::size_t at = text.size() - kGroup;; at -= kGroup) {
     text.insert(at, ",");
@@ -100,14 +106,14 @@ void check_within(const Bounds& bounds, double value, const std::string& where) 
   if (bounds.least >= 0 && !(value > 0 && std::isfinite(value))) {
     range = bounds.least > 0 || bounds.ends == Bounds::Ends::without_least ? "greater than 0" : "0 or more";
   } else {
-    range = "between " + shortest(bounds.least) + " and " + shortest(bounds.most);
+    range = "between " + plain(bounds.least) + " and " + plain(bounds.most);
     if (bounds.ends == Bounds::Ends::without_most) {
-      range = shortest(bounds.least) + " or more, and less than " + shortest(bounds.most);
+      range = plain(bounds.least) + " or more, and less than " + plain(bounds.most);
     }
     if (bounds.unit != Unit::none) range.append(" ").append(words_of(bounds.unit));
     if (!bounds.most_word.empty()) range.append(", ").append(bounds.most_word);
   }
-  throw Error(ErrorCode::value_out_of_range, where + " must be " + range + ", not " + shortest(value), where,
+  throw Error(ErrorCode::value_out_of_range, where + " must be " + range + ", not " + plain(value), where,
               std::string(bounds.fix));
 }
 
