@@ -53,7 +53,7 @@ void check_maps(const YamlNode& section, const std::vector<request::KeyList>& li
   for (const request::KeyList& list : lists) {
     const bool is_whole = &list == &lists.front();
     const YamlNode* const map =
-        is_whole ? &section : node_at(section, std::string_view(list.name).substr(name.size() + 1));
+        is_whole ? &section : node_at(section, std::string_view{list.name}.substr(name.size() + 1));
     if (map) check_keys(*map, list, reader.file());
   }
 }
@@ -226,9 +226,9 @@ std::string SectionWriter::text(std::string_view section) const {
     const std::string key(dot == std::string_view::npos ? path : path.substr(dot + 1));
     if (!open.empty() && open != map) text += "}\n";
     if (map.empty()) {
-      text += "  " + key + ": " + value + "\n";
+      text.append("  ").append(key).append(": ").append(value).append("\n");
     } else {
-      text += (open == map ? ", " : "  " + map + ": {") + key + ": " + value;
+      text.append(open == map ? ", " : "  " + map + ": {").append(key).append(": ").append(value);
     }
     open = map;
   }
@@ -237,7 +237,9 @@ std::string SectionWriter::text(std::string_view section) const {
 
 std::string SectionWriter::flow() const {
   std::string text;
-  for (const auto& [path, value] : entries_) text += (text.empty() ? "" : ", ") + std::string(path) + ": " + value;
+  for (const auto& [path, value] : entries_) {
+    text.append(text.empty() ? "" : ", ").append(path).append(": ").append(value);
+  }
   return "{" + text + "}";
 }
 

@@ -199,7 +199,7 @@ Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene&
                 "move it into the zones of 'navigation', or widen these; nearest above it: " +
                     airspace.obstacle({home + Vec3(0, 0, kOffGround), home + Vec3(0, 0, kAbove)}, 0));
   }
-  const Vec3 at = home + Vec3(0, 0, *height);
+  Vec3 at = home + Vec3(0, 0, *height);
   LegDistanceOptions options;
   options.without_ground = true;
   const LegDistance nearest = LegDistances(scene, options).nearest({off_ground, at});

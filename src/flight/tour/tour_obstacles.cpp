@@ -317,7 +317,7 @@ std::optional<Vec3> crossing(const std::array<Vec3, 2>& from, const std::array<V
 
 /// One bend in the place of the two in the middle of a way, where the way is shortest.
 std::optional<JoinedBend> joined_bend(const std::array<Vec3, 4>& way, const CourseLimits& limits) {
-  const auto& [from, a, b, to] = way;
+  const Vec3 &from = way[0], &a = way[1], &b = way[2], &to = way[3];
   std::optional<JoinedBend> best;
   const auto offer = [&](const Vec3& point) {
     const double longer = way_length(from, point, to, 0) - (a - from).norm() - (b - a).norm() - (to - b).norm();
