@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/described_section.h"
@@ -16,11 +18,13 @@
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "request/json_object.h"
+#include "request/key_lists.h"
 #include "support/key_table.h"
 #include "support/places.h"
 #include "support/random.h"
 #include "support/wording.h"
 #include "vantage/mission.h"
+#include "vantage/mission_keys.h"
 
 namespace vantage {
 namespace {
@@ -29,29 +33,60 @@ using internal::app::section_text;
 using internal::request::key_lists;
 using internal::request::kSection;
 
-/// What lies between two lines of a document that name the section. It is written anew with VANTAGE_UPDATE_GOLDEN=1.
-template <typename Settings>
-void expect_documented() {
-  const std::filesystem::path file = testing::source_folder() / "docs/mission-file.md";
+bool is_written_anew() { return std::getenv("VANTAGE_UPDATE_GOLDEN") != nullptr; }
+
+std::string content_of(const std::filesystem::path& file) {
   std::ostringstream content;
   content << std::ifstream(file).rdbuf();
-  std::string text = content.str();
-  const std::string begin = "<!-- keys of " + std::string(kSection<Settings>) + ": written by a test -->\n";
-  const std::size_t from = text.find(begin) + begin.size(), to = text.find("<!-- end of keys -->", from);
-  ASSERT_NE(text.find(begin), std::string::npos);
-  ASSERT_NE(to, std::string::npos);
-  const Settings settings;
-  testing::KeyTable table(kSection<Settings>);
-  describe(settings, table);
-  if (std::getenv("VANTAGE_UPDATE_GOLDEN") != nullptr) {
-    std::ofstream(file) << text.replace(from, to - from, table.text());
-    return;
-  }
-  EXPECT_EQ(text.substr(from, to - from), table.text()) << "run it with VANTAGE_UPDATE_GOLDEN=1";
+  return content.str();
 }
 
-TEST(DescribedKeys, OfTheSpheresAreDocumented) { expect_documented<SpheresOptions>(); }
-TEST(DescribedKeys, OfATourAreDocumented) { expect_documented<TourSettings>(); }
+/// What lies between two lines of a file. It is written anew with VANTAGE_UPDATE_GOLDEN=1.
+void expect_between(const std::string& file_name, const std::string& begin, const std::string& end,
+                    const std::string& expected) {
+  const std::filesystem::path file = testing::source_folder() / file_name;
+  std::string text = content_of(file);
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos) << begin;
+  const std::size_t from = at + begin.size(), to = text.find(end, from);
+  ASSERT_NE(to, std::string::npos) << begin;
+  if (is_written_anew()) {
+    std::ofstream(file) << text.replace(from, to - from, expected);
+    return;
+  }
+  EXPECT_EQ(text.substr(from, to - from), expected) << "run it with VANTAGE_UPDATE_GOLDEN=1";
+}
+
+TEST(DescribedKeys, AreDocumented) {
+  std::vector<std::string> sections;
+  for (const MissionKey& key : mission_keys()) {
+    if (sections.empty() || sections.back() != key.section) sections.push_back(key.section);
+  }
+  for (const std::string& section : sections) {
+    expect_between("docs/mission-file.md", "<!-- keys of " + section + ": written by a test -->\n",
+                   "<!-- end of keys -->", testing::key_table(section));
+  }
+}
+
+TEST(DescribedKeys, AreInTheDictionaryOfTheFuzzer) {
+  std::set<std::string> words;
+  for (const MissionKey& key : mission_keys()) {
+    words.insert("\"" + key.path.substr(key.path.rfind('.') + 1) + ":\"");
+    for (const std::string& word : key.words) words.insert("\"" + word + "\"");
+  }
+  std::string lines;
+  for (const std::string& word : words) lines += word + "\n";
+  expect_between("tests/fuzz/mission.dict", "# Keys and their words, written by a test:\n", "# Others:\n", lines);
+}
+
+TEST(DescribedKeys, AreNamedOnceInTheirSection) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const MissionKey& key : mission_keys()) {
+    EXPECT_TRUE(seen.emplace(key.section, key.path).second) << key.section << "." << key.path;
+    EXPECT_NE(key.text, "");
+    EXPECT_FALSE(std::string(name_of(key.kind)).empty());
+  }
+}
 
 TEST(DescribedKeys, OfATourAreListedMapByMap) {
   const auto lists = key_lists<TourSettings>();

@@ -279,7 +279,8 @@ TEST(ExactOutcomes, BadNumbersAreRefused) {
   const Scene scene = SceneBuilder().ground("ground", 100);
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, std::nan(""), infinity}) {
-    EXPECT_EQ(refusal(scene, square(4), ErrorCode::value_out_of_range, {bad}).where(), "sensor");
+    const std::string where = refusal(scene, square(4), ErrorCode::value_out_of_range, {bad}).where();
+    EXPECT_EQ(where, bad == infinity ? "sensor" : "sensor.max_range");
     EXPECT_EQ(refusal(scene, square(4), ErrorCode::value_out_of_range, {50}, {bad, 0}).where(), "exact options");
   }
   refusal(scene, square(4), ErrorCode::tolerance_too_fine, {50}, {1e-9, 0});

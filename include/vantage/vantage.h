@@ -31,6 +31,7 @@
 #include "vantage/known_data.h"
 #include "vantage/leg_query.h"
 #include "vantage/mission.h"
+#include "vantage/mission_keys.h"
 #include "vantage/mission_tour.h"
 #include "vantage/navigation.h"
 #include "vantage/objects.h"

@@ -16,6 +16,7 @@
 #include "calls.h"
 #include "errors.h"
 #include "vantage/constraints.h"
+#include "vantage/mission_keys.h"
 #include "vantage/result.h"
 #include "volume.h"
 
@@ -175,6 +176,20 @@ std::vector<std::string> save(const PyResult& result, const std::vector<std::fil
 }  // namespace
 
 void bind_mission(nb::module_& module) {
+  module.def("mission_keys", [] {
+    nb::list rows;
+    for (const MissionKey& key : mission_keys()) {
+      nb::dict row;
+      row["section"] = key.section;
+      row["path"] = key.path;
+      row["kind"] = name_of(key.kind);
+      row["unit"] = key.unit;
+      row["is_old"] = key.is_old;
+      row["text"] = key.text;
+      rows.append(row);
+    }
+    return rows;
+  });
   nb::class_<PyMission>(module, "Mission")
       .def_prop_ro("scene", [](const PyMission& m) { return m.scene; })
       .def_prop_ro("hash", [](const PyMission& m) { return mission_hash(*m); })

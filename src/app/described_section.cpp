@@ -100,6 +100,11 @@ void SectionReader::number(const request::Key& key, double& value, const request
   });
 }
 
+void SectionReader::number(const request::Key& key, std::optional<double>& value, const request::Bounds& bounds,
+                           const request::Only& only) const {
+  if (node_at(root_, key.path) != nullptr) number(key, value.emplace(), bounds, only);
+}
+
 void SectionReader::pair(const request::Key& key, double& low, const request::Bounds& of_low, double& high,
                          const request::Bounds& of_high, const request::Only& only) const {
   const YamlNode* const node = node_for(key, only);
@@ -194,7 +199,8 @@ void SectionReader::fail_choice(const request::Key& key, const YamlNode& node, c
 
 void SectionWriter::number(const request::Key& key, double value, const request::Bounds& /*bounds*/,
                            const request::Only& only) {
-  if (only.holds && !(key.is_none_at_zero && value == 0)) add(key.path, shortest(value));
+  const bool is_none = (key.is_none_at_zero && value == 0) || (key.is_none_at_infinity && std::isinf(value));
+  if (only.holds && !is_none) add(key.path, shortest(value));
 }
 
 void SectionWriter::pair(const request::Key& key, double low, const request::Bounds& /*of_low*/, double high,

@@ -13,6 +13,7 @@
 #include "request/description.h"
 #include "request/key_lists.h"
 #include "vantage/devices.h"
+#include "vantage/input.h"
 #include "vantage/tour_settings.h"
 
 namespace vantage::internal::app {
@@ -40,6 +41,8 @@ class SectionReader : request::Visitor {
     fail_choice(key, *node, word, words);
   }
   void number(const request::Key& key, double& value, const request::Bounds& bounds, const request::Only& only) const;
+  void number(const request::Key& key, std::optional<double>& value, const request::Bounds& bounds,
+              const request::Only& only) const;
   void pair(const request::Key& key, double& low, const request::Bounds& of_low, double& high,
             const request::Bounds& of_high, const request::Only& only) const;
   void whole(const request::Key& key, int& value, const request::Bounds& bounds) const;
@@ -49,8 +52,15 @@ class SectionReader : request::Visitor {
   void device(const request::Key& key, DeviceChoice& value) const;
   void home(const request::Key& key, std::optional<TourHome>& value) const;
 
- private:
+  template <typename Settings>
+  void map(const request::Key& key, std::optional<Settings>& value) const;
+
+ protected:
   std::string name_of(const request::Key& key) const { return section_ + "." + std::string(key.path); }
+  const YamlNode& root() const { return root_; }
+  const ValueReader& reader() const { return reader_; }
+
+ private:
   const YamlNode* required(const request::Key& key) const;
   const YamlNode* node_for(const request::Key& key, const request::Only& only) const;
   int whole_of(const YamlNode& node, const std::string& name) const;
@@ -73,6 +83,17 @@ class SectionWriter : request::Visitor {
     }
   }
   void number(const request::Key& key, double value, const request::Bounds& bounds, const request::Only& only);
+  void number(const request::Key& key, const std::optional<double>& value, const request::Bounds& /*bounds*/,
+              const request::Only& only) {
+    if (value && only.holds) add(key.path, shortest(*value));
+  }
+  template <typename Settings>
+  void map(const request::Key& key, const std::optional<Settings>& value) {
+    if (!value) return;
+    SectionWriter inner;
+    describe(*value, inner);
+    add(key.path, inner.flow());
+  }
   void pair(const request::Key& key, double low, const request::Bounds& of_low, double high,
             const request::Bounds& of_high, const request::Only& only);
   void whole(const request::Key& key, int value, const request::Bounds& /*bounds*/) {
@@ -88,10 +109,12 @@ class SectionWriter : request::Visitor {
   std::string text(std::string_view section) const;
   /// "{size: 0.02, kind: worst}"; of a map without others in it.
   std::string flow() const;
+  bool is_empty() const { return entries_.empty(); }
 
- private:
+ protected:
   void add(std::string_view path, const std::string& value) { entries_.emplace_back(path, value); }
 
+ private:
   std::vector<std::pair<std::string_view, std::string>> entries_;
 };
 
@@ -112,6 +135,13 @@ void read_section(const YamlNode& node, const ValueReader& reader, Settings& set
   static const std::vector<request::KeyList> kLists = request::key_lists<Settings>();
   check_maps(node, kLists, reader);
   read_keys(node, name, reader, settings);
+}
+
+template <typename Settings>
+void SectionReader::map(const request::Key& key, std::optional<Settings>& value) const {
+  if (const YamlNode* const node = find(root_, key.path)) {
+    read_section(*node, reader_, value.emplace(), name_of(key));
+  }
 }
 
 /// The text of a section, which reads back as the same.

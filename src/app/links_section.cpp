@@ -62,7 +62,7 @@ void parse_reach(const YamlNode& node, const std::string& what, const ValueReade
 }
 
 MissionLink parse_link(const YamlNode& node, std::size_t index, const ValueReader& reader) {
-  check_keys(node, Section::flight_link, reader.file());
+  check_keys(node, "an entry of links", reader.file());
   const std::string what = "links[" + std::to_string(index) + "]";
   MissionLink link;
   link.place = place_in(reader.file(), node.place);

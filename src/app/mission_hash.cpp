@@ -5,9 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.h"
-#include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
-#include "request/json_object.h"
+#include "request/sensor_json.h"
 #include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/mission.h"
@@ -20,12 +19,12 @@ using SortedJson = nlohmann::json;
 /// Numbers are written as vantage writes them: the shortest decimal that reads back the same.
 SortedJson number_text(double value) { return shortest(value + 0.0); }
 
-template <typename Settings>
-SortedJson described_json(const Settings& settings) {
-  internal::request::JsonObject<SortedJson, decltype(&number_text)> object(number_text);
-  describe(settings, object);
-  return object.json();
-}
+struct NumberText {
+  template <typename Number>
+  SortedJson operator()(Number value) const {
+    return number_text(static_cast<double>(value));
+  }
+};
 
 SortedJson sorted_json_of(const Vec3& v) { return {number_text(v.x()), number_text(v.y()), number_text(v.z())}; }
 
@@ -79,30 +78,37 @@ SortedJson sorted_json_of(const Navigation& limits) {
   return json;
 }
 
-// All members are named, as above. What is not given is left out, so that missions without it keep their hash.
+/// With null for what is not given of a camera, and a pair of pitches: so hashes have been from the first.
+class SensorForHash : public internal::request::SensorObject<SortedJson, NumberText> {
+ public:
+  using SensorObject::keys;
+  SensorForHash() : SensorObject(NumberText()) {}
+
+  void keys(std::span<const internal::request::Own> /*keys*/, const std::optional<Pinhole>& camera,
+            const Mount& mount) {
+    if (!camera) return;
+    json_["camera"] = {{"half_width", number_text(camera->half_width)},
+                       {"half_height", number_text(camera->half_height)}};
+    json_["camera"]["focal_px"] = camera->focal_px ? number_text(*camera->focal_px) : SortedJson();
+    json_["mount"] = {{"yaw_deg", mount.yaw_deg ? number_text(*mount.yaw_deg) : SortedJson()},
+                      {"pitch_deg", {number_text(mount.min_pitch_deg), number_text(mount.max_pitch_deg)}},
+                      {"roll_deg", number_text(mount.roll_deg)}};
+  }
+};
+
+// What is not given is left out, but for the range, so that missions without it keep their hash.
 SortedJson sorted_json_of(const Sensor& sensor) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
-  SortedJson json = {{"max_range_m", number_text(max_range_m)}};
-  if (min_range_m > 0) json["min_range_m"] = number_text(min_range_m);
-  if (incidence_deg) json["incidence_deg"] = number_text(*incidence_deg);
-  if (camera) {
-    json["camera"] = {{"half_width", number_text(camera->half_width)},
-                      {"half_height", number_text(camera->half_height)}};
-    json["camera"]["focal_px"] = camera->focal_px ? number_text(*camera->focal_px) : SortedJson();
-    json["mount"] = {{"yaw_deg", mount.yaw_deg ? number_text(*mount.yaw_deg) : SortedJson()},
-                     {"pitch_deg", {number_text(mount.min_pitch_deg), number_text(mount.max_pitch_deg)}},
-                     {"roll_deg", number_text(mount.roll_deg)}};
-  }
-  if (pixel) json["pixel"] = described_json(*pixel);
-  if (sun) {
-    json["sun"] = {{"direction", sorted_json_of(sun->direction)}, {"exclude_deg", number_text(sun->exclude_deg)}};
-  }
-  if (link) json["link"] = described_json(*link);
-  if (visible) {
-    json["visible"] = {{"share", number_text(visible->share)},
-                       {"cells", number_text(static_cast<double>(visible->cells))}};
-  }
+  SensorForHash object;
+  describe(sensor, object);
+  SortedJson json = object.json();
+  json["max_range_m"] = number_text(sensor.max_range_m);
   return json;
+}
+
+SortedJson sorted_json_of(const SpheresOptions& spheres) {
+  internal::request::JsonObject<SortedJson, NumberText> object{NumberText()};
+  describe(spheres, object);
+  return object.json();
 }
 
 SortedJson sorted_json_of(const Target& target) {
@@ -138,7 +144,7 @@ std::string mission_hash(const Mission& mission) {
     json["combine"] = volume_count(mission) > 1 ? "each" : "all";
   }
   if (mission.as_written.method == Method::spheres) {
-    json["options"] = described_json(mission.as_written.spheres);
+    json["options"] = sorted_json_of(mission.as_written.spheres);
   } else {
     json["options"] = {{"tolerance_m", number_text(mission.as_written.exact.tolerance_m)}};
   }

@@ -16,6 +16,7 @@
 #include "app/target_section.h"
 #include "app/value_reader.h"
 #include "options/spheres_options.h"
+#include "request/describe_mission.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/error.h"
@@ -50,11 +51,10 @@ class MissionParser : private ValueReader {
   void parse_sensor(const YamlNode& node);
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
-  void parse_exact(const YamlNode& node);
   void parse_spheres(const YamlNode& node);
   void parse_work_limit(const YamlNode& node);
 
-  const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
+  const YamlNode& require(const YamlNode& map, const char* name, std::string_view key, const std::string& fix) const;
 
   fs::path path_;
   const SceneSource* source_;
@@ -63,7 +63,7 @@ class MissionParser : private ValueReader {
 
 MissionFile MissionParser::parse(std::string_view mission_text) {
   const YamlNode root = parse_yaml(mission_text, file());
-  check_keys(root, Section::mission, file());
+  check_keys(root, "the mission", file());
   mission_.file = fs::absolute(path_);
 
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
@@ -73,10 +73,10 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   // What is only flown through needs no sensor.
   if (find(root, "sensor") || !has_volumes_alone(mission_)) {
     parse_sensor(
-        require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
+        require(root, "the mission", "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
   }
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
-  if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
+  if (const YamlNode* exact = find(root, "exact")) read_section(*exact, *this, mission_.exact);
   if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres);
   if (const YamlNode* tour = find(root, "tour")) {
     read_section(*tour, *this, mission_.tour.emplace());
@@ -89,7 +89,7 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
 
 MissionFile MissionParser::parse_scene_alone(std::string_view mission_text) {
   const YamlNode root = parse_yaml(mission_text, file());
-  check_keys(root, Section::mission, file());
+  check_keys(root, "the mission", file());
   for (const YamlEntry& entry : root.entries) {
     if (entry.key == "scene") continue;
     fail(ErrorCode::not_applicable, entry.value, "'" + entry.key + "' stands where there is a scene alone",
@@ -109,7 +109,7 @@ void MissionParser::parse_scene(const YamlNode& root) {
     return;
   }
   const YamlNode& node =
-      require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'");
+      require(root, "the mission", "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'");
   // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
   SceneSection section = parse_scene_section(node, *this, mission_.file.parent_path());
   mission_.scene = std::move(section.source);
@@ -123,7 +123,7 @@ void MissionParser::parse_targets(const YamlNode& root) {
   if (const YamlNode* combine = find(root, "combine")) parse_combine(*combine);
   if (several == nullptr) {
     const YamlNode& node =
-        require(root, Section::mission, "target",
+        require(root, "the mission", "target",
                 "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'");
     MissionTarget target = parse_target_section(node, *this, mission_);
     mission_.target = std::move(target.target);
@@ -220,13 +220,6 @@ void MissionParser::parse_spheres(const YamlNode& node) {
   });
 }
 
-void MissionParser::parse_exact(const YamlNode& node) {
-  check_keys(node, Section::exact, file());
-  if (const YamlNode* tolerance = find(node, "tolerance")) {
-    mission_.exact.tolerance_m = positive_length(*tolerance, "exact.tolerance");
-  }
-}
-
 void MissionParser::parse_work_limit(const YamlNode& node) {
   mission_.exact.work_limit = number(node, "work_limit");
   if (!(mission_.exact.work_limit > 0)) {
@@ -236,11 +229,10 @@ void MissionParser::parse_work_limit(const YamlNode& node) {
   }
 }
 
-const YamlNode& MissionParser::require(const YamlNode& map, Section section, std::string_view key,
+const YamlNode& MissionParser::require(const YamlNode& map, const char* name, std::string_view key,
                                        const std::string& fix) const {
   if (const YamlNode* node = find(map, key)) return *node;
-  fail(ErrorCode::missing_key, map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'",
-       fix);
+  fail(ErrorCode::missing_key, map, std::string(name) + " lacks the key '" + std::string(key) + "'", fix);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ class NavigationParser {
   bool measures_from_ground() const;
   void add_mesh(const YamlNode& node);
   void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others) const;
-  const YamlNode& require(const YamlNode& map, Section section, const char* key, const std::string& fix) const;
+  const YamlNode& require(const YamlNode& map, const char* name, const char* key, const std::string& fix) const;
 
   const ValueReader& reader_;
   const std::filesystem::path& folder_;
@@ -68,7 +68,7 @@ class NavigationParser {
 
 NavigationSection NavigationParser::parse(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::null) return {};  // the heading alone: no limits
-  check_keys(node, Section::navigation, reader_.file());
+  check_keys(node, "navigation", reader_.file());
   Navigation& navigation = result_.navigation;
   if (const YamlNode* altitude = find(node, "altitude")) parse_altitude(*altitude);
   if (const YamlNode* keep_in = kept(node)) {
@@ -98,7 +98,7 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
   for (const YamlNode& item :
        reader_.list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
     if (item.kind == YamlNode::Kind::map) {
-      check_keys(item, Section::mesh, reader_.file());
+      check_keys(item, "an entry of navigation.meshes", reader_.file());
       add_mesh(item);
       continue;
     }
@@ -133,7 +133,7 @@ void NavigationParser::parse_altitude(const YamlNode& node) {
         node, "navigation.altitude",
         "write the lowest and the highest altitude in metres: [20, 120]; or {agl: [20, 120]} above the ground");
   }
-  check_keys(node, Section::altitude, reader_.file());
+  check_keys(node, "navigation.altitude", reader_.file());
   const YamlNode *agl = find(node, "agl"), *z = find(node, "z");
   if (!agl && !z) {
     reader_.fail(
@@ -197,7 +197,7 @@ void NavigationParser::add_zones(const YamlNode& node, const std::string& what, 
     if (item.kind != YamlNode::Kind::map) {
       reader_.fail(ErrorCode::wrong_type, item, name + " must be a mapping, not " + describe(item), kZoneForms);
     }
-    check_keys(item, Section::zone, reader_.file());
+    check_keys(item, "a zone", reader_.file());
     if (const YamlNode* named = find(item, "file")) {
       lists.files.push_back(file(item, *named, name));
       lists.file_places.push_back(place_in(reader_.file(), named->place));
@@ -224,8 +224,8 @@ void NavigationParser::refuse_beside(const YamlNode& node, const char* key,
 }
 
 Box NavigationParser::box(const YamlNode& node, const std::string& what) const {
-  const YamlNode& min = require(node, Section::zone, "min", kZoneForms);
-  const YamlNode& max = require(node, Section::zone, "max", kZoneForms);
+  const YamlNode& min = require(node, "a zone", "min", kZoneForms);
+  const YamlNode& max = require(node, "a zone", "max", kZoneForms);
   refuse_beside(node, "min", {"holes", "z", "heights"});
   Box result;
   result.min = reader_.vector(min, what + ".min");
@@ -300,8 +300,8 @@ ZoneFile NavigationParser::file(const YamlNode& node, const YamlNode& named, con
 }
 
 void NavigationParser::add_mesh(const YamlNode& node) {
-  const YamlNode& mesh =
-      require(node, Section::mesh, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
+  const YamlNode& mesh = require(node, "an entry of navigation.meshes", "mesh",
+                                 "write 'mesh: city.obj'; the path starts from the mission file");
   NavigationMeshFile named;
   named.name = reader_.text(mesh, "navigation.meshes.mesh");
   named.file = folder_ / named.name;
@@ -312,11 +312,10 @@ void NavigationParser::add_mesh(const YamlNode& node) {
   result_.places.navigation_meshes.push_back(place_in(reader_.file(), mesh.place));
 }
 
-const YamlNode& NavigationParser::require(const YamlNode& map, Section section, const char* key,
+const YamlNode& NavigationParser::require(const YamlNode& map, const char* name, const char* key,
                                           const std::string& fix) const {
   if (const YamlNode* node = find(map, key)) return *node;
-  reader_.fail(ErrorCode::missing_key, map,
-               std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
+  reader_.fail(ErrorCode::missing_key, map, std::string(name) + " lacks the key '" + std::string(key) + "'", fix);
 }
 
 }  // namespace

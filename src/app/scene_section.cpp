@@ -24,7 +24,7 @@ class SceneParser {
       : node_(node), reader_(reader), folder_(folder) {}
 
   SceneSection parse() {
-    check_keys(node_, Section::scene, reader_.file());
+    check_keys(node_, "scene", reader_.file());
     choose_kind();
     parse_mesh_options();
     parse_region();
@@ -139,7 +139,7 @@ class SceneParser {
   void parse_frame() {
     const YamlNode* const node = take("frame", {Kind::map}, "maps");
     if (!node) return;
-    check_keys(*node, Section::frame, reader_.file());
+    check_keys(*node, "scene.frame", reader_.file());
     const auto needed = [&](const char* key) -> const YamlNode& {
       if (const YamlNode* const entry = find(*node, key)) return *entry;
       reader_.fail(ErrorCode::missing_key, *node, std::string("scene.frame lacks the key '") + key + "'",

@@ -1,12 +1,9 @@
 #include "app/schema.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <stdexcept>
 
-#include "request/describe_sensor.h"
-#include "request/describe_spheres.h"
-#include "request/describe_tour.h"
+#include "request/sections.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -15,53 +12,14 @@ namespace {
 
 using request::KeyList;
 
-const std::array<std::pair<Section, KeyList>, 15>& table() {
-  static const std::array<std::pair<Section, KeyList>, 15> kTable = {{
-      {Section::mission,
-       {"the mission",
-        {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres", "tour",
-         "links", "work_limit"}}},
-      {Section::scene,
-       {"scene",
-        {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "attribution", "center", "radius",
-         "bbox", "terrain", "error", "without", "defaults", "frame"}}},
-      {Section::target, {"target", {"name",   "vertices", "edges",  "parts",   "point",   "outline", "holes", "osm",
-                                    "object", "at",       "part",   "facing",  "nearest", "center",  "file",  "feature",
-                                    "volume", "width",    "length", "heading", "offset",  "front",   "sides"}}},
-      {Section::sensor,
-       {"sensor",
-        {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos",
-         "link", "visible", "cells"}}},
-      {Section::camera, {"sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}}},
-      {Section::mount, {"sensor.mount", {"yaw", "pitch", "roll"}}},
-      {Section::gimbal, {"sensor.gimbal", {"yaw", "pitch", "roll"}}},
-      {Section::sun, {"sensor.sun", {"time", "azimuth", "elevation", "exclude"}}},
-      {Section::navigation,
-       {"navigation", {"altitude", "ground", "clearance", "keep_in", "boxes", "keep_out", "meshes"}}},
-      {Section::altitude, {"navigation.altitude", {"agl", "z"}}},
-      {Section::zone, {"a zone", {"min", "max", "polygon", "holes", "file", "z", "agl", "heights"}}},
-      {Section::mesh, {"an entry of navigation.meshes", {"mesh", "up", "scale"}}},
-      {Section::exact, {"exact", {"tolerance"}}},
-      {Section::frame, {"scene.frame", {"origin", "ground", "reach"}}},
-      {Section::flight_link,
-       {"an entry of links", {"name", "point", "at", "height", "max_range", "vlos", "frequency", "clear"}}},
-  }};
-  return kTable;
-}
-
-const KeyList& list_of(Section section) { return table()[static_cast<std::size_t>(section)].second; }
-
 /// All of them.
-const std::vector<const KeyList*>& lists() {
-  static const std::array kDescribed = {request::key_lists<PixelLimit>(), request::key_lists<PilotSight>(),
-                                        request::key_lists<RadioLink>(), request::key_lists<SpheresOptions>(),
-                                        request::key_lists<TourSettings>()};
-  static const std::vector<const KeyList*> kLists = [] {
-    std::vector<const KeyList*> all;
-    for (const auto& [section, list] : table()) all.push_back(&list);
-    for (const std::vector<KeyList>& section : kDescribed) {
-      for (const KeyList& list : section) all.push_back(&list);
-    }
+const std::vector<KeyList>& lists() {
+  static const std::vector<KeyList> kLists = [] {
+    std::vector<KeyList> all;
+    request::each_section([&]<typename Settings>(const Settings& /*settings*/) {
+      const std::vector<KeyList> section = request::key_lists<Settings>();
+      all.insert(all.end(), section.begin(), section.end());
+    });
     return all;
   }();
   return kLists;
@@ -75,9 +33,9 @@ std::string joined(const std::vector<std::string_view>& words) {
 
 /// The list, other than `known`, that has `key`; null when none does.
 const KeyList* owner_of(std::string_view key, const KeyList& known) {
-  for (const KeyList* candidate : lists()) {
-    if (candidate->name == known.name) continue;
-    if (std::find(candidate->keys.begin(), candidate->keys.end(), key) != candidate->keys.end()) return candidate;
+  for (const KeyList& candidate : lists()) {
+    if (candidate.name == known.name) continue;
+    if (std::find(candidate.keys.begin(), candidate.keys.end(), key) != candidate.keys.end()) return &candidate;
   }
   return nullptr;
 }
@@ -101,10 +59,6 @@ const KeyList* owner_of(std::string_view key, const KeyList& known) {
 
 }  // namespace
 
-std::string_view section_name(Section section) { return list_of(section).name; }
-
-const std::vector<std::string_view>& known_keys(Section section) { return list_of(section).keys; }
-
 const YamlNode* find(const YamlNode& map, std::string_view key) {
   for (const YamlEntry& entry : map.entries) {
     if (entry.key == key) return &entry.value;
@@ -112,14 +66,17 @@ const YamlNode* find(const YamlNode& map, std::string_view key) {
   return nullptr;
 }
 
-void check_keys(const YamlNode& node, Section section, const std::string& file) {
-  check_keys(node, list_of(section), file);
+void check_keys(const YamlNode& node, std::string_view map, const std::string& file) {
+  const auto is_named = [&](const KeyList& list) { return list.name == map; };
+  const auto found = std::find_if(lists().begin(), lists().end(), is_named);
+  if (found == lists().end()) throw std::logic_error("there is no map " + std::string(map));
+  check_keys(node, *found, file);
 }
 
 void check_keys(const YamlNode& node, const KeyList& known, const std::string& file) {
   if (node.kind != YamlNode::Kind::map) {
     std::string fix = "write its keys, indented, as 'key: value': " + joined(known.keys);
-    if (&known == &list_of(Section::camera)) fix = "for a camera by name write {model: NAME}; else " + fix;
+    if (known.name == "sensor.camera") fix = "for a camera by name write {model: NAME}; else " + fix;
     fail_at(ErrorCode::wrong_type, node, file, known.name + " must be a mapping of keys, not " + describe(node), fix);
   }
   for (const YamlEntry& entry : node.entries) {

@@ -12,37 +12,12 @@
 
 namespace vantage::internal::app {
 
-/// The sections of a mission file that src/request/ does not describe. A section's keys, and nothing else, may stand in
-/// its map.
-enum class Section {
-  mission,
-  scene,
-  target,
-  sensor,
-  camera,
-  mount,
-  gimbal,
-  sun,
-  navigation,
-  altitude,
-  zone,
-  mesh,
-  exact,
-  frame,
-  flight_link
-};
-
-/// How messages call a section: "scene", "target"; "the mission" for the outermost one.
-std::string_view section_name(Section section);
-
-const std::vector<std::string_view>& known_keys(Section section);
-
-/// The value of `key` in `map`, or null. Asking for a key that the table does not know is a defect.
+/// The value of `key` in `map`, or null.
 const YamlNode* find(const YamlNode& map, std::string_view key);
 
 /// Throws Error(input) unless `node` is a map with known keys only. For an unknown key the error names the nearest
-/// known one, or the section that it belongs to.
-void check_keys(const YamlNode& node, Section section, const std::string& file);
+/// known one, or the section that it belongs to. `map`: its name, "sensor.mount"; another one is a defect.
+void check_keys(const YamlNode& node, std::string_view map, const std::string& file);
 /// The same of a map of a described section.
 void check_keys(const YamlNode& node, const request::KeyList& known, const std::string& file);
 

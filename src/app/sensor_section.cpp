@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <regex>
+#include <span>
 #include <utility>
 
 #include "app/described_section.h"
@@ -28,264 +30,264 @@ struct Dori {
 constexpr std::array kDori = {Dori{"detection", 25}, Dori{"observation", 62}, Dori{"recognition", 125},
                               Dori{"identification", 250}};
 
-class SensorParser {
- public:
-  SensorParser(const YamlNode& node, const ValueReader& reader) : node_(node), reader_(reader) {}
+using Keys = std::span<const request::Own>;
 
-  SensorSection parse();
+/// Besides what a sensor has it reads the other forms of some limits: a pilot's sight, levels, times.
+class SensorReader : public SectionReader {
+ public:
+  SensorReader(const YamlNode& node, const ValueReader& reader)
+      : SectionReader(node, std::string(request::kSection<Sensor>), reader) {}
+
+  SensorSection read();
+
+  void keys(Keys keys, std::optional<Pinhole>& camera, Mount& mount);
+  void keys(Keys keys, std::optional<PixelLimit>& pixel);
+  void keys(Keys keys, std::optional<SunLimit>& limit);
+  void keys(Keys keys, std::optional<VisibleShare>& visible);
+  template <typename Settings>
+  void instead(const request::Key& key);
 
  private:
-  void parse_camera(const YamlNode* camera, const YamlNode* fov);
-  Camera parse_numbers(const YamlNode& camera, bool has_fov) const;
-  void parse_mount(const YamlNode& mount);
-  void parse_gimbal(const YamlNode& gimbal);
-  void parse_roll(const YamlNode& map, const std::string& what);
-  void parse_dori(const YamlNode& dori);
-  void parse_sun(const YamlNode& sun);
-  void parse_share();
+  Camera numbers(const YamlNode& camera, bool has_fov) const;
+  CameraSource camera_source(const YamlNode* camera, const YamlNode* fov) const;
+  void read_mount(const YamlNode& node, Mount& mount) const;
+  void read_gimbal(const YamlNode& node, Mount& mount) const;
+  Vec3 sun_direction(const YamlNode& sun, const std::string& form) const;
+  const YamlNode* given(std::string_view key) const { return find(root(), key); }
   const YamlNode& require(const YamlNode& map, const char* key, const std::string& what, const std::string& fix) const;
   std::array<double, 2> two_angles(const YamlNode& node, const std::string& what, const std::string& form) const;
   void refuse_both(const char* one, const char* other, const std::string& fix) const;
+  void check_camera_for(std::string_view key) const;
 
-  const YamlNode& node_;
-  const ValueReader& reader_;
   SensorSection result_;
 };
 
-const YamlNode& SensorParser::require(const YamlNode& map, const char* key, const std::string& what,
+const YamlNode& SensorReader::require(const YamlNode& map, const char* key, const std::string& what,
                                       const std::string& fix) const {
   if (const YamlNode* found = find(map, key)) return *found;
-  reader_.fail(ErrorCode::missing_key, map, what + " lacks the key '" + key + "'", fix);
+  reader().fail(ErrorCode::missing_key, map, what + " lacks the key '" + key + "'", fix);
 }
 
-std::array<double, 2> SensorParser::two_angles(const YamlNode& node, const std::string& what,
+std::array<double, 2> SensorReader::two_angles(const YamlNode& node, const std::string& what,
                                                const std::string& form) const {
-  if (reader_.list(node, what, form).size() != 2) {
-    reader_.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
+  if (reader().list(node, what, form).size() != 2) {
+    reader().fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
   }
-  return {reader_.angle(node.items[0], what + "[0]"), reader_.angle(node.items[1], what + "[1]")};
+  return {reader().angle(node.items[0], what + "[0]"), reader().angle(node.items[1], what + "[1]")};
 }
 
-void SensorParser::refuse_both(const char* one, const char* other, const std::string& fix) const {
-  const YamlNode* second = find(node_, other);
-  if (!find(node_, one) || !second) return;
-  reader_.fail(ErrorCode::conflicting_keys, *second,
-               std::string("sensor.") + one + " and sensor." + other + " say the same thing", fix);
+void SensorReader::refuse_both(const char* one, const char* other, const std::string& fix) const {
+  const YamlNode* second = find(root(), other);
+  if (!find(root(), one) || !second) return;
+  reader().fail(ErrorCode::conflicting_keys, *second,
+                std::string("sensor.") + one + " and sensor." + other + " say the same thing", fix);
 }
 
-Camera SensorParser::parse_numbers(const YamlNode& camera, bool has_fov) const {
+Camera SensorReader::numbers(const YamlNode& camera, bool has_fov) const {
   const char* const form =
       "write {width: 8000, height: 6000, focal_length: 24.5, sensor_width: 35.9}: pixels and millimetres";
   const auto pixels = [&](const char* key) {
     const YamlNode& node = require(camera, key, "sensor.camera", form);
-    const double value = reader_.number(node, std::string("sensor.camera.") + key);
+    const double value = reader().number(node, std::string("sensor.camera.") + key);
     if (value != std::floor(value) || value < 1 || value > 1e6) {
-      reader_.fail(ErrorCode::value_out_of_range, node,
-                   std::string("sensor.camera.") + key + " is not a number of pixels", "write a whole number");
+      reader().fail(ErrorCode::value_out_of_range, node,
+                    std::string("sensor.camera.") + key + " is not a number of pixels", "write a whole number");
     }
     return static_cast<int>(value);
   };
   const auto millimetres = [&](const char* key) {
-    return reader_.positive(require(camera, key, "sensor.camera", form), std::string("sensor.camera.") + key);
+    return reader().positive(require(camera, key, "sensor.camera", form), std::string("sensor.camera.") + key);
   };
-  Camera numbers;
-  numbers.width_px = pixels("width");
-  numbers.height_px = pixels("height");
+  Camera result;
+  result.width_px = pixels("width");
+  result.height_px = pixels("height");
   if (has_fov) {
     for (const char* const key : {"focal_length", "sensor_width"}) {
       if (const YamlNode* given = find(camera, key)) {
-        reader_.fail(ErrorCode::conflicting_keys, *given,
-                     std::string("sensor.fov and sensor.camera.") + key + " both say how wide the picture is",
-                     "keep one of them");
+        reader().fail(ErrorCode::conflicting_keys, *given,
+                      std::string("sensor.fov and sensor.camera.") + key + " both say how wide the picture is",
+                      "keep one of them");
       }
     }
-    return numbers;
+    return result;
   }
-  numbers.focal_length_mm = millimetres("focal_length");
-  numbers.sensor_width_mm = millimetres("sensor_width");
-  return numbers;
+  result.focal_length_mm = millimetres("focal_length");
+  result.sensor_width_mm = millimetres("sensor_width");
+  return result;
 }
 
-void SensorParser::parse_camera(const YamlNode* camera, const YamlNode* fov) {
+CameraSource SensorReader::camera_source(const YamlNode* camera, const YamlNode* fov) const {
   CameraSource source;
   if (fov) {
     source.fov_deg = two_angles(*fov, "sensor.fov", "write the horizontal and the vertical angle in degrees: [60, 40]");
   }
-  if (camera) {
-    check_keys(*camera, Section::camera, reader_.file());
-    if (const YamlNode* model = find(*camera, "model")) {
-      for (const YamlEntry& entry : camera->entries) {
-        if (entry.key == "model") continue;
-        reader_.fail(ErrorCode::conflicting_keys, entry.value,
-                     "sensor.camera.model and sensor.camera." + entry.key + " both describe the camera",
-                     "keep the model, or the numbers");
-      }
-      if (fov) {
-        reader_.fail(ErrorCode::conflicting_keys, *fov,
-                     "sensor.fov and sensor.camera.model both say how wide the picture is", "keep one of them");
-      }
-      source.model = reader_.text(*model, "sensor.camera.model");
-    } else {
-      source.numbers = parse_numbers(*camera, fov != nullptr);
-    }
+  if (!camera) return source;
+  check_keys(*camera, "sensor.camera", reader().file());
+  const YamlNode* const model = find(*camera, "model");
+  if (!model) {
+    source.numbers = numbers(*camera, fov != nullptr);
+    return source;
   }
-  const YamlNode& place = camera ? *camera : *fov;
-  result_.sensor.camera = with_place(place_in(reader_.file(), place.place), [&] {
-    if (!source.model.empty()) return pinhole_of(find_camera(source.model));
-    if (!source.fov_deg) return pinhole_of(*source.numbers);
-    const Camera& numbers = source.numbers.value_or(Camera{});
-    return pinhole_of_fov((*source.fov_deg)[0], (*source.fov_deg)[1], numbers.width_px, numbers.height_px);
-  });
-  result_.camera = std::move(source);
+  for (const YamlEntry& entry : camera->entries) {
+    if (entry.key == "model") continue;
+    reader().fail(ErrorCode::conflicting_keys, entry.value,
+                  "sensor.camera.model and sensor.camera." + entry.key + " both describe the camera",
+                  "keep the model, or the numbers");
+  }
+  if (fov) {
+    reader().fail(ErrorCode::conflicting_keys, *fov,
+                  "sensor.fov and sensor.camera.model both say how wide the picture is", "keep one of them");
+  }
+  source.model = reader().text(*model, "sensor.camera.model");
+  return source;
 }
 
-void SensorParser::parse_roll(const YamlNode& map, const std::string& what) {
-  if (const YamlNode* roll = find(map, "roll")) result_.sensor.mount.roll_deg = reader_.angle(*roll, what + ".roll");
+void SensorReader::check_camera_for(std::string_view key) const {
+  const YamlNode* const node = given(key);
+  if (!node || given("camera") || given("fov")) return;
+  reader().fail(
+      ErrorCode::missing_key, *node, "sensor." + std::string(key) + " needs a camera",
+      "name one, camera: {model: sony_a7r_iv_35mm}, or give its numbers; `vantage cameras` lists those known");
 }
 
-void SensorParser::parse_mount(const YamlNode& mount) {
-  if (mount.kind == YamlNode::Kind::scalar) {
-    if (reader_.text(mount, "sensor.mount") == "gimbal") return;
-    reader_.fail(ErrorCode::unknown_choice, mount, "sensor.mount is neither 'gimbal' nor a mapping of angles",
-                 "write 'mount: gimbal', or {yaw: any, pitch: -90}");
+void SensorReader::keys(Keys /*keys*/, std::optional<Pinhole>& camera, Mount& mount) {
+  const YamlNode *numbers = given("camera"), *fov = given("fov");
+  if (numbers || fov) {
+    const CameraSource source = camera_source(numbers, fov);
+    camera = with_place(place_in(reader().file(), (numbers ? *numbers : *fov).place), [&] {
+      if (!source.model.empty()) return pinhole_of(find_camera(source.model));
+      if (!source.fov_deg) return pinhole_of(*source.numbers);
+      const Camera& picture = source.numbers.value_or(Camera{});
+      return pinhole_of_fov((*source.fov_deg)[0], (*source.fov_deg)[1], picture.width_px, picture.height_px);
+    });
+    result_.camera = source;
   }
-  check_keys(mount, Section::mount, reader_.file());
+  refuse_both("mount", "gimbal", "keep the gimbal, or a mount of fixed angles");
+  for (const std::string_view key : {"mount", "gimbal", "pixel", "dori"}) check_camera_for(key);
+  if (const YamlNode* node = given("mount")) read_mount(*node, mount);
+  if (const YamlNode* node = given("gimbal")) read_gimbal(*node, mount);
+}
+
+void SensorReader::read_mount(const YamlNode& node, Mount& mount) const {
+  if (node.kind == YamlNode::Kind::scalar) {
+    if (reader().text(node, "sensor.mount") == "gimbal") return;
+    reader().fail(ErrorCode::unknown_choice, node, "sensor.mount is neither 'gimbal' nor a mapping of angles",
+                  "write 'mount: gimbal', or {yaw: any, pitch: -90}");
+  }
+  check_keys(node, "sensor.mount", reader().file());
   const char* const form =
       "write {yaw: any, pitch: -90, roll: 0}: degrees; yaw is clockwise from north, pitch -90 straight down";
-  const YamlNode& yaw = require(mount, "yaw", "sensor.mount", form);
+  const YamlNode& yaw = require(node, "yaw", "sensor.mount", form);
   if (yaw.kind != YamlNode::Kind::scalar || yaw.text != "any") {
-    result_.sensor.mount.yaw_deg = reader_.angle(yaw, "sensor.mount.yaw");
+    mount.yaw_deg = reader().angle(yaw, "sensor.mount.yaw");
   }
-  const double pitch = reader_.angle(require(mount, "pitch", "sensor.mount", form), "sensor.mount.pitch");
-  result_.sensor.mount.min_pitch_deg = result_.sensor.mount.max_pitch_deg = pitch;
-  parse_roll(mount, "sensor.mount");
+  const double pitch = reader().angle(require(node, "pitch", "sensor.mount", form), "sensor.mount.pitch");
+  mount.min_pitch_deg = mount.max_pitch_deg = pitch;
+  if (const YamlNode* roll = find(node, "roll")) mount.roll_deg = reader().angle(*roll, "sensor.mount.roll");
 }
 
-void SensorParser::parse_gimbal(const YamlNode& gimbal) {
-  check_keys(gimbal, Section::gimbal, reader_.file());
-  Mount& mount = result_.sensor.mount;
-  if (const YamlNode* yaw = find(gimbal, "yaw"); yaw && yaw->text != "any") {
-    mount.yaw_deg = reader_.angle(*yaw, "sensor.gimbal.yaw");
+void SensorReader::read_gimbal(const YamlNode& node, Mount& mount) const {
+  check_keys(node, "sensor.gimbal", reader().file());
+  if (const YamlNode* yaw = find(node, "yaw"); yaw && yaw->text != "any") {
+    mount.yaw_deg = reader().angle(*yaw, "sensor.gimbal.yaw");
   }
-  if (const YamlNode* pitch = find(gimbal, "pitch")) {
+  if (const YamlNode* pitch = find(node, "pitch")) {
     const auto [low, high] =
         two_angles(*pitch, "sensor.gimbal.pitch", "write the lowest and the highest pitch in degrees: [-90, 30]");
     mount.min_pitch_deg = low;
     mount.max_pitch_deg = high;
   }
-  parse_roll(gimbal, "sensor.gimbal");
+  if (const YamlNode* roll = find(node, "roll")) mount.roll_deg = reader().angle(*roll, "sensor.gimbal.roll");
 }
 
-void SensorParser::parse_dori(const YamlNode& dori) {
-  const std::string text = reader_.text(dori, "sensor.dori");
+void SensorReader::keys(Keys /*keys*/, std::optional<PixelLimit>& pixel) {
+  refuse_both("pixel", "dori", "keep one of them");
+  const YamlNode* const dori = given("dori");
+  if (!dori) return;
+  const std::string text = reader().text(*dori, "sensor.dori");
   for (const auto& [name, pixels_per_metre] : kDori) {
     if (text != name) continue;
-    result_.sensor.pixel = {1 / pixels_per_metre, PixelLimit::Kind::perpendicular};
+    pixel = {1 / pixels_per_metre, PixelLimit::Kind::perpendicular};
     return;
   }
-  reader_.fail(ErrorCode::unknown_choice, dori, "sensor.dori is not a level of EN 62676-4: " + in_quotes(text),
-               "write detection, observation, recognition or identification");
+  reader().fail(ErrorCode::unknown_choice, *dori, "sensor.dori is not a level of EN 62676-4: " + in_quotes(text),
+                "write detection, observation, recognition or identification");
 }
 
-void SensorParser::parse_sun(const YamlNode& sun) {
-  check_keys(sun, Section::sun, reader_.file());
+void SensorReader::keys(Keys /*keys*/, std::optional<SunLimit>& limit) {
+  const YamlNode* const sun = given("sun");
+  if (!sun) return;
+  check_keys(*sun, "sensor.sun", reader().file());
   const char* const form = "write {time: 2026-06-21T16:00Z, exclude: 20}, or azimuth and elevation instead of the time";
-  SunLimit limit;
-  limit.exclude_deg = reader_.angle(require(sun, "exclude", "sensor.sun", form), "sensor.sun.exclude");
-  const YamlNode* time = find(sun, "time");
-  const YamlNode* azimuth = find(sun, "azimuth");
-  if (time && (azimuth || find(sun, "elevation"))) {
-    reader_.fail(ErrorCode::conflicting_keys, *time, "sensor.sun has a time and a direction", "keep one of them");
+  limit.emplace();
+  limit->exclude_deg = reader().angle(require(*sun, "exclude", "sensor.sun", form), "sensor.sun.exclude");
+  const YamlNode* const time = find(*sun, "time");
+  if (!time) {
+    limit->direction = sun_direction(*sun, form);
+    return;
   }
-  if (time) {
-    const std::string text = reader_.text(*time, "sensor.sun.time");
-    result_.sun_time = parse_time(text);
-    if (!result_.sun_time) {
-      reader_.fail(ErrorCode::value_syntax, *time, "sensor.sun.time is not a time with a zone: " + in_quotes(text),
-                   "write it as 2026-06-21T16:00Z (UTC), or with its offset from UTC: 2026-06-21T18:00+02:00");
-    }
-    limit.direction = Vec3::UnitZ();  // until the scene is known
-  } else {
-    const double from_north = reader_.angle(require(sun, "azimuth", "sensor.sun", form), "sensor.sun.azimuth");
-    const YamlNode& elevation = require(sun, "elevation", "sensor.sun", form);
-    const double up = reader_.angle(elevation, "sensor.sun.elevation");
-    if (!(up >= 0 && up <= 90)) {
-      reader_.fail(ErrorCode::value_out_of_range, elevation, "sensor.sun.elevation is not between 0 and 90 degrees",
-                   "below the horizon the sun does not shine: leave the limit out");
-    }
-    const double a = from_north / kDegreesPerRadian, e = up / kDegreesPerRadian;
-    limit.direction = {portable::cos(e) * portable::sin(a), portable::cos(e) * portable::cos(a), portable::sin(e)};
+  if (find(*sun, "azimuth") || find(*sun, "elevation")) {
+    reader().fail(ErrorCode::conflicting_keys, *time, "sensor.sun has a time and a direction", "keep one of them");
   }
-  result_.sensor.sun = limit;
+  const std::string text = reader().text(*time, "sensor.sun.time");
+  result_.sun_time = parse_time(text);
+  if (!result_.sun_time) {
+    reader().fail(ErrorCode::value_syntax, *time, "sensor.sun.time is not a time with a zone: " + in_quotes(text),
+                  "write it as 2026-06-21T16:00Z (UTC), or with its offset from UTC: 2026-06-21T18:00+02:00");
+  }
+  limit->direction = Vec3::UnitZ();  // until the scene is known
 }
 
-void SensorParser::parse_share() {
-  const YamlNode* const share = find(node_, "visible");
-  const YamlNode* const cells = find(node_, "cells");
+Vec3 SensorReader::sun_direction(const YamlNode& sun, const std::string& form) const {
+  const double from_north = reader().angle(require(sun, "azimuth", "sensor.sun", form), "sensor.sun.azimuth");
+  const YamlNode& elevation = require(sun, "elevation", "sensor.sun", form);
+  const double up = reader().angle(elevation, "sensor.sun.elevation");
+  if (!(up >= 0 && up <= 90)) {
+    reader().fail(ErrorCode::value_out_of_range, elevation, "sensor.sun.elevation is not between 0 and 90 degrees",
+                  "below the horizon the sun does not shine: leave the limit out");
+  }
+  const double a = from_north / kDegreesPerRadian, e = up / kDegreesPerRadian;
+  return {portable::cos(e) * portable::sin(a), portable::cos(e) * portable::cos(a), portable::sin(e)};
+}
+
+void SensorReader::keys(Keys /*keys*/, std::optional<VisibleShare>& visible) {
+  const YamlNode *const share = given("visible"), *const cells = given("cells");
   if (cells && !share) {
-    reader_.fail(ErrorCode::missing_key, *cells, "sensor.cells needs sensor.visible",
-                 "say how much of the target must be seen, visible: 0.8, or leave 'cells' out");
+    reader().fail(ErrorCode::missing_key, *cells, "sensor.cells needs sensor.visible",
+                  "say how much of the target must be seen, visible: 0.8, or leave 'cells' out");
   }
   if (!share) return;
-  VisibleShare visible;
-  visible.share = reader_.number(*share, "sensor.visible");
-  if (!(visible.share > 0 && visible.share <= 1)) {
-    reader_.fail(ErrorCode::value_out_of_range, *share, "sensor.visible is not between 0 and 1",
-                 "write the part of the target's area that must be seen: 0.8");
+  visible.emplace();
+  visible->share = reader().number(*share, "sensor.visible");
+  if (!(visible->share > 0 && visible->share <= 1)) {
+    reader().fail(ErrorCode::value_out_of_range, *share, "sensor.visible is not between 0 and 1",
+                  "write the part of the target's area that must be seen: 0.8");
   }
-  if (cells) {
-    const double count = reader_.number(*cells, "sensor.cells");
-    if (count != std::floor(count) || count < 1 || count > 1024) {
-      reader_.fail(ErrorCode::value_out_of_range, *cells, "sensor.cells is not a whole number from 1 to 1024",
-                   "write for example 16, or 64 for a larger volume in more time");
-    }
-    visible.cells = static_cast<std::size_t>(count);
+  if (!cells) return;
+  const double count = reader().number(*cells, "sensor.cells");
+  if (count != std::floor(count) || count < 1 || count > 1024) {
+    reader().fail(ErrorCode::value_out_of_range, *cells, "sensor.cells is not a whole number from 1 to 1024",
+                  "write for example 16, or 64 for a larger volume in more time");
   }
-  result_.sensor.visible = visible;
+  visible->cells = static_cast<std::size_t>(count);
 }
 
-SensorSection SensorParser::parse() {
-  check_keys(node_, Section::sensor, reader_.file());
-  Sensor& sensor = result_.sensor;
-  if (const YamlNode* range = find(node_, "max_range"))
-    sensor.max_range_m = reader_.positive_length(*range, "sensor.max_range");
+template <>
+void SensorReader::instead<PilotSight>(const request::Key& key) {
   refuse_both("max_range", "vlos", "keep the range, or let it follow from the aircraft");
-  if (const YamlNode* vlos = find(node_, "vlos")) {
-    read_section(*vlos, reader_, result_.vlos.emplace());
-    sensor.max_range_m = visual_range_m(result_.vlos->range);
+  map(key, result_.vlos);
+  if (result_.vlos) result_.sensor.max_range_m = visual_range_m(result_.vlos->range);
+}
+
+SensorSection SensorReader::read() {
+  check_keys(root(), "sensor", reader().file());
+  describe(result_.sensor, *this);
+  if (!given("max_range") && !result_.vlos && !result_.sensor.pixel) {
+    reader().fail(ErrorCode::missing_key, root(), "sensor lacks the key 'max_range'",
+                  "write 'max_range: 100': metres, to every point of the target");
   }
-  if (const YamlNode* range = find(node_, "min_range"))
-    sensor.min_range_m = reader_.positive_length(*range, "sensor.min_range");
-  if (const YamlNode* angle = find(node_, "incidence")) {
-    sensor.incidence_deg = reader_.angle(*angle, "sensor.incidence");
-  }
-  const YamlNode* camera = find(node_, "camera");
-  const YamlNode* fov = find(node_, "fov");
-  if (camera || fov) parse_camera(camera, fov);
-  refuse_both("mount", "gimbal", "keep the gimbal, or a mount of fixed angles");
-  refuse_both("pixel", "dori", "keep one of them");
-  for (const char* const key : {"mount", "gimbal", "pixel", "dori"}) {
-    const YamlNode* given = find(node_, key);
-    if (!given || sensor.camera) continue;
-    reader_.fail(
-        ErrorCode::missing_key, *given, std::string("sensor.") + key + " needs a camera",
-        "name one, camera: {model: sony_a7r_iv_35mm}, or give its numbers; `vantage cameras` lists those known");
-  }
-  if (const YamlNode* mount = find(node_, "mount")) parse_mount(*mount);
-  if (const YamlNode* gimbal = find(node_, "gimbal")) parse_gimbal(*gimbal);
-  if (const YamlNode* pixel = find(node_, "pixel")) read_section(*pixel, reader_, sensor.pixel.emplace());
-  if (const YamlNode* dori = find(node_, "dori")) parse_dori(*dori);
-  if (const YamlNode* sun = find(node_, "sun")) parse_sun(*sun);
-  if (const YamlNode* link = find(node_, "link")) {
-    read_section(*link, reader_, sensor.link.emplace());
-  }
-  parse_share();
-  if (!find(node_, "max_range") && !result_.vlos && !sensor.pixel) {
-    reader_.fail(ErrorCode::missing_key, node_, "sensor lacks the key 'max_range'",
-                 "write 'max_range: 100': metres, to every point of the target");
-  }
-  with_place(place_in(reader_.file(), node_.place), [&] {
-    check_sensor(sensor);
+  with_place(place_in(reader().file(), root().place), [&] {
+    check_sensor(result_.sensor);
     return 0;
   });
   return std::move(result_);
@@ -293,82 +295,89 @@ SensorSection SensorParser::parse() {
 
 std::string pair_text(double a, double b) { return "[" + shortest(a) + ", " + shortest(b) + "]"; }
 
-std::string camera_text(const MissionFile& mission) {
-  const auto fov = [](double horizontal, double vertical) {
-    return "  fov: " + pair_text(horizontal, vertical) + "\n";
-  };
-  const auto pixels = [](int width, int height) {
-    return "width: " + std::to_string(width) + ", height: " + std::to_string(height);
-  };
-  if (!mission.camera) {
-    const Pinhole& camera = *mission.sensor.camera;
-    const auto [horizontal, vertical] = camera.fov_deg();
-    const bool has_pixels = camera.width_px > 0 && camera.height_px > 0;
-    return fov(horizontal, vertical) +
-           (has_pixels ? "  camera: {" + pixels(camera.width_px, camera.height_px) + "}\n" : "");
-  }
-  const CameraSource& source = *mission.camera;
-  if (!source.model.empty()) return "  camera: {model: " + source.model + "}\n";
-  std::string text;
-  if (source.fov_deg) text += fov((*source.fov_deg)[0], (*source.fov_deg)[1]);
-  if (!source.numbers) return text;
-  const Camera& numbers = *source.numbers;
-  text += "  camera: {" + pixels(numbers.width_px, numbers.height_px);
-  if (!source.fov_deg) {
-    text +=
-        ", focal_length: " + shortest(numbers.focal_length_mm) + ", sensor_width: " + shortest(numbers.sensor_width_mm);
-  }
-  return text + "}\n";
-}
+class SensorWriter : public SectionWriter {
+ public:
+  explicit SensorWriter(const MissionFile& mission) : mission_(mission) {}
 
-std::string mount_text(const Mount& mount) {
-  if (!mount.yaw_deg && mount.min_pitch_deg == -90 && mount.max_pitch_deg == 90 && mount.roll_deg == 0) return {};
-  const std::string yaw = mount.yaw_deg ? shortest(*mount.yaw_deg) : "any";
-  const bool is_fixed = mount.min_pitch_deg == mount.max_pitch_deg;
-  return std::string(is_fixed ? "  mount" : "  gimbal") + ": {yaw: " + yaw + ", pitch: " +
-         (is_fixed ? shortest(mount.min_pitch_deg) : pair_text(mount.min_pitch_deg, mount.max_pitch_deg)) +
-         ", roll: " + shortest(mount.roll_deg) + "}\n";
-}
-
-std::string sun_text(const MissionFile& mission) {
-  const SunLimit& sun = *mission.sensor.sun;
-  std::string direction;
-  if (mission.sun_time) {
-    direction = "time: " + mission.sun_time->text;
-  } else {
-    const Vec3& to = sun.direction;
-    direction = "azimuth: " + shortest(std::atan2(to.x(), to.y()) * kDegreesPerRadian) +
-                ", elevation: " + shortest(std::atan2(to.z(), to.head<2>().norm()) * kDegreesPerRadian);
+  using SectionWriter::number;
+  void number(const request::Key& key, double value, const request::Bounds& bounds, const request::Only& only) {
+    const bool follows = key.path == "max_range" && mission_.vlos;
+    if (!follows) SectionWriter::number(key, value, bounds, only);
   }
-  return "  sun: {" + direction + ", exclude: " + shortest(sun.exclude_deg) + "}\n";
-}
+  template <typename Settings>
+  void instead(const request::Key& key) {
+    map(key, mission_.vlos);
+  }
+  void keys(Keys /*keys*/, const std::optional<Pinhole>& camera, const Mount& mount) {
+    if (!camera) return;
+    add_camera(*camera);
+    add_mount(mount);
+  }
+  void keys(Keys /*keys*/, const std::optional<PixelLimit>& /*pixel*/) {}  // written as "pixel"
+  void keys(Keys /*keys*/, const std::optional<SunLimit>& sun) {
+    if (!sun) return;
+    if (mission_.sun_time) {
+      add("sun.time", mission_.sun_time->text);
+    } else {
+      const Vec3& to = sun->direction;
+      add("sun.azimuth", shortest(std::atan2(to.x(), to.y()) * kDegreesPerRadian));
+      add("sun.elevation", shortest(std::atan2(to.z(), to.head<2>().norm()) * kDegreesPerRadian));
+    }
+    add("sun.exclude", shortest(sun->exclude_deg));
+  }
+  void keys(Keys /*keys*/, const std::optional<VisibleShare>& visible) {
+    if (!visible) return;
+    add("visible", shortest(visible->share));
+    add("cells", std::to_string(visible->cells));
+  }
+
+ private:
+  void add_camera(const Pinhole& camera) {
+    if (!mission_.camera) {
+      const auto [horizontal, vertical] = camera.fov_deg();
+      add("fov", pair_text(horizontal, vertical));
+      if (camera.width_px > 0 && camera.height_px > 0) add_pixels(camera.width_px, camera.height_px);
+      return;
+    }
+    const auto& [model, numbers, fov_deg] = *mission_.camera;
+    if (!model.empty()) return add("camera.model", model);
+    if (fov_deg) add("fov", pair_text((*fov_deg)[0], (*fov_deg)[1]));
+    if (!numbers) return;
+    add_pixels(numbers->width_px, numbers->height_px);
+    if (fov_deg) return;
+    add("camera.focal_length", shortest(numbers->focal_length_mm));
+    add("camera.sensor_width", shortest(numbers->sensor_width_mm));
+  }
+
+  void add_pixels(int width, int height) {
+    add("camera.width", std::to_string(width));
+    add("camera.height", std::to_string(height));
+  }
+
+  void add_mount(const Mount& mount) {
+    const auto& [yaw_deg, min_pitch_deg, max_pitch_deg, roll_deg] = mount;
+    if (!yaw_deg && min_pitch_deg == -90 && max_pitch_deg == 90 && roll_deg == 0) return;
+    const bool is_fixed = min_pitch_deg == max_pitch_deg;
+    const std::string yaw = yaw_deg ? shortest(*yaw_deg) : "any", roll = shortest(roll_deg);
+    add(is_fixed ? "mount.yaw" : "gimbal.yaw", yaw);
+    add(is_fixed ? "mount.pitch" : "gimbal.pitch",
+        is_fixed ? shortest(min_pitch_deg) : pair_text(min_pitch_deg, max_pitch_deg));
+    add(is_fixed ? "mount.roll" : "gimbal.roll", roll);
+  }
+
+  const MissionFile& mission_;
+};
 
 }  // namespace
 
 SensorSection parse_sensor_section(const YamlNode& node, const ValueReader& reader) {
-  return SensorParser(node, reader).parse();
+  return SensorReader(node, reader).read();
 }
 
-// All members are named: a limit that is added does not compile here before it is written.
 std::string sensor_section_text(const MissionFile& mission) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = mission.sensor;
-  std::string text = "sensor:\n";
-  if (mission.vlos) {
-    text += "  vlos: " + flow_text(*mission.vlos) + "\n";
-  } else if (std::isfinite(max_range_m)) {
-    text += "  max_range: " + shortest(max_range_m) + "\n";
-  }
-  if (min_range_m > 0) text += "  min_range: " + shortest(min_range_m) + "\n";
-  if (incidence_deg) text += "  incidence: " + shortest(*incidence_deg) + "\n";
-  if (camera) text += camera_text(mission) + mount_text(mount);
-  if (pixel) text += "  pixel: " + flow_text(*pixel) + "\n";
-  if (sun) text += sun_text(mission);
-  if (link) text += "  link: " + flow_text(*link) + "\n";
-  if (visible) {
-    text += "  visible: " + shortest(visible->share) + "\n  cells: " + std::to_string(visible->cells) + "\n";
-  }
-  if (text.ends_with("sensor:\n")) return "";  // of targets that are volumes
-  return text;
+  SensorWriter writer(mission);
+  describe(mission.sensor, writer);
+  return writer.is_empty() ? "" : writer.text(request::kSection<Sensor>);  // of targets that are volumes
 }
 
 std::optional<SunTime> parse_time(const std::string& text) {

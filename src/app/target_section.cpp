@@ -86,7 +86,7 @@ std::string edge_text(std::size_t from, std::size_t to) {
 }
 
 MissionTarget TargetParser::parse(const YamlNode& node) {
-  check_keys(node, Section::target, file());
+  check_keys(node, "target", file());
   Target& target = section_.target;
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
   const YamlNode* point = find(node, "point");

@@ -42,6 +42,7 @@ void add_verify_tour(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);
 void add_cameras(CLI::App& app, Command& chosen);
+void add_keys(CLI::App& app, Command& chosen);
 void add_spheres(CLI::App& app, Command& chosen);
 void add_render(CLI::App& app, Command& chosen);
 void add_report(CLI::App& app, Command& chosen);

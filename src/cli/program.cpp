@@ -29,6 +29,7 @@ constexpr const char* kExamples =
     "  vantage simplify volume.ply --facets 500 -o small.ply\n"
     "  vantage devices\n"
     "  vantage cameras\n"
+    "  vantage keys sensor\n"
     "  vantage spheres -c config.yaml\n"
     "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
     "  vantage report mission.yaml -o report.html\n"
@@ -36,8 +37,8 @@ constexpr const char* kExamples =
     "  vantage stand mission.yaml\n"
     "  vantage orbit mission.yaml --radius 60\n"
     "\n"
-    "MISSION and POINTS may be -, standard input. docs/mission-file.md describes the mission file,\n"
-    "docs/command-line.md the commands.\n";
+    "MISSION and POINTS may be -, standard input. `vantage keys` lists what a mission file may say;\n"
+    "docs/mission-file.md has examples, docs/command-line.md describes the commands.\n";
 
 int print_error(const Error& error, const std::string& name) {
   const std::string command = name.empty() ? "vantage" : "vantage " + name;
@@ -115,6 +116,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_simplify(app, chosen);
   add_devices(app, chosen);
   add_cameras(app, chosen);
+  add_keys(app, chosen);
   add_spheres(app, chosen);
   add_render(app, chosen);
   add_report(app, chosen);

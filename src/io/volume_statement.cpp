@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/sidecar.h"
-#include "request/describe_sensor.h"
-#include "request/json_object.h"
+#include "request/sensor_json.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 
@@ -32,65 +31,19 @@ double length_of(const Json& json) {
   return value;
 }
 
-template <typename Settings>
-Json described_json(const Settings& settings) {
-  const auto number_as = [](auto value) { return Json(value); };
-  request::JsonObject<Json, decltype(number_as)> object(number_as);
-  describe(settings, object);
-  return object.json();
-}
-
-template <typename Settings>
-void read_described(const Json& json, Settings& settings) {
-  request::JsonReader<Json> reader(json, request::kSection<Settings>);
-  describe(settings, reader);
-}
-
-// All members are named, here and below: a limit that is added does not compile before it is stated.
+/// All but the farthest distance, which stands by itself.
 Json limits_json(const Sensor& sensor) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
-  Json json = Json::object();
-  if (min_range_m > 0) json["min_range_m"] = min_range_m;
-  if (incidence_deg) json["incidence_deg"] = *incidence_deg;
-  if (camera) {
-    json["camera"] = {{"half_width", camera->half_width}, {"half_height", camera->half_height}};
-    if (camera->focal_px) json["camera"]["focal_px"] = *camera->focal_px;
-    json["mount"] = {
-        {"min_pitch_deg", mount.min_pitch_deg}, {"max_pitch_deg", mount.max_pitch_deg}, {"roll_deg", mount.roll_deg}};
-    if (mount.yaw_deg) json["mount"]["yaw_deg"] = *mount.yaw_deg;
-  }
-  if (pixel) json["pixel"] = described_json(*pixel);
-  if (sun) json["sun"] = {{"direction", json_of(sun->direction)}, {"exclude_deg", sun->exclude_deg}};
-  if (link) json["link"] = described_json(*link);
-  if (visible) json["visible"] = {{"share", visible->share}, {"cells", visible->cells}};
+  const auto number_as = [](auto value) { return Json(value); };
+  request::SensorObject<Json, decltype(number_as)> object(number_as);
+  describe(sensor, object);
+  Json json = object.json();
+  json.erase("max_range_m");
   return json;
 }
 
 void read_sensor(const Json& json, Sensor& sensor) {
-  auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
-  min_range_m = json.value("min_range_m", 0.0);
-  if (json.contains("incidence_deg")) incidence_deg = json.at("incidence_deg").get<double>();
-  if (json.contains("camera")) {
-    const Json& lens = json.at("camera");
-    camera.emplace();
-    camera->half_width = length_of(lens.at("half_width"));
-    camera->half_height = length_of(lens.at("half_height"));
-    if (lens.contains("focal_px")) camera->focal_px = length_of(lens.at("focal_px"));
-    const Json& angles = json.at("mount");
-    mount.min_pitch_deg = angles.at("min_pitch_deg").get<double>();
-    mount.max_pitch_deg = angles.at("max_pitch_deg").get<double>();
-    mount.roll_deg = angles.at("roll_deg").get<double>();
-    if (angles.contains("yaw_deg")) mount.yaw_deg = angles.at("yaw_deg").get<double>();
-  }
-  if (json.contains("pixel")) read_described(json.at("pixel"), pixel.emplace());
-  if (json.contains("sun")) {
-    sun = SunLimit{vector_of(json.at("sun").at("direction")), json.at("sun").at("exclude_deg").get<double>()};
-  }
-  if (json.contains("link")) read_described(json.at("link"), link.emplace());
-  if (json.contains("visible")) {
-    const Json& share = json.at("visible");
-    visible = VisibleShare{share.at("share").get<double>(), share.at("cells").get<std::size_t>()};
-  }
+  request::SensorReader<Json> reader(json);
+  describe(sensor, reader);
 }
 
 Target target_of(const Json& json) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -19,8 +20,22 @@ class Checker : Visitor {
   template <typename Value, typename Choices>
   void choice(const Key& /*key*/, const Value& /*value*/, const Choices& /*choices*/) {}
   void number(const Key& key, double value, const Bounds& bounds, const Only& /*only*/) const {
-    if (!key.is_none_at_zero || value != 0) check_within(bounds, value, name_of(key));
+    if (key.is_none_at_zero && value == 0) return;
+    if (!key.is_none_at_infinity || value != std::numeric_limits<double>::infinity()) {
+      check_within(bounds, value, name_of(key));
+    }
   }
+  void number(const Key& key, const std::optional<double>& value, const Bounds& bounds, const Only& /*only*/) const {
+    if (value) check_within(bounds, *value, name_of(key));
+  }
+  template <typename Settings>
+  void map(const Key& key, const std::optional<Settings>& value) const {
+    if (!value) return;
+    Checker inner(name_of(key));
+    describe(*value, inner);
+  }
+  template <typename Settings>
+  void instead(const Key& /*key*/) const {}
   void pair(const Key& key, double low, const Bounds& of_low, double high, const Bounds& of_high,
             const Only& /*only*/) const {
     check_within(of_low, low, name_of(key) + "[0]");

@@ -30,6 +30,7 @@ void describe(Settings& settings, Visit& visit) {
   visit.choice({.path = "vehicle.kind",
                 .says = "`multirotor`: flies straight legs, stops and hovers; `fixed_wing`: neither stops nor turns on "
                         "the spot",
+                .without = "`multirotor`, without `vehicle`",
                 .is_required = true,
                 .form = "write 'kind: multirotor' or 'kind: fixed_wing'"},
                kind, kVehicleKinds);

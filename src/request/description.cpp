@@ -87,24 +87,27 @@ std::string_view suffix_of(Unit unit) {
   return "";
 }
 
+bool Bounds::takes_least() const { return ends == Ends::both || ends == Ends::without_most; }
+bool Bounds::takes_most() const { return ends == Ends::both || ends == Ends::without_least; }
+
 bool Bounds::hold(double value) const {
   if (!std::isfinite(value)) return false;
-  const bool is_above = ends == Ends::without_least ? value > least : value >= least;
-  return is_above && (ends == Ends::without_most ? value < most : value <= most);
+  return (takes_least() ? value >= least : value > least) && (takes_most() ? value <= most : value < most);
 }
 
 std::string Bounds::text() const {
-  const bool is_above_zero = (least > 0 && least < kTiny) || (least == 0 && ends == Ends::without_least);
+  const bool is_above_zero = (least > 0 && least < kTiny) || (least == 0 && !takes_least());
   if (is_above_zero && most >= kLongest) return "> 0";
   const std::string end = grouped(most) + (most_word.empty() ? "" : ", " + std::string(most_word));
-  return is_above_zero ? "> 0, at most " + end : grouped(least) + " to " + end;
+  if (is_above_zero) return (takes_most() ? "> 0, at most " : "> 0 and < ") + end;
+  return grouped(least) + " to " + end;
 }
 
 void check_within(const Bounds& bounds, double value, const std::string& where) {
   if (bounds.hold(value)) return;
   std::string range;
   if (bounds.least >= 0 && !(value > 0 && std::isfinite(value))) {
-    range = bounds.least > 0 || bounds.ends == Bounds::Ends::without_least ? "greater than 0" : "0 or more";
+    range = bounds.least > 0 || !bounds.takes_least() ? "greater than 0" : "0 or more";
   } else {
     range = "between " + plain(bounds.least) + " and " + plain(bounds.most);
     if (bounds.ends == Bounds::Ends::without_most) {

@@ -4,8 +4,11 @@
 // struct: one that is added does not compile before it is described.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "vantage/mission_keys.h"
 
 namespace vantage::internal::request {
 
@@ -20,8 +23,10 @@ struct Key {
   /// The map round it must have it. `form`: what to write then.
   bool is_required = false;
   std::string_view form = "";
-  /// A number of 0 says the same as no key, which takes no 0.
-  bool is_none_at_zero = false;
+  /// A number of 0, or an infinite one, says the same as no key, which does not take it.
+  bool is_none_at_zero = false, is_none_at_infinity = false;
+  /// Another name has taken its place.
+  bool is_old = false;
 };
 
 enum class Unit {
@@ -35,6 +40,15 @@ enum class Unit {
   gigahertz
 };
 
+using Kind = MissionKey::Kind;
+
+/// A key that its section reads and writes in a way of its own.
+struct Own {
+  Key key;
+  Kind kind;
+  Unit unit = Unit::none;
+};
+
 /// "m/s"; nothing without a unit.
 std::string_view symbol_of(Unit unit);
 /// What names of members end with: "_m_s".
@@ -45,7 +59,7 @@ inline constexpr double kLongest = 1e9;
 
 /// Which numbers a key takes.
 struct Bounds {
-  enum class Ends { both, without_least, without_most };  ///< which of the two are numbers that it takes
+  enum class Ends { both, without_least, without_most, neither };  ///< which of the two are numbers that it takes
 
   double least, most;
   Unit unit = Unit::none;
@@ -53,6 +67,8 @@ struct Bounds {
   std::string_view most_word = "";  ///< what `most` is: "a day"
   Ends ends = Ends::both;
 
+  bool takes_least() const;
+  bool takes_most() const;
   /// False for NaN, too.
   bool hold(double value) const;
   /// "0.01 to 1000"; "> 0, at most 604,800, a week".

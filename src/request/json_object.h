@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,7 +27,11 @@ class JsonObject : Visitor {
     add(key, Unit::none) = std::string(word_of(choices, value));
   }
   void number(const Key& key, double value, const Bounds& bounds, const Only& /*only*/) {
-    if (!key.is_none_at_zero || value != 0) add(key, bounds.unit) = number_as_(value);
+    const bool is_none = (key.is_none_at_zero && value == 0) || (key.is_none_at_infinity && std::isinf(value));
+    if (!is_none) add(key, bounds.unit) = number_as_(value);
+  }
+  void number(const Key& key, const std::optional<double>& value, const Bounds& bounds, const Only& /*only*/) {
+    if (value) add(key, bounds.unit) = number_as_(*value);
   }
   void whole(const Key& key, int value, const Bounds& bounds) { add(key, bounds.unit) = number_as_(value); }
   void grid(const Key& key, const std::optional<std::array<int, 2>>& value, const Bounds& /*of_first*/,
@@ -36,13 +41,23 @@ class JsonObject : Visitor {
   template <typename Device>
   void device(const Key& /*key*/, const Device& /*value*/) {}
 
+  template <typename Settings>
+  void map(const Key& key, const std::optional<Settings>& value) {
+    if (!value) return;
+    JsonObject inner(number_as_);
+    describe(*value, inner);
+    add(key, Unit::none) = inner.json_;
+  }
+  template <typename Settings>
+  void instead(const Key& /*key*/) {}
   const Json& json() const { return json_; }
+
+ protected:
+  NumberAs number_as_;
+  Json json_ = Json::object();
 
  private:
   Json& add(const Key& key, Unit unit) { return json_[name_in_json(key, unit)]; }
-
-  NumberAs number_as_;
-  Json json_ = Json::object();
 };
 
 /// A visitor that reads what JsonObject wrote with numbers as numbers. Throws what `Json` throws for what is missing or
@@ -64,12 +79,24 @@ class JsonReader : Visitor {
   }
   void number(const Key& key, double& value, const Bounds& bounds, const Only& /*only*/) const {
     const std::string name = name_in_json(key, bounds.unit);
-    if (key.is_none_at_zero && !json_.contains(name)) return;
+    if ((key.is_none_at_zero || key.is_none_at_infinity) && !json_.contains(name)) return;
     value = json_.at(name).template get<double>();
     check_within(bounds, value, name_of(key));
   }
+  void number(const Key& key, std::optional<double>& value, const Bounds& bounds, const Only& only) const {
+    if (json_.contains(name_in_json(key, bounds.unit))) number(key, value.emplace(), bounds, only);
+  }
+  template <typename Settings>
+  void map(const Key& key, std::optional<Settings>& value) const {
+    const std::string name = name_in_json(key, Unit::none);
+    if (!json_.contains(name)) return;
+    JsonReader inner(json_.at(name), name_of(key));
+    describe(value.emplace(), inner);
+  }
+  template <typename Settings>
+  void instead(const Key& /*key*/) const {}
 
- private:
+ protected:
   std::string name_of(const Key& key) const { return section_ + "." + std::string(key.path); }
 
   const Json& json_;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +26,10 @@ class KeyLister : Visitor {
   void choice(const Key& key, const Value& /*value*/, const Choices& /*choices*/) {
     add(key);
   }
-  void number(const Key& key, double /*value*/, const Bounds& /*bounds*/, const Only& /*only*/) { add(key); }
+  template <typename Number>
+  void number(const Key& key, const Number& /*value*/, const Bounds& /*bounds*/, const Only& /*only*/) {
+    add(key);
+  }
   void pair(const Key& key, double /*low*/, const Bounds& /*of_low*/, double /*high*/, const Bounds& /*of_high*/,
             const Only& /*only*/) {
     add(key);
@@ -42,6 +47,23 @@ class KeyLister : Visitor {
   template <typename Device>
   void device(const Key& key, const Device& /*value*/) {
     add(key);
+  }
+
+  template <typename... Values>
+  void keys(std::span<const Own> keys, const Values&... /*values*/) {
+    for (const Own& own : keys) add(own.key);
+  }
+  template <typename Settings>
+  void map(const Key& key, const std::optional<Settings>& /*value*/) {
+    instead<Settings>(key);
+  }
+  template <typename Settings>
+  void instead(const Key& key) {
+    add(key);
+    KeyLister inner(lists_.front().name + "." + std::string(key.path));
+    const Settings settings = {};
+    describe(settings, inner);
+    lists_.insert(lists_.end(), inner.lists_.begin(), inner.lists_.end());
   }
 
   const std::vector<KeyList>& lists() const { return lists_; }

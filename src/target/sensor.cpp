@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "core/text.h"
@@ -14,7 +16,6 @@ namespace {
 
 using internal::core::number_text;
 
-constexpr double kLargestRange = 1e9;    // metres; as scenes
 constexpr double kLargestTangent = 1e3;  // half a picture of 179.9 degrees
 constexpr std::size_t kMostCells = 1024;
 constexpr double kSmallestTangent = 1e-6;  // and one of a fifth of a second of arc
@@ -22,12 +23,6 @@ constexpr double kSmallestTangent = 1e-6;  // and one of a fifth of a second of 
 void require(bool holds, const char* problem, const char* where, const char* fix,
              ErrorCode code = ErrorCode::value_out_of_range) {
   if (!holds) throw Error(code, problem, where, fix);  // false for NaN too
-}
-
-template <typename Settings>
-void check_described(const Settings& settings) {
-  internal::request::Checker checker(internal::request::kSection<Settings>);
-  describe(settings, checker);
 }
 
 void check_camera(const Pinhole& camera) {
@@ -55,18 +50,39 @@ void check_mount(const Mount& mount) {
   require(mount.min_pitch_deg <= mount.max_pitch_deg, "a pitch is not a number", "sensor.gimbal", "give degrees");
 }
 
-void check_pixel(const Sensor& sensor) {
-  check_described(*sensor.pixel);
-  require(sensor.camera && sensor.camera->focal_px, "the size of a pixel needs a focal length in pixels",
-          "sensor.pixel", "give a camera with its width and height in pixels", ErrorCode::missing_key);
-}
-
 void check_share(const VisibleShare& visible) {
   require(visible.share > 0 && visible.share <= 1, "the visible share is not between 0 and 1", "sensor.visible",
           "give the part of the target's area that must be seen: 0.8");
   require(visible.cells >= 1 && visible.cells <= kMostCells, "the number of cells is not between 1 and 1024",
           "sensor.cells", "give for example 16, or 64 for a larger volume in more time");
 }
+
+void check_sun(const SunLimit& sun) {
+  require(sun.direction.allFinite() && sun.direction.norm() > 0, "the direction to the sun is zero or not finite",
+          "sensor.sun", "give a vector towards the sun", ErrorCode::direction_invalid);
+  require(sun.exclude_deg > 0 && sun.exclude_deg <= 90, "the angle to the sun is not between 0 and 90 degrees",
+          "sensor.sun", "give the least angle that is wanted: exclude: 20");
+}
+
+/// Each limit by itself.
+class SensorChecker : public internal::request::Checker {
+  using Keys = std::span<const internal::request::Own>;
+
+ public:
+  SensorChecker() : Checker(internal::request::kSection<Sensor>) {}
+
+  void keys(Keys /*keys*/, const std::optional<Pinhole>& camera, const Mount& mount) const {
+    if (camera) check_camera(*camera);
+    check_mount(mount);
+  }
+  void keys(Keys /*keys*/, const std::optional<PixelLimit>& /*pixel*/) const {}
+  void keys(Keys /*keys*/, const std::optional<SunLimit>& sun) const {
+    if (sun) check_sun(*sun);
+  }
+  void keys(Keys /*keys*/, const std::optional<VisibleShare>& visible) const {
+    if (visible) check_share(*visible);
+  }
+};
 
 }  // namespace
 
@@ -79,36 +95,22 @@ double range_limit_m(const Sensor& sensor) {
   return std::min(sensor.max_range_m, sensor.pixel->size_m * *sensor.camera->focal_px);
 }
 
-// All members are named: a limit that is added does not compile here before it is checked.
 void check_sensor(const Sensor& sensor) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
-  if (camera) check_camera(*camera);
-  check_mount(mount);
-  if (pixel) check_pixel(sensor);
-  if (link) check_described(*link);
-  require(max_range_m > 0, "max_range must be a positive, finite number of metres", "sensor",
-          "give the farthest distance at which the target can be seen");
+  SensorChecker checker;
+  describe(sensor, checker);
+  require(!sensor.pixel || (sensor.camera && sensor.camera->focal_px),
+          "the size of a pixel needs a focal length in pixels", "sensor.pixel",
+          "give a camera with its width and height in pixels", ErrorCode::missing_key);
   const double range_m = range_limit_m(sensor);
   require(std::isfinite(range_m), "max_range must be a positive, finite number of metres", "sensor",
           "give the farthest distance at which the target can be seen, or the size of a pixel, which limits it too");
-  require(range_m <= kLargestRange, "max_range is larger than 1e9 m", "sensor", "give metres");
-  require(min_range_m >= 0 && std::isfinite(min_range_m), "min_range is negative or not finite", "sensor",
-          "give metres");
-  if (min_range_m >= range_m) {
-    throw Error(ErrorCode::limits_empty,
-                "min_range is " + number_text(min_range_m) + " m, and " +
-                    (range_m < max_range_m ? "the size of a pixel allows " : "max_range is ") + number_text(range_m) +
-                    " m",
-                "sensor", "give a min_range below that");
-  }
-  require(!incidence_deg || (*incidence_deg > 0 && *incidence_deg < 90), "incidence is not between 0 and 90 degrees",
-          "sensor.incidence", "it is measured from the target's normal: 60 leaves out the last 30 degrees");
-  if (visible) check_share(*visible);
-  if (!sun) return;
-  require(sun->direction.allFinite() && sun->direction.norm() > 0, "the direction to the sun is zero or not finite",
-          "sensor.sun", "give a vector towards the sun", ErrorCode::direction_invalid);
-  require(sun->exclude_deg > 0 && sun->exclude_deg <= 90, "the angle to the sun is not between 0 and 90 degrees",
-          "sensor.sun", "give the least angle that is wanted: exclude: 20");
+  require(range_m <= internal::request::kLongest, "max_range is larger than 1e9 m", "sensor", "give metres");
+  if (sensor.min_range_m < range_m) return;
+  throw Error(ErrorCode::limits_empty,
+              "min_range is " + number_text(sensor.min_range_m) + " m, and " +
+                  (range_m < sensor.max_range_m ? "the size of a pixel allows " : "max_range is ") +
+                  number_text(range_m) + " m",
+              "sensor", "give a min_range below that");
 }
 
 }  // namespace vantage
