@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the experiments of ../maps.md: computes every mission of this folder, checks, compares and draws it.
+"""Runs the experiments of ../gallery.md: computes every mission of this folder, checks, compares and draws it.
 
     make.py [--program build/bin/vantage] [--no-pictures]      prints the tables; pictures go beside this file
 
@@ -96,7 +96,7 @@ def draw(program, case):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Runs the experiments of docs/maps.md.")
+    parser = argparse.ArgumentParser(description="Runs the experiments of docs/gallery.md.")
     parser.add_argument("--program", default=ROOT / "build/bin/vantage", type=pathlib.Path)
     parser.add_argument("--no-pictures", action="store_true")
     arguments = parser.parse_args()

@@ -1,5 +1,5 @@
-// What the file of a volume states besides its mesh: its provenance, tolerance, lifts and hash. docs/hashes.md and
-// docs/verification.md say what they mean.
+// What the file of a volume states besides its mesh: its provenance, tolerance, lifts and hash. docs/hashes.md says
+// what they mean.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
