@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the libraries in ways that neither `make build` nor the tests use, installs each, and runs a program that finds
-# it there: all of them static, some components alone, no threads. For `make nightly`.
+# it there: all of them static, some parts alone, no threads. For `make nightly`.
 #   scripts/build_variants.sh [NAME...]     all of them, or those that are named; VARIANTS: the folder (build-variants)
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,8 +11,8 @@ jobs=${JOBS:-$(nproc)}
 variants=(
   "static      everything -DBUILD_SHARED_LIBS=OFF"
   "static-core embedder   -DBUILD_SHARED_LIBS=OFF -DVANTAGE_COMPONENTS=core -DVANTAGE_THREADS=none"
-  "check-only  embedder   -DVANTAGE_COMPONENTS=core;verify -DVANTAGE_THREADS=std"
-  "no-maps     embedder   -DVANTAGE_COMPONENTS=solid;verify;app"
+  "missions    embedder   -DVANTAGE_COMPONENTS=missions -DVANTAGE_THREADS=std"
+  "no-maps     embedder   -DVANTAGE_COMPONENTS=picture"
 )
 
 headers=$(cd include/vantage && printf '%s,' *.h)

@@ -9,7 +9,7 @@
 #include "core/stopwatch.h"
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "support/internals.h"
 #include "support/objects.h"
 #include "support/raster_writer.h"

@@ -191,4 +191,8 @@ struct City {
 VANTAGE_API City build_city(const std::filesystem::path& file, const CityOptions& options = {},
                             const Progress& progress = {});
 
+/// Lets missions use what the library vantage_maps does: scenes of maps and rasters, targets on the ground. A program
+/// calls it once, when it starts, before missions are resolved. Any number of times, from any thread.
+VANTAGE_API void enable_maps();
+
 }  // namespace vantage

@@ -88,4 +88,8 @@ VANTAGE_API Volume compute_visibility_spheres(const PreparedTarget& target, cons
 VANTAGE_API Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double radius_m,
                                    const SpheresOptions& options = {}, const Progress& progress = {});
 
+/// Lets missions use `method: spheres`, which is in the library vantage_picture. A program calls it once, when it
+/// starts, before missions are run. Any number of times, from any thread.
+VANTAGE_API void enable_spheres();
+
 }  // namespace vantage

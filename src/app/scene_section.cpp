@@ -6,8 +6,8 @@
 #include <initializer_list>
 #include <utility>
 
-#include "app/places.h"
 #include "app/schema.h"
+#include "core/places.h"
 #include "vantage/city.h"
 #include "vantage/input.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "app/described_section.h"
-#include "app/places.h"
 #include "app/schema.h"
+#include "core/places.h"
 #include "core/portable_math.h"
 #include "request/describe_sensor.h"
 #include "vantage/error.h"
@@ -130,7 +130,7 @@ void SensorParser::parse_camera(const YamlNode* camera, const YamlNode* fov) {
     }
   }
   const YamlNode& place = camera ? *camera : *fov;
-  result_.sensor.camera = with_place(place_in(reader_.file(), place.place), [&] {
+  result_.sensor.camera = core::with_place(place_in(reader_.file(), place.place), [&] {
     if (!source.model.empty()) return pinhole_of(find_camera(source.model));
     if (!source.fov_deg) return pinhole_of(*source.numbers);
     const Camera& numbers = source.numbers.value_or(Camera{});
@@ -284,7 +284,7 @@ SensorSection SensorParser::parse() {
     reader_.fail(ErrorCode::missing_key, node_, "sensor lacks the key 'max_range'",
                  "write 'max_range: 100': metres, to every point of the target");
   }
-  with_place(place_in(reader_.file(), node_.place), [&] {
+  core::with_place(place_in(reader_.file(), node_.place), [&] {
     check_sensor(sensor);
     return 0;
   });

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/components/maps.h"
 #include "app/json_zones.h"
+#include "app/kml_zones.h"
 #include "io/json_text.h"
 #include "io/zip.h"
 #include "vantage/input.h"

@@ -10,7 +10,6 @@
 namespace vantage::internal::core {
 
 /// check_navigation, for those who cut: returns the meshes to stay in as checked_solid does, welded.
-VANTAGE_INTERNAL_API std::vector<Mesh> checked_navigation(const Navigation& navigation,
-                                                          const ProgressReporter& progress = {});
+std::vector<Mesh> checked_navigation(const Navigation& navigation, const ProgressReporter& progress = {});
 
 }  // namespace vantage::internal::core

@@ -31,7 +31,7 @@ struct OutputFormat {
 std::span<const OutputFormat> output_formats();
 
 /// The one that the extension names, upper or lower case; null for another.
-VANTAGE_INTERNAL_API const OutputFormat* find_output_format(const std::filesystem::path& file);
+const OutputFormat* find_output_format(const std::filesystem::path& file);
 
 /// Throws Error(output) for another, and says which there are.
 const OutputFormat& output_format(const std::filesystem::path& file);

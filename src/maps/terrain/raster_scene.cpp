@@ -11,7 +11,7 @@
 #include "maps/terrain/post_positions.h"
 #include "maps/terrain/tin.h"
 #include "maps/terrain/tin_mesh.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "vantage/error.h"
 #include "vantage/terrain.h"
 

@@ -1,3 +1,5 @@
+#include "app/ground_target.h"
+
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,24 +13,31 @@
 #include <string>
 #include <vector>
 
-#include "app/components/maps.h"
 #include "app/ground_room.h"
 #include "app/named_objects.h"
 #include "app/pierced_advice.h"
+#include "app/providers/maps.h"
 #include "app/scene_lookups.h"
 #include "app/scene_warnings.h"
 #include "app/target_section.h"
 #include "app/triangle_runs.h"
 #include "io/mesh_builder.h"
-#include "maps/city/object_outlines.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "scene/triangulated_terrain.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
 
-using city::Vec2;
+using core::Footprint;
+using core::Ring;
+using scene::Incline;
+using scene::TriangulatedTerrain;
+using Vec2 = Eigen::Vector2d;
+
+const MapProvider& maps(const Mission& mission) {
+  return map_provider("targets on the ground", mission.as_written.places.target);
+}
 
 Mesh ground_mesh(const Scene& scene, std::uint32_t ground) {
   Mesh mesh;
@@ -48,7 +57,7 @@ Mesh ground_mesh(const Scene& scene, std::uint32_t ground) {
   return mesh;
 }
 
-const terrain::TriangulatedTerrain& ground_surface(const Mission& mission) {
+const TriangulatedTerrain& ground_surface(const Mission& mission) {
   const Scene& scene = mission.scene();
   const auto ground = ground_object(scene);
   if (!ground) {
@@ -57,12 +66,9 @@ const terrain::TriangulatedTerrain& ground_surface(const Mission& mission) {
         mission.as_written.places.target,
         "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
-  return looked_up<terrain::TriangulatedTerrain>(*mission.loaded, [&] {
-    return std::make_shared<const terrain::TriangulatedTerrain>(ground_mesh(scene, *ground));
-  });
+  return looked_up<TriangulatedTerrain>(
+      *mission.loaded, [&] { return std::make_shared<const TriangulatedTerrain>(ground_mesh(scene, *ground)); });
 }
-
-using terrain::Incline;
 
 /// The plane nearest to heights at some places, by least squares.
 Incline nearest_plane(const std::vector<Vec2>& places, const std::vector<double>& heights_m) {
@@ -80,7 +86,7 @@ Incline nearest_plane(const std::vector<Vec2>& places, const std::vector<double>
 
 /// The plane nearest to the ground at a ring's corners and the middles of its sides, raised until no ground under the
 /// ring lies above it.
-Incline ground_plane(const terrain::TriangulatedTerrain& ground, const city::Ring& ring, const Mission& mission) {
+Incline ground_plane(const TriangulatedTerrain& ground, const Ring& ring, const Mission& mission) {
   const char* const beyond = "the target reaches beyond the scene's ground";
   std::vector<Vec2> samples;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -100,7 +106,7 @@ Incline ground_plane(const terrain::TriangulatedTerrain& ground, const city::Rin
   return plane;
 }
 
-city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
+Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
   const Vec2 centre = frame.to_local({(*wanted.center_deg)[1], (*wanted.center_deg)[0]});
   const double heading = wanted.heading_deg * std::numbers::pi / 180;
   const Vec2 along(std::sin(heading), std::cos(heading)), across(along.y(), -along.x());
@@ -109,9 +115,9 @@ city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
 }
 
 /// The id of the area with that name; areas count before streets around them.
-std::string id_of_area(const city::OutlineFinder& find, const std::string& name, const std::string& place) {
+std::string id_of_area(const OutlineFinder& find, const std::string& name, const std::string& place) {
   std::vector<NamedId> areas, lines;
-  for (city::NamedOutline& one : find.named()) {
+  for (NamedOutline& one : find.named()) {
     NamedId known{io::clean_name(one.name), std::move(one.id)};
     (one.is_line ? lines : areas).push_back(std::move(known));
   }
@@ -125,7 +131,7 @@ std::string id_of_area(const city::OutlineFinder& find, const std::string& name,
 struct NamedArea {
   std::string id;    ///< "way/123"
   std::string name;  ///< of the map; may be empty
-  std::vector<city::Footprint> outlines;
+  std::vector<Footprint> outlines;
 };
 
 /// An area of the map. What is in a hole, a building maybe, is not part of it and need not be seen. `asked`: its id or
@@ -133,8 +139,9 @@ struct NamedArea {
 NamedArea area_of_map(const Mission& mission, const std::string& asked, const geo::LocalFrame& frame,
                       const Progress& progress) {
   const SceneSource& source = mission.as_written.scene;
-  const auto& find = looked_up<city::OutlineFinder>(*mission.loaded, [&] {
-    return std::make_shared<const city::OutlineFinder>(city::find_outlines(source.file, source.city.region, progress));
+  const auto& find = looked_up<OutlineFinder>(*mission.loaded, [&] {
+    return std::make_shared<const OutlineFinder>(
+        maps(mission).find_outlines(source.file, source.city.region, progress));
   });
   const std::string& place = mission.as_written.places.target;
   const bool is_id = find.of(asked, frame).has_value();
@@ -152,27 +159,27 @@ NamedArea area_of_map(const Mission& mission, const std::string& asked, const ge
   return {name, io::clean_name(found->name), found->outlines};
 }
 
-std::vector<city::Footprint> drawn(const std::vector<TargetOutline>& outlines) {
-  std::vector<city::Footprint> areas;
+std::vector<Footprint> drawn(const std::vector<TargetOutline>& outlines) {
+  std::vector<Footprint> areas;
   for (const TargetOutline& one : outlines) areas.push_back({one.outer, one.holes});
   return areas;
 }
 
-std::vector<Vec3> on_plane(const city::Ring& ring, const Incline& plane) {
+std::vector<Vec3> on_plane(const Ring& ring, const Incline& plane) {
   std::vector<Vec3> vertices;
   for (const Vec2& p : ring) vertices.emplace_back(p.x(), p.y(), plane.at(p));
   return vertices;
 }
 
 /// A convex polygon as parts with no more corners than a target may have.
-std::vector<city::Ring> halved(const city::Ring& piece) {
+std::vector<Ring> halved(const Ring& piece) {
   constexpr std::ptrdiff_t kMostCorners = 64;
   const auto corners = static_cast<std::ptrdiff_t>(piece.size());
   if (corners <= kMostCorners) return {piece};
-  city::Ring first(piece.begin(), piece.begin() + corners / 2 + 1), second(piece.begin() + corners / 2, piece.end());
+  Ring first(piece.begin(), piece.begin() + corners / 2 + 1), second(piece.begin() + corners / 2, piece.end());
   second.push_back(piece.front());
-  std::vector<city::Ring> parts = halved(first);
-  for (city::Ring& part : halved(second)) parts.push_back(std::move(part));
+  std::vector<Ring> parts = halved(first);
+  for (Ring& part : halved(second)) parts.push_back(std::move(part));
   return parts;
 }
 
@@ -198,14 +205,14 @@ Incline plane_of_corners(const TargetOutline& outline, const std::string& place)
 }
 
 /// Convex parts on the ground, or as far above it as is asked for.
-void put_on_plane_of_ground(Mission& mission, const std::vector<city::Footprint>& areas, city::Outlines state,
+void put_on_plane_of_ground(Mission& mission, const std::vector<Footprint>& areas, Outlines state,
                             double above_ground_m) {
-  const terrain::TriangulatedTerrain& ground = ground_surface(mission);
-  for (const city::ConvexArea& area : city::convex_areas(areas, state)) {
+  const TriangulatedTerrain& ground = ground_surface(mission);
+  for (const ConvexArea& area : maps(mission).convex_areas(areas, state)) {
     Incline plane = ground_plane(ground, area.outer, mission);
     plane.level_m += above_ground_m;
-    for (const city::Ring& piece : area.pieces) {
-      for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
+    for (const Ring& piece : area.pieces) {
+      for (const Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
     }
   }
 }
@@ -243,9 +250,9 @@ void put_at_heights(Mission& mission, const std::vector<TargetOutline>& outlines
           "the target's outline is not convex and nearly upright, steeper than " + shortest(kSteepest) + " to 1",
           mission.as_written.places.target, std::string("for a wall, ") + kUprightAdvice);
     }
-    for (const city::ConvexArea& area : city::convex_areas(drawn({outline}), city::Outlines::rough)) {
-      for (const city::Ring& piece : area.pieces) {
-        for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
+    for (const ConvexArea& area : maps(mission).convex_areas(drawn({outline}), Outlines::rough)) {
+      for (const Ring& piece : area.pieces) {
+        for (const Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
       }
     }
   }
@@ -255,7 +262,7 @@ void put_at_heights(Mission& mission, const std::vector<TargetOutline>& outlines
 /// left out of it unsaid.
 void check_area_of_each(const Mission& mission, const std::vector<TargetOutline>& outlines) {
   for (std::size_t i = 0; i < outlines.size(); ++i) {
-    if (!city::convex_areas(drawn({outlines[i]}), city::Outlines::rough).empty()) continue;
+    if (!maps(mission).convex_areas(drawn({outlines[i]}), Outlines::rough).empty()) continue;
     const std::string which = outlines.size() == 1 ? "" : " " + std::to_string(i);
     const bool has_heights = !outlines[i].z_m.empty();
     throw Error(ErrorCode::target_without_area, "the target's outline" + which + " has hardly any area",
@@ -266,7 +273,7 @@ void check_area_of_each(const Mission& mission, const std::vector<TargetOutline>
 }
 
 /// A rectangle that is on the ground only with latitude and longitude the other way round.
-void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::TriangulatedTerrain& ground,
+void check_order(const Mission& mission, const GroundTarget& wanted, const TriangulatedTerrain& ground,
                  const geo::LocalFrame& frame) {
   const auto [latitude, longitude] = *wanted.center_deg;
   const Vec2 centre = frame.to_local({longitude, latitude});
@@ -279,9 +286,9 @@ void check_order(const Mission& mission, const GroundTarget& wanted, const terra
               "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
 }
 
-PlanBox plan_box(const std::vector<city::Footprint>& areas) {
+PlanBox plan_box(const std::vector<Footprint>& areas) {
   PlanBox box{areas.front().outer.front(), areas.front().outer.front()};
-  for (const city::Footprint& area : areas) {
+  for (const Footprint& area : areas) {
     for (const Vec2& corner : area.outer) {
       box.min = box.min.cwiseMin(corner);
       box.max = box.max.cwiseMax(corner);
@@ -311,6 +318,7 @@ void check_outdoors(const Mission& mission) {
 }  // namespace
 
 void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
+  maps(mission);
   const GroundTarget& wanted = *mission.as_written.ground_target;
   if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
   const bool is_drawn = !wanted.outlines.empty();
@@ -319,7 +327,7 @@ void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progres
   if (is_drawn && !wanted.outlines.front().z_m.empty()) {
     put_at_heights(mission, wanted.outlines);
   } else {
-    std::vector<city::Footprint> areas;
+    std::vector<Footprint> areas;
     if (is_drawn) {
       areas = drawn(wanted.outlines);
     } else if (wanted.osm.empty()) {
@@ -333,8 +341,7 @@ void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progres
       areas = std::move(area.outlines);
     }
     if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
-    put_on_plane_of_ground(mission, areas, is_drawn ? city::Outlines::rough : city::Outlines::clean,
-                           wanted.above_ground_m);
+    put_on_plane_of_ground(mission, areas, is_drawn ? Outlines::rough : Outlines::clean, wanted.above_ground_m);
   }
   if (mission.target.parts.empty()) {
     throw Error(ErrorCode::target_without_area, "the target's outline has hardly any area",

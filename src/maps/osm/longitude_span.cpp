@@ -1,24 +1,10 @@
-#include "geo/longitudes.h"
+#include "maps/osm/longitude_span.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-namespace vantage::internal::geo {
-
-double LongitudeRange::middle_deg() const {
-  if (west <= east) return (west + east) / 2;
-  return std::remainder(west + width_deg() / 2, 360);
-}
-
-bool LongitudeRange::holds(double longitude_deg) const {
-  const bool from_west = longitude_deg >= west, to_east = longitude_deg <= east;
-  return west <= east ? from_west && to_east : from_west || to_east;
-}
-
-bool LongitudeRange::meets(const LongitudeRange& other) const {
-  return holds(other.west) || holds(other.east) || other.holds(west);
-}
+namespace vantage::internal::osm {
 
 void LongitudeSpan::add(double longitude_deg) {
   const int index = std::clamp(static_cast<int>(std::floor(longitude_deg + 180)), 0, kBins - 1);
@@ -31,12 +17,12 @@ bool LongitudeSpan::empty() const {
   return std::all_of(bins_.begin(), bins_.end(), [](const Bin& bin) { return bin.low > bin.high; });
 }
 
-LongitudeRange LongitudeSpan::range() const {
+geo::LongitudeRange LongitudeSpan::range() const {
   std::vector<Bin> used;
   std::copy_if(bins_.begin(), bins_.end(), std::back_inserter(used),
                [](const Bin& bin) { return bin.low <= bin.high; });
   if (used.empty()) return {};
-  LongitudeRange range{used.front().low, used.back().high};
+  geo::LongitudeRange range{used.front().low, used.back().high};
   double widest = std::max(1.0, 360 - range.width_deg());
   for (std::size_t i = 1; i < used.size(); ++i) {
     const double gap = used[i].low - used[i - 1].high;
@@ -47,4 +33,4 @@ LongitudeRange LongitudeSpan::range() const {
   return range;
 }
 
-}  // namespace vantage::internal::geo
+}  // namespace vantage::internal::osm

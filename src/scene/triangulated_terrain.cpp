@@ -1,4 +1,4 @@
-#include "maps/terrain/triangulated_terrain.h"
+#include "scene/triangulated_terrain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::internal::terrain {
+namespace vantage::internal::scene {
 namespace {
 
 // Of a place in the coordinates of a triangle (1 is a corner): what rounding may put outside it.
@@ -225,4 +225,4 @@ std::optional<TriangulatedTerrain::Range> TriangulatedTerrain::range(const std::
   return range;
 }
 
-}  // namespace vantage::internal::terrain
+}  // namespace vantage::internal::scene

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/components/maps.h"
+#include "app/kml_zones.h"
 #include "io/mesh_builder.h"
 #include "vantage/input.h"
 

@@ -5,7 +5,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::internal::app {
+namespace vantage::internal::core {
 
 /// Calls `action` and returns what it returns. An Error(input) from it is thrown on with `place` (of the mission file)
 /// put in front of its own `where`: the engine knows the objects, but not the file that named the target.
@@ -19,4 +19,4 @@ auto with_place(const std::string& place, const Action& action) {
   }
 }
 
-}  // namespace vantage::internal::app
+}  // namespace vantage::internal::core

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/places.h"
+#include "core/places.h"
 #include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "depth/depth.h"
@@ -27,7 +27,7 @@ constexpr double kRangeRounding = 1e-6;
 Scene read_world(const WillisConfig& config, const Progress& progress) {
   Scene world;
   for (const WillisMesh& mesh : config.meshes) {
-    const Scene part = internal::app::with_place(mesh.where, [&] { return read_scene(mesh.file, {}, progress); });
+    const Scene part = internal::core::with_place(mesh.where, [&] { return read_scene(mesh.file, {}, progress); });
     const auto first_vertex = static_cast<std::uint32_t>(world.mesh.vertices.size());
     const auto first_object = static_cast<std::uint32_t>(world.objects.size());
     for (const Vec3& given : part.mesh.vertices) {
@@ -142,13 +142,13 @@ WillisRun run_willis_config(const WillisConfig& config, const SpheresOptions& op
   const Scene world = read_world(config, progress);
   const internal::scene::ViewpointCheck check(world);
   for (const WillisVolume& volume : config.volumes) {
-    internal::app::with_place(volume.where, [&] { check.check(volume.origin, "the viewpoint of " + volume.name); });
+    internal::core::with_place(volume.where, [&] { check.check(volume.origin, "the viewpoint of " + volume.name); });
   }
   const Box bounds = bounding_box(world.mesh);
   TurnedRenderer renderer(world, options.device, progress);
   WillisRun run;
   for (const WillisVolume& volume : config.volumes) {
-    run.results.push_back(internal::app::with_place(
+    run.results.push_back(internal::core::with_place(
         volume.where, [&] { return compute(config, volume, bounds, renderer, options, progress); }));
   }
   run.device = renderer.chosen().renderer->device();
