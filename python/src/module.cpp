@@ -3,9 +3,9 @@
 #include <nanobind/stl/filesystem.h>
 
 #include "bindings.h"
+#include "common/resources.h"
 #include "interpreter.h"
 #include "vantage/city.h"
-#include "vantage/resources.h"
 #include "vantage/spheres.h"
 #include "vantage/version.h"
 

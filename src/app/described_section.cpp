@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "app/schema.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

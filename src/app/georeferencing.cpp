@@ -16,13 +16,13 @@
 #include "app/ground_target.h"
 #include "app/target_files.h"
 #include "app/zone_places.h"
+#include "common/input.h"
 #include "core/format.h"
 #include "core/places.h"
 #include "core/progress_reporter.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
 #include "vantage/faces.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

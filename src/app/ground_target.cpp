@@ -21,10 +21,10 @@
 #include "app/scene_warnings.h"
 #include "app/target_section.h"
 #include "app/triangle_runs.h"
+#include "common/input.h"
 #include "io/mesh_builder.h"
 #include "scene/triangulated_terrain.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "app/kml_zones.h"
+#include "common/input.h"
 #include "io/mesh_builder.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -7,11 +7,11 @@
 #include "app/described_section.h"
 #include "app/schema.h"
 #include "app/tour_home.h"
+#include "common/input.h"
+#include "common/json.h"
 #include "core/places.h"
 #include "request/describe_sensor.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 #include "vantage/visual_range.h"
 
 namespace vantage::internal::app {

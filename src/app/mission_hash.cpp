@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "common/input.h"
 #include "core/sha256.h"
 #include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
 #include "request/json_object.h"
 #include "vantage/hash.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage {

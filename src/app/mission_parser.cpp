@@ -14,12 +14,12 @@
 #include "app/sensor_section.h"
 #include "app/target_section.h"
 #include "app/value_reader.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "options/spheres_options.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -11,11 +11,11 @@
 #include "app/navigation_meshes.h"
 #include "app/tour_home.h"
 #include "app/zone_files.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "core/solid_check.h"
 #include "core/stopwatch.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage {

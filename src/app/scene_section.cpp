@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/schema.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "vantage/city.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -4,11 +4,11 @@
 #include <array>
 #include <utility>
 
+#include "common/input.h"
 #include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

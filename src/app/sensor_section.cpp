@@ -9,11 +9,11 @@
 
 #include "app/described_section.h"
 #include "app/schema.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "core/portable_math.h"
 #include "request/describe_sensor.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "app/scene_section.h"
 #include "app/schema.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

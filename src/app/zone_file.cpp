@@ -5,9 +5,9 @@
 
 #include "app/json_zones.h"
 #include "app/kml_zones.h"
+#include "common/input.h"
 #include "io/json_text.h"
 #include "io/zip.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -15,12 +15,12 @@
 #include "app/input_file.h"
 #include "app/zone_file.h"
 #include "app/zone_places.h"
+#include "common/input.h"
 #include "core/places.h"
 #include "core/progress_reporter.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/threads.h"
 
 namespace vantage::cli {

@@ -4,9 +4,9 @@
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
+#include "common/output.h"
 #include "vantage/devices.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 #include "vantage/willis.h"
 
 namespace vantage::cli {

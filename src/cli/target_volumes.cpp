@@ -5,7 +5,7 @@
 
 #include "cli/chosen_target.h"
 #include "cli/command.h"
-#include "vantage/input.h"
+#include "common/input.h"
 #include "vantage/warning.h"
 
 namespace vantage::cli {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/known_data.h"
 #include "core/format.h"
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
@@ -18,7 +19,6 @@
 #include "flight/check_links.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
-#include "vantage/known_data.h"
 #include "vantage/leg_query.h"
 
 namespace vantage {

@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "common/atomic_file.h"
 #include "io/stored_mesh.h"
-#include "vantage/atomic_file.h"
 #include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "common/input.h"
 #include "request/description.h"
-#include "vantage/input.h"
 #include "vantage/tour_settings.h"
 
 namespace vantage::testing {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
 #include "vantage/flight_plan.h"
-#include "vantage/input.h"
 
 namespace vantage::testing::plan_texts {
 

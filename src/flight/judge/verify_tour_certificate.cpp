@@ -5,12 +5,12 @@
 #include <string_view>
 #include <utility>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "flight/judge/judged_proofs.h"
 #include "flight/judge/region_file.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
-#include "vantage/input.h"
 #include "vantage/tour_certificate.h"
 
 namespace vantage {

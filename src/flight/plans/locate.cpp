@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "flight/plans/arcs.h"
 #include "flight/plans/ground_profile.h"
@@ -15,7 +16,6 @@
 #include "geo/local_frame.h"
 #include "vantage/error.h"
 #include "vantage/flight_plan.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output.h"
 #include "core/format.h"
 #include "flight/tour/tour_certificate.h"
 #include "flight/tour/tour_region.h"
@@ -15,7 +16,6 @@
 #include "vantage/error.h"
 #include "vantage/ground.h"
 #include "vantage/leg_query.h"
-#include "vantage/output.h"
 
 namespace vantage::internal::flight::tour {
 namespace {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <string_view>
 
+#include "common/input.h"
 #include "maps/city/footprint.h"
 #include "maps/city/region.h"
 #include "maps/city/structures.h"
 #include "maps/osm/extract.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
 #include "maps/osm/longitude_span.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::city {
 namespace {

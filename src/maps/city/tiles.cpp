@@ -16,11 +16,11 @@
 #include <numbers>
 #include <string>
 
+#include "common/input.h"
 #include "core/group_side.h"
 #include "maps/city/region.h"
 #include "maps/city/tile_frame.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

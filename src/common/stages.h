@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/temporary_folder.h"
 #include "vantage/export.h"
 #include "vantage/mission.h"
 #include "vantage/spheres.h"
-#include "vantage/temporary_folder.h"
 
 namespace vantage {
 

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "common/objects.h"
 #include "vantage/areas.h"
 #include "vantage/camera.h"
 #include "vantage/compare.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
-#include "vantage/objects.h"
 #include "vantage/prove.h"
 #include "vantage/scene_source.h"
 #include "vantage/simplify.h"

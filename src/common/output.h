@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
 #include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
