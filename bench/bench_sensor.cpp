@@ -10,7 +10,7 @@
 #include "support/cities.h"
 #include "vantage/camera.h"
 #include "vantage/navigation.h"
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace vantage::bench {
 namespace {

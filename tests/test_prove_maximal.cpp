@@ -17,8 +17,8 @@
 #include "vantage/error.h"
 #include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
+#include "vantage/progress.h"
 #include "vantage/prove.h"
-#include "vantage/threads.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -10,13 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/flight.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 #include "vantage/ground.h"
 #include "vantage/progress.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 

@@ -28,7 +28,6 @@
 #include "vantage/tour_settings.h"
 #include "vantage/visual_range.h"
 #include "vantage/volume.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
@@ -13,7 +14,6 @@
 #include "vantage/spheres.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 

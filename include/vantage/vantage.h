@@ -48,7 +48,6 @@
 #include "vantage/standpoints.h"
 #include "vantage/target.h"
 #include "vantage/terrain.h"
-#include "vantage/threads.h"
 #include "vantage/tiles.h"
 #include "vantage/tour.h"
 #include "vantage/tour_certificate.h"
@@ -58,5 +57,4 @@
 #include "vantage/view_description.h"
 #include "vantage/visual_range.h"
 #include "vantage/volume.h"
-#include "vantage/warning.h"
 #include "vantage/willis.h"

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 

@@ -11,7 +11,7 @@
 
 #include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace vantage::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/chosen_target.h"
 #include "cli/command.h"
 #include "common/input.h"
-#include "vantage/warning.h"
+#include "vantage/error.h"
 
 namespace vantage::cli {
 

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 
