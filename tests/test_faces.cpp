@@ -13,9 +13,9 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/faces.h"
-#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

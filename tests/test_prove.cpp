@@ -13,7 +13,6 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/volume.h"

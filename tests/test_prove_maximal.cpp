@@ -15,7 +15,6 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/prove.h"

@@ -22,7 +22,6 @@
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"

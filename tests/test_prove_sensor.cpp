@@ -12,7 +12,6 @@
 
 #include "support/scenes.h"
 #include "support/wording.h"
-#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/volume.h"

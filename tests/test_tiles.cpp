@@ -22,8 +22,8 @@
 #include "vantage/faces.h"
 #include "vantage/ground.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/tiles.h"
+#include "vantage/volume.h"
 
 namespace vantage::testing {
 namespace {

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
+#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "vantage/camera.h"
-#include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/faces.h"
 #include "vantage/kept_volumes.h"
+#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"

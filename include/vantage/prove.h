@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "vantage/certificate.h"
-#include "vantage/constraints.h"
 #include "vantage/export.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"

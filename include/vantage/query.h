@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/export.h"
 #include "vantage/fraction.h"
 #include "vantage/fraction_field.h"
+#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 

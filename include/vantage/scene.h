@@ -177,4 +177,11 @@ class VANTAGE_API PreparedScene {
   std::shared_ptr<const Data> data_;
 };
 
+// ---- hash: docs/hashes.md. mission_hash is in vantage/mission.h
+
+/// SHA-256 (FIPS 180-4) of the scene's triangles: the corners as doubles in the scene frame and the index of the
+/// object, in order. 64 hexadecimal digits. Names, vertices that no triangle uses and how the vertices are numbered do
+/// not count. Throws Error(input) for an index out of range. Cost: linear; 0.3 s for a million triangles.
+VANTAGE_API std::string scene_hash(const Scene& scene);
+
 }  // namespace vantage

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"

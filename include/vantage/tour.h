@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/export.h"
 #include "vantage/flight.h"
 #include "vantage/geometry.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/tour_settings.h"

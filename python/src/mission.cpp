@@ -15,7 +15,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "errors.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "volume.h"
 

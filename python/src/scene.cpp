@@ -16,7 +16,7 @@
 #include "common/json.h"
 #include "places.h"
 #include "vantage/geometry.h"
-#include "vantage/hash.h"
+#include "vantage/volume.h"
 
 namespace vantage::python {
 

@@ -17,10 +17,9 @@
 #include "places.h"
 #include "scene.h"
 #include "vantage/compare.h"
-#include "vantage/hash.h"
-#include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "vantage/simplify.h"
+#include "vantage/volume.h"
 
 namespace vantage::python {
 

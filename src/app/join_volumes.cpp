@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "vantage/navigation.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::app {
 

@@ -9,8 +9,8 @@
 #include "request/describe_sensor.h"
 #include "request/describe_spheres.h"
 #include "request/json_object.h"
-#include "vantage/hash.h"
 #include "vantage/mission.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

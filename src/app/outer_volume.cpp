@@ -14,9 +14,9 @@
 #include "core/portable_math.h"
 #include "core/triangle_distance.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/outer.h"
 #include "vantage/prove.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

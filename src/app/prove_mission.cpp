@@ -11,8 +11,8 @@
 #include "common/input.h"
 #include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

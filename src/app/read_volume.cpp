@@ -13,8 +13,8 @@
 #include "io/output_formats.h"
 #include "io/read_causes.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -14,12 +14,11 @@
 #include "core/parallel.h"
 #include "core/places.h"
 #include "core/stopwatch.h"
-#include "vantage/constraints.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 #include "vantage/sensor.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

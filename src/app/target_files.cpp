@@ -20,8 +20,8 @@
 #include "core/solid_check.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::app {
 namespace {

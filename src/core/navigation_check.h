@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "vantage/constraints.h"
 #include "vantage/export.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::core {
 

@@ -8,7 +8,7 @@
 #include "request/describe_sensor.h"
 #include "request/json_object.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::io {
 namespace {

@@ -15,10 +15,10 @@
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
-#include "vantage/hash.h"
 #include "vantage/mission_tour.h"
 #include "vantage/slice.h"
 #include "vantage/version.h"
+#include "vantage/volume.h"
 
 namespace vantage::live {
 namespace {

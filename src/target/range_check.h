@@ -1,8 +1,8 @@
 // What every method asks of the range before it begins.
 #pragma once
 
-#include "vantage/constraints.h"
 #include "vantage/export.h"
+#include "vantage/navigation.h"
 #include "vantage/target.h"
 #include "vantage/volume.h"
 

@@ -6,7 +6,6 @@
 
 #include "mesh_case.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/volume.h"
 

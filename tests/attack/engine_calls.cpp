@@ -8,8 +8,8 @@
 #include "vantage/compare.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/scene_source.h"
+#include "vantage/volume.h"
 
 namespace attack {
 namespace {

@@ -10,8 +10,8 @@
 #include "flight/judge/judged_proofs.h"
 #include "flight/judge/region_file.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/tour_certificate.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace internal::flight::judge {

@@ -17,9 +17,9 @@
 #include "flight/tour/tour_region.h"
 #include "flight/tour/tour_views.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/outer.h"
 #include "vantage/solid_index.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 

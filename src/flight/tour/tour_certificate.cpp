@@ -13,7 +13,7 @@
 
 #include "common/atomic_file.h"
 #include "common/output.h"
-#include "vantage/hash.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
