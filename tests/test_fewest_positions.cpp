@@ -17,7 +17,7 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/fewest_positions.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

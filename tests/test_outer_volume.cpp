@@ -15,7 +15,7 @@
 #include "vantage/outer.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -17,7 +17,7 @@
 #include "calls.h"
 #include "mission.h"
 #include "vantage/error.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 #include "volume.h"
 
 namespace vantage::python {

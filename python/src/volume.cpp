@@ -16,9 +16,9 @@
 #include "common/json.h"
 #include "places.h"
 #include "scene.h"
-#include "vantage/compare.h"
 #include "vantage/result.h"
 #include "vantage/simplify.h"
+#include "vantage/solid.h"
 #include "vantage/volume.h"
 
 namespace vantage::python {

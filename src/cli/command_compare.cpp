@@ -13,9 +13,9 @@
 #include "common/input.h"
 #include "common/json.h"
 #include "common/output.h"
-#include "vantage/compare.h"
 #include "vantage/error.h"
 #include "vantage/result.h"
+#include "vantage/solid.h"
 #include "vantage/volume.h"
 
 namespace vantage::cli {

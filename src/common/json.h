@@ -9,12 +9,12 @@
 #include "common/objects.h"
 #include "vantage/areas.h"
 #include "vantage/camera.h"
-#include "vantage/compare.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
 #include "vantage/prove.h"
 #include "vantage/scene_source.h"
 #include "vantage/simplify.h"
+#include "vantage/solid.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 

@@ -16,7 +16,7 @@
 #include "vantage/error.h"
 #include "vantage/ground.h"
 #include "vantage/mission_tour.h"
-#include "vantage/slice.h"
+#include "vantage/solid.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
 

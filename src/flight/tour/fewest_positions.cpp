@@ -13,7 +13,7 @@
 #include "flight/tour/covering.h"
 #include "flight/tour/position_search.h"
 #include "vantage/error.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -18,7 +18,7 @@
 #include "flight/tour/tour_views.h"
 #include "vantage/error.h"
 #include "vantage/outer.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -13,7 +13,7 @@
 #include "flight/tour/covering.h"
 #include "vantage/fewest_positions.h"
 #include "vantage/geometry.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage::internal::flight::tour {
 
