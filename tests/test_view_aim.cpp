@@ -11,8 +11,8 @@
 #include "support/flight_cases.h"
 #include "support/random.h"
 #include "support/scenes.h"
-#include "vantage/camera_aim.h"
 #include "vantage/mission.h"
+#include "vantage/sensor.h"
 #include "vantage/view_description.h"
 
 namespace vantage::testing {

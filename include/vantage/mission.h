@@ -23,10 +23,10 @@
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
+#include "vantage/sensor.h"
 #include "vantage/spheres.h"
 #include "vantage/target.h"
 #include "vantage/tour_settings.h"
-#include "vantage/visual_range.h"
 #include "vantage/volume.h"
 
 namespace vantage {

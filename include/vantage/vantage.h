@@ -3,7 +3,6 @@
 
 #include "vantage/areas.h"
 #include "vantage/camera.h"
-#include "vantage/camera_aim.h"
 #include "vantage/certificate.h"
 #include "vantage/city.h"
 #include "vantage/devices.h"
@@ -50,6 +49,5 @@
 #include "vantage/verify.h"
 #include "vantage/version.h"
 #include "vantage/view_description.h"
-#include "vantage/visual_range.h"
 #include "vantage/volume.h"
 #include "vantage/willis.h"

@@ -12,7 +12,7 @@
 #include "core/places.h"
 #include "request/describe_sensor.h"
 #include "vantage/error.h"
-#include "vantage/visual_range.h"
+#include "vantage/sensor.h"
 
 namespace vantage::internal::app {
 namespace {
