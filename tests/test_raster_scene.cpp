@@ -17,7 +17,7 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage {
 namespace {

@@ -41,7 +41,6 @@
 #include "vantage/spheres.h"
 #include "vantage/standpoints.h"
 #include "vantage/target.h"
-#include "vantage/terrain.h"
 #include "vantage/tiles.h"
 #include "vantage/tour.h"
 #include "vantage/tour_certificate.h"

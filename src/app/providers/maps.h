@@ -12,7 +12,7 @@
 #include "geo/local_frame.h"
 #include "vantage/city.h"
 #include "vantage/export.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage::internal::app {
 

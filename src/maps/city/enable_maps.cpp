@@ -2,7 +2,7 @@
 #include "maps/city/footprint.h"
 #include "maps/city/object_outlines.h"
 #include "vantage/city.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage {
 

@@ -13,7 +13,7 @@
 #include "maps/terrain/tin_mesh.h"
 #include "maps/terrain/triangulate.h"
 #include "vantage/error.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage::internal::terrain {
 namespace {
