@@ -10,7 +10,7 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/areas.h"
-#include "vantage/faces.h"
+#include "vantage/target.h"
 
 namespace vantage::testing {
 namespace {

@@ -12,8 +12,7 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 

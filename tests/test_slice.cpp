@@ -14,8 +14,8 @@
 #include "support/torus.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/prepared_target.h"
 #include "vantage/solid.h"
+#include "vantage/target.h"
 
 namespace vantage {
 namespace {

@@ -19,9 +19,9 @@
 #include "support/wording.h"
 #include "target/lengths.h"
 #include "target/range_region.h"
-#include "vantage/faces.h"
 #include "vantage/ground.h"
 #include "vantage/mission.h"
+#include "vantage/target.h"
 #include "vantage/tiles.h"
 #include "vantage/volume.h"
 

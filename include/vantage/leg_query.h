@@ -18,9 +18,9 @@
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
+#include "vantage/target.h"
 
 namespace vantage {
 

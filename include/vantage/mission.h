@@ -16,10 +16,8 @@
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
-#include "vantage/faces.h"
 #include "vantage/kept_volumes.h"
 #include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
@@ -71,7 +69,7 @@ struct TargetFile {
   bool is_volume = false;      ///< what becomes Target::volume
 };
 
-/// A target that is given by faces of objects of the scene (vantage/faces.h): one of the first three says of which.
+/// A target that is given by faces of objects of the scene (vantage/target.h): one of the first three says of which.
 /// Where several faces are meant, all of them must be seen.
 struct FaceTarget {
   std::string object;  ///< SceneObject::name, source_id or display_name of one or more objects; or

@@ -11,8 +11,8 @@
 #include "vantage/fraction.h"
 #include "vantage/fraction_field.h"
 #include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/progress.h"
+#include "vantage/target.h"
 
 namespace vantage {
 

@@ -9,8 +9,8 @@
 #include "vantage/devices.h"
 #include "vantage/export.h"
 #include "vantage/fraction_field.h"
-#include "vantage/prepared_target.h"
 #include "vantage/progress.h"
+#include "vantage/target.h"
 
 namespace vantage {
 

@@ -17,7 +17,7 @@
 #include "calls.h"
 #include "scene.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
+#include "vantage/target.h"
 
 namespace vantage::python {
 

@@ -19,7 +19,7 @@
 #include "common/input.h"
 #include "core/text.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -22,7 +22,7 @@
 #include "core/progress_reporter.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::app {
 namespace {

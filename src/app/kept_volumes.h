@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "vantage/kept_volumes.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::app {

@@ -6,7 +6,7 @@
 
 #include "vantage/export.h"
 #include "vantage/geometry.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::sensor {
 

@@ -7,7 +7,7 @@
 
 #include "target/point_target.h"
 #include "vantage/error.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 
 namespace vantage {
 
