@@ -8,7 +8,7 @@
 
 #include "vantage/export.h"
 #include "vantage/geometry.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage {
 

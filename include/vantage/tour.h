@@ -32,7 +32,7 @@ class VANTAGE_API Airspace {
 };
 
 /// At least `clearance_m` from all surfaces of a scene but its ground (ObjectKind::ground), which no leg may meet;
-/// within all limits of navigation: exactly, as LegDistances and LegLimits tell it (vantage/leg_query.h). A leg with a
+/// within all limits of navigation: exactly, as LegDistances and LegLimits tell it (vantage/query.h). A leg with a
 /// deviation of more than 2 m is not allowed. The inside of a solid that is wider than the clearance is not told from
 /// the outside: no leg leads into it. Holds on to the scene. Throws Error(input) as check_navigation, and for a
 /// clearance that is negative or not finite.

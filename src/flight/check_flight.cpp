@@ -19,7 +19,7 @@
 #include "flight/check_links.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage {
 namespace {

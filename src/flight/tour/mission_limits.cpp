@@ -15,7 +15,7 @@
 #include "scene/viewpoint_check.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::flight::tour {
 namespace {
