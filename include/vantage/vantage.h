@@ -3,7 +3,6 @@
 
 #include "vantage/areas.h"
 #include "vantage/camera.h"
-#include "vantage/certificate.h"
 #include "vantage/city.h"
 #include "vantage/devices.h"
 #include "vantage/dubins.h"
