@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "support/dragged.h"
-#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/volume.h"
 

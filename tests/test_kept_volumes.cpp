@@ -16,7 +16,6 @@
 #include "support/shared_data.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/volume.h"
 

@@ -13,7 +13,7 @@
 #include "region_files.h"
 #include "vantage/city.h"
 #include "vantage/mission.h"
-#include "vantage/outer.h"
+#include "vantage/result.h"
 
 namespace {
 

@@ -21,8 +21,8 @@ struct FewestTarget {
   /// Whether a position sees the target, by an exact answer; asked of each position that lies in the volume, before it
   /// counts, by one thread at a time. Empty: the volume is believed.
   std::function<bool(const Vec3& position)> sees = {};
-  /// Makes a closed mesh that holds every position from which the target is seen (outer_volume, vantage/outer.h). It is
-  /// called once, where more than one position is needed. Empty: no such mesh is known, and any position may see it.
+  /// Makes a closed mesh that holds every position from which the target is seen (outer_volume, vantage/result.h). It
+  /// is called once, where more than one position is needed. Empty: no such mesh is known, and any position may see it.
   std::function<Mesh(const Progress& progress)> outer = {};
   double outer_rounding_m = 0;  ///< positions may lie so far outside of that mesh; >= 0
 };

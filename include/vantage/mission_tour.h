@@ -90,7 +90,7 @@ struct MissionTourOptions {
 /// Computes a volume of each target of the mission, and plans the tour that MissionFile::tour asks for (TourSettings()
 /// where it asks for none): plan_tour, with the mission's limits of navigation and its clearance from the scene as the
 /// airspace. From the home it climbs straight up to where flying is allowed. The bound is over outer volumes
-/// (vantage/outer.h), in which every position lies from which a target is seen: so no tour is shorter, whatever its
+/// (vantage/result.h), in which every position lies from which a target is seen: so no tour is shorter, whatever its
 /// order and its positions.
 ///
 /// A target that is a volume (Target::volume) is visited inside it, within the limits of navigation; the camera looks

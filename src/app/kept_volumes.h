@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "vantage/kept_volumes.h"
+#include "vantage/mission.h"
 #include "vantage/target.h"
 #include "vantage/volume.h"
 

@@ -14,8 +14,8 @@
 #include "core/portable_math.h"
 #include "core/triangle_distance.h"
 #include "vantage/error.h"
-#include "vantage/outer.h"
 #include "vantage/prove.h"
+#include "vantage/result.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -17,7 +17,7 @@
 #include "flight/tour/tour_region.h"
 #include "flight/tour/tour_views.h"
 #include "vantage/error.h"
-#include "vantage/outer.h"
+#include "vantage/result.h"
 #include "vantage/solid.h"
 #include "vantage/volume.h"
 
