@@ -9,7 +9,7 @@
 #include "support/osm_maps.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
-#include "vantage/areas.h"
+#include "vantage/city.h"
 #include "vantage/target.h"
 
 namespace vantage::testing {

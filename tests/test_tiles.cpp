@@ -19,10 +19,10 @@
 #include "support/wording.h"
 #include "target/lengths.h"
 #include "target/range_region.h"
+#include "vantage/city.h"
 #include "vantage/ground.h"
 #include "vantage/mission.h"
 #include "vantage/target.h"
-#include "vantage/tiles.h"
 #include "vantage/volume.h"
 
 namespace vantage::testing {

@@ -69,7 +69,7 @@ struct Scene {
   std::string attribution = {};
 
   /// Of a part of a larger scene that is prepared as that is: the bounds of the larger one. So volumes in the part are
-  /// the same bits as in the whole, as long as all is in the part that their targets can reach: vantage/tiles.h. Each
+  /// the same bits as in the whole, as long as all is in the part that their targets can reach: vantage/city.h. Each
   /// object is then prepared by itself. Nothing: a scene of its own.
   std::optional<Box> whole;
 

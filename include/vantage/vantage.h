@@ -1,7 +1,6 @@
 // All of the public API. Programs that use little of it compile faster with the headers that they need.
 #pragma once
 
-#include "vantage/areas.h"
 #include "vantage/camera.h"
 #include "vantage/city.h"
 #include "vantage/devices.h"
@@ -33,7 +32,6 @@
 #include "vantage/spheres.h"
 #include "vantage/standpoints.h"
 #include "vantage/target.h"
-#include "vantage/tiles.h"
 #include "vantage/tour.h"
 #include "vantage/tour_certificate.h"
 #include "vantage/tour_settings.h"

@@ -12,7 +12,7 @@
 #include "common/input.h"
 #include "common/json.h"
 #include "common/objects.h"
-#include "vantage/areas.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
 #include "vantage/scene.h"
 

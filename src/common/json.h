@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/objects.h"
-#include "vantage/areas.h"
 #include "vantage/camera.h"
+#include "vantage/city.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
 #include "vantage/prove.h"

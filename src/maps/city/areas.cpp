@@ -1,6 +1,4 @@
 // read_areas: the areas of a map that can be targets.
-#include "vantage/areas.h"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -11,6 +9,7 @@
 #include "maps/city/region.h"
 #include "maps/city/structures.h"
 #include "maps/osm/extract.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
 
 namespace vantage {

@@ -9,8 +9,6 @@
 // middle of its bounds is in the square, and is no larger than the square: it reaches beyond it by half a side. A group
 // comes within reach, then, only if its square comes within half a diagonal more than that; the square is a diagonal
 // across; and each polygon has a place within half a diagonal of the middle of its bounds. Two diagonals in all.
-#include "vantage/tiles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,6 +18,7 @@
 #include "core/group_side.h"
 #include "maps/city/region.h"
 #include "maps/city/tile_frame.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
 
 namespace vantage {
