@@ -39,4 +39,3 @@
 #include "vantage/version.h"
 #include "vantage/view_description.h"
 #include "vantage/volume.h"
-#include "vantage/willis.h"

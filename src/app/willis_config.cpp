@@ -10,7 +10,7 @@
 #include "app/value_reader.h"
 #include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage {
 

@@ -7,7 +7,7 @@
 #include "common/output.h"
 #include "vantage/devices.h"
 #include "vantage/error.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage::cli {
 namespace {

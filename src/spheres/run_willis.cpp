@@ -10,7 +10,7 @@
 #include "scene/viewpoint_check.h"
 #include "spheres/visibility.h"
 #include "vantage/error.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage {
 namespace {
