@@ -13,7 +13,7 @@
 #include "support/scenes.h"
 #include "vantage/mission.h"
 #include "vantage/sensor.h"
-#include "vantage/view_description.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::testing {
 namespace {

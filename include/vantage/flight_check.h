@@ -9,7 +9,6 @@
 
 #include "vantage/export.h"
 #include "vantage/flight.h"
-#include "vantage/flight_plan.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"

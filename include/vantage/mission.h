@@ -24,7 +24,7 @@
 #include "vantage/sensor.h"
 #include "vantage/spheres.h"
 #include "vantage/target.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 #include "vantage/volume.h"
 
 namespace vantage {

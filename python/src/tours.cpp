@@ -18,7 +18,7 @@
 #include "common/output.h"
 #include "flights.h"
 #include "mission.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 #include "vantage/mission_tour.h"
 #include "vantage/result.h"
 

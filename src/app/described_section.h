@@ -13,7 +13,7 @@
 #include "request/description.h"
 #include "request/key_lists.h"
 #include "vantage/devices.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::app {
 

@@ -17,8 +17,8 @@
 #include "common/input.h"
 #include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
-#include "vantage/orbits.h"
+#include "vantage/flight.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::cli {
 namespace {

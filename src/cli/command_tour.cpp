@@ -18,8 +18,8 @@
 #include "common/input.h"
 #include "common/output.h"
 #include "vantage/error.h"
+#include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/flight_plan.h"
 #include "vantage/mission.h"
 #include "vantage/mission_tour.h"
 

@@ -1,5 +1,3 @@
-#include "vantage/orbits.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +18,7 @@
 #include "vantage/error.h"
 #include "vantage/query.h"
 #include "vantage/solid.h"
+#include "vantage/standpoints.h"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/orbits.h"
 #include "vantage/query.h"
+#include "vantage/standpoints.h"
 
 namespace vantage {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "common/input.h"
 #include "request/description.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 
 namespace vantage::testing {
 

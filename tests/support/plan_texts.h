@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/input.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::testing::plan_texts {
 

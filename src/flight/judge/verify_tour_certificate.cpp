@@ -10,7 +10,7 @@
 #include "flight/judge/judged_proofs.h"
 #include "flight/judge/region_file.h"
 #include "vantage/error.h"
-#include "vantage/tour_certificate.h"
+#include "vantage/mission_tour.h"
 #include "vantage/volume.h"
 
 namespace vantage {

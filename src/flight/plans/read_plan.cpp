@@ -14,7 +14,7 @@
 #include "flight/plans/text_lines.h"
 #include "io/zip.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,3 @@
-#include "vantage/fewest_positions.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "flight/tour/position_search.h"
 #include "vantage/error.h"
 #include "vantage/solid.h"
+#include "vantage/tour.h"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,6 @@
 #include "vantage/navigation.h"
 #include "vantage/scene.h"
 #include "vantage/tour.h"
-#include "vantage/tour_settings.h"
 
 namespace vantage::internal::flight::tour {
 
