@@ -15,7 +15,6 @@ variants=(
   "no-maps     embedder   -DVANTAGE_COMPONENTS=picture"
 )
 
-headers=$(cd include/vantage && printf '%s,' *.h)
 plaza=$PWD/examples/plaza
 
 # build_variant NAME CONSUMER OPTION...
@@ -29,7 +28,7 @@ build_variant() {
   rm -rf "$own/prefix" "$own/consumer"
   cmake --install "$own" --prefix "$own/prefix" >/dev/null
   cmake -S "tests/consumer/$consumer" -B "$own/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_PREFIX_PATH="$own/prefix" -DHEADERS="${headers%,}" --log-level=WARNING >/dev/null
+    -DCMAKE_PREFIX_PATH="$own/prefix" -DEXAMPLES="$PWD/examples/headers" --log-level=WARNING >/dev/null
   cmake --build "$own/consumer" --parallel "$jobs" | tail -n 1
   case $consumer in
     everything) "$own/consumer/consumer" "$plaza/mission.yaml" "$own/volume.ply" ;;

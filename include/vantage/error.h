@@ -168,7 +168,7 @@ enum class ErrorCode {
 
   // the run itself
   work_too_large,     ///< a computation would take more work than its limit allows
-  component_missing,  ///< this build of vantage lacks a component that is needed
+  component_missing,  ///< the program lacks a library of vantage that is needed
   cancelled,          ///< the caller asked to stop
   internal_defect,    ///< a defect of vantage: an invariant did not hold
 };

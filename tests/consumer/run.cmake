@@ -60,10 +60,8 @@ endif()
 
 set(examples ${VANTAGE_SOURCE_DIR}/examples/plaza)
 if(PROJECT STREQUAL "everything")
-  file(GLOB headers RELATIVE ${VANTAGE_SOURCE_DIR}/include/vantage ${VANTAGE_SOURCE_DIR}/include/vantage/*.h)
-  list(JOIN headers "," headers)
   run(${CMAKE_COMMAND} -S ${VANTAGE_SOURCE_DIR}/tests/consumer/everything -B ${scratch}/build -G Ninja
-      -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DHEADERS=${headers} ${how})
+      -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DEXAMPLES=${VANTAGE_SOURCE_DIR}/examples/headers ${how})
   run(${CMAKE_COMMAND} --build ${scratch}/build --target consumer --parallel 2)
   run(${scratch}/build/consumer ${examples}/mission.yaml ${scratch}/volume.ply)
   if(EXISTS ${scratch}/prefix/bin/vantage)
