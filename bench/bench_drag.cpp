@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "support/dragged.h"
-#include "vantage/hash.h"
-#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
+#include "vantage/volume.h"
 
 namespace vantage::bench {
 namespace {

@@ -18,9 +18,9 @@
 #include "support/shared_data.h"
 #include "vantage/fraction.h"
 #include "vantage/mission.h"
+#include "vantage/progress.h"
 #include "vantage/query.h"
 #include "vantage/result.h"
-#include "vantage/threads.h"
 
 namespace vantage::bench {
 namespace {

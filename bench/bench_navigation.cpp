@@ -11,9 +11,9 @@
 
 #include "support/shared_data.h"
 #include "vantage/city.h"
-#include "vantage/constraints.h"
 #include "vantage/ground.h"
 #include "vantage/navigation.h"
+#include "vantage/volume.h"
 
 namespace vantage::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "support/cities.h"
-#include "vantage/prepared_target.h"
 #include "vantage/prove.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage::bench {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "support/cities.h"
+#include "vantage/progress.h"
 #include "vantage/query.h"
-#include "vantage/threads.h"
 
 namespace vantage::bench {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "support/cities.h"
 #include "vantage/camera.h"
-#include "vantage/navigation.h"
-#include "vantage/threads.h"
+#include "vantage/progress.h"
+#include "vantage/volume.h"
 
 namespace vantage::bench {
 namespace {

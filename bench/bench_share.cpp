@@ -5,7 +5,7 @@
 #include <string>
 
 #include "support/cities.h"
-#include "vantage/navigation.h"
+#include "vantage/volume.h"
 
 namespace vantage::bench {
 namespace {

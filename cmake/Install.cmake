@@ -3,8 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/vantage)
 
-list(TRANSFORM VANTAGE_BUILT_COMPONENTS PREPEND vantage_ OUTPUT_VARIABLE libraries)
-install(TARGETS vantage ${libraries} EXPORT vantage-targets
+install(TARGETS ${VANTAGE_BUILT_LIBRARIES} EXPORT vantage-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -50,7 +49,7 @@ if(NOT VANTAGE_SHARED)
   set(VANTAGE_SHARED OFF)
 endif()
 set(VANTAGE_INSTALLED_MANIFOLD_USED OFF)
-if(VANTAGE_WITH_SOLID AND VANTAGE_INSTALLED_MANIFOLD)
+if(VANTAGE_WITH_MISSIONS AND VANTAGE_INSTALLED_MANIFOLD)
   set(VANTAGE_INSTALLED_MANIFOLD_USED ON)
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vantage-config.cmake.in
@@ -65,7 +64,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake ${CMAKE_CURRENT_B
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY-NOTICES.txt
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set(licences "cdt/LICENSE=CDT" "cdt/LICENSE-predicates.txt=CDT-predicates" "cdt/LICENSE-LLVM.txt=CDT-LLVM")
-if(VANTAGE_WITH_SOLID AND NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linked from where it is installed
+if(VANTAGE_WITH_MISSIONS AND NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linked from where it is installed
   list(APPEND licences "manifold/LICENSE=Manifold")
 endif()
 if(VANTAGE_HAS_HIGHS)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the libraries in ways that neither `make build` nor the tests use, installs each, and runs a program that finds
-# it there: all of them static, some components alone, no threads. For `make nightly`.
+# it there: all of them static, some parts alone, no threads. For `make nightly`.
 #   scripts/build_variants.sh [NAME...]     all of them, or those that are named; VARIANTS: the folder (build-variants)
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,11 +11,10 @@ jobs=${JOBS:-$(nproc)}
 variants=(
   "static      everything -DBUILD_SHARED_LIBS=OFF"
   "static-core embedder   -DBUILD_SHARED_LIBS=OFF -DVANTAGE_COMPONENTS=core -DVANTAGE_THREADS=none"
-  "check-only  embedder   -DVANTAGE_COMPONENTS=core;verify -DVANTAGE_THREADS=std"
-  "no-maps     embedder   -DVANTAGE_COMPONENTS=solid;verify;app"
+  "missions    embedder   -DVANTAGE_COMPONENTS=missions -DVANTAGE_THREADS=std"
+  "no-maps     embedder   -DVANTAGE_COMPONENTS=picture"
 )
 
-headers=$(cd include/vantage && printf '%s,' *.h)
 plaza=$PWD/examples/plaza
 
 # build_variant NAME CONSUMER OPTION...
@@ -29,7 +28,7 @@ build_variant() {
   rm -rf "$own/prefix" "$own/consumer"
   cmake --install "$own" --prefix "$own/prefix" >/dev/null
   cmake -S "tests/consumer/$consumer" -B "$own/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_PREFIX_PATH="$own/prefix" -DHEADERS="${headers%,}" --log-level=WARNING >/dev/null
+    -DCMAKE_PREFIX_PATH="$own/prefix" -DEXAMPLES="$PWD/examples/headers" --log-level=WARNING >/dev/null
   cmake --build "$own/consumer" --parallel "$jobs" | tail -n 1
   case $consumer in
     everything) "$own/consumer/consumer" "$plaza/mission.yaml" "$own/volume.ply" ;;

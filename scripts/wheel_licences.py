@@ -80,7 +80,7 @@ def debian_packages(files: list[pathlib.Path]) -> dict[pathlib.Path, str]:
 def unknown_archives(archives: set[str], libraries: dict) -> tuple[list[str], set[str]]:
     """Archives that the list lacks, and the names of the libraries whose archives are there."""
     known = {archive: entry["name"] for entry in entries(libraries) for archive in entry.get("archives", [])}
-    own = re.compile(r"libvantage_\w+\.a")
+    own = re.compile(r"libvantage(_\w+)?\.a")
     strange = [name for name in sorted(archives)
                if name not in known and name not in libraries["system"]["archives"] and not own.fullmatch(name)]
     return strange, {known[name] for name in archives if name in known}

@@ -46,7 +46,7 @@ def faults_of_paths(files: list[pathlib.Path]) -> list[str]:
 # ---- hardened
 
 # Of the libraries some are small: they call no function that could be fortified.
-FORTIFIED = re.compile(r"libvantage_(core|app)\.so.*|_core\..*\.so|vantage|vantage_tests|vantage_bench")
+FORTIFIED = re.compile(r"libvantage\.so.*|_core\..*\.so|vantage|vantage_tests|vantage_bench")
 # Of each the last word of a command counts: what it must be, and by what the words on it are known.
 FLAGS = (
     ("-fstack-protector-strong", r"-f(no-)?stack-protector\b.*", r"-fstack-protector-(strong|all)"),

@@ -64,16 +64,20 @@ def link_problem(file: pathlib.Path, target: str) -> str:
 
 
 def header_problems(root: pathlib.Path) -> list[str]:
-    """Public headers that vantage.h or the table of docs/libraries.md leaves out, or names without their being there."""
+    """Public headers that vantage.h or the table of docs/libraries.md leaves out, or names without their being there; and
+    those without an example that includes them first."""
     there = {file.stem for file in (root / "include" / "vantage").glob("*.h")} - {"vantage"}
     if not there:
         return []
     included = set(re.findall(r'#include "vantage/(\w+)\.h"', (root / "include" / "vantage" / "vantage.h").read_text()))
     table = (root / "docs" / "libraries.md").read_text(encoding="utf-8").partition("| library | headers |")[2].partition("\n\n")[0]
     listed = {name for row in table.splitlines()[2:] for name in re.findall(r"`(\w+)`", row.split("|")[2])}
-    return [f"{file}: {name}.h is {'left out' if name in there else 'named, and is not there'}"
-            for file, names in (("include/vantage/vantage.h", included), ("docs/libraries.md", listed))
-            for name in sorted(names ^ there)]
+    examples = {file.stem for file in (root / "examples" / "headers").glob("*.cpp")
+                if re.search(r'#include "vantage/(\w+)\.h"', file.read_text(encoding="utf-8"))[1] == file.stem}
+    found = [f"{file}: {name}.h is {'left out' if name in there else 'named, and is not there'}"
+             for file, names in (("include/vantage/vantage.h", included), ("docs/libraries.md", listed))
+             for name in sorted(names ^ there)]
+    return found + [f"examples/headers: {name}.h has no example that includes it first" for name in sorted(there - examples)]
 
 
 def attack_problems(root: pathlib.Path) -> list[str]:
@@ -138,14 +142,17 @@ def self_test() -> list[str]:
             wrong.append(f"{text[:40]!r}: expected '{expected}', got {found}")
     with tempfile.TemporaryDirectory() as scratch:
         root = pathlib.Path(scratch)
-        for folder in ("include/vantage", "docs"):
+        for folder in ("include/vantage", "docs", "examples/headers"):
             (root / folder).mkdir(parents=True)
+        (root / "examples" / "headers" / "one.cpp").write_text('#include "vantage/one.h"\n', encoding="utf-8")
+        (root / "examples" / "headers" / "two.cpp").write_text('#include "vantage/one.h"\n', encoding="utf-8")
         for name in ("one", "two", "vantage"):
             (root / "include" / "vantage" / f"{name}.h").write_text("", encoding="utf-8")
         (root / "include" / "vantage" / "vantage.h").write_text('#include "vantage/one.h"\n', encoding="utf-8")
         (root / "docs" / "libraries.md").write_text("| library | headers |\n| --- | --- |\n| `core` | `two`, `none` |\n| | `one` |\n",
                                                     encoding="utf-8")
-        expected = ["include/vantage/vantage.h: two.h is left out", "docs/libraries.md: none.h is named, and is not there"]
+        expected = ["include/vantage/vantage.h: two.h is left out", "docs/libraries.md: none.h is named, and is not there",
+                    "examples/headers: two.h has no example that includes it first"]
         if problems(root) != expected:
             wrong.append(f"headers: expected {expected}, got {problems(root)}")
     with tempfile.TemporaryDirectory() as scratch:

@@ -34,8 +34,11 @@ class NotIn(NamedTuple):
 
 
 # The modules of src/, and those whose headers each may include besides its own. Modules name each other's headers from
-# src/ ("scene/prepared_data.h"), never by ../. What a module may include comes before it: there are no circles.
+# src/ ("scene/prepared_data.h"), never by ../. What a module may include comes before it: there are no circles. Headers
+# of src/common declare what the program, the server, the Python package and the benchmarks use besides the public API:
+# all may include them, but for those who judge, and public headers.
 MODULES = {
+    "common": [],
     "core": [],
     "request": ["core"],
     "options": ["core", "request"],
@@ -48,30 +51,29 @@ MODULES = {
     "solid": ["core", "sensor"],
     "exact": ["core", "scene", "target"],
     "query": ["core", "scene", "target", "sensor", "exact"],
+    # What missions need of other libraries: these register it (enable_maps, enable_spheres).
+    "app/providers": ["core", "geo"],
     "depth": ["core", "scene"],
-    "spheres": ["core", "options", "scene", "target", "solid", "depth"],
+    "spheres": ["core", "options", "scene", "target", "solid", "depth", "app/providers"],
     "picture": ["core", "depth"],
     "verify": [],
     "prove": [],
     "simplify": ["core"],
     "maps/osm": ["core", "geo"],
-    "maps/terrain": ["core", "geo"],
-    "maps/city": ["core", "geo", "solid", "maps/osm", "maps/terrain"],
-    "app": ["core", "request", "options", "geo", "io", "scene", "target", "app/components"],
-    # What may be missing from a build: each file here has a counterpart without_<component>.cpp.
-    "app/components": ["core", "geo", "io", "scene", "app", "solid", "depth", "spheres",
-                       "maps/osm", "maps/terrain", "maps/city"],
+    "maps/terrain": ["core", "geo", "scene"],
+    "maps/city": ["core", "geo", "scene", "solid", "app/providers", "maps/osm", "maps/terrain"],
+    "app": ["core", "request", "options", "geo", "io", "scene", "target", "app/providers"],
     "flight": ["core", "geo", "io"],
     "flight/plans": ["core", "geo", "io", "flight"],
     "flight/tour": ["core", "scene", "flight"],
     # It judges bounds of tours, and shares nothing with what finds them.
     "flight/judge": ["core"],
-    # The program and what serves the page stand on the public API.
+    # The program and what serves the page stand on the public API and src/common.
     "live": [],
     "cli": ["live"],
 }
 # The check shares no geometry code with what it checks: of the core it has threads, progress and text alone.
-VERIFY_HEADERS = ["core/format.h", "core/parallel.h", "core/progress_reporter.h"]
+VERIFY_HEADERS = ["core/format.h", "core/parallel.h", "core/progress_reporter.h", "common/input.h"]
 
 # Paths are relative to the root, with forward slashes; headers as written between the quotes.
 RULES = [
@@ -86,8 +88,8 @@ RULES = [
            "only src/exact, src/maps/city, src/maps/terrain and orientation.cpp see CDT"),
     OnlyIn(r"(proj|proj_experimental|geodesic)\.h", r"src/geo/", "only src/geo sees PROJ"),
     OnlyIn(r"(osmium|protozero|bzlib)", r"src/maps/osm/", "only src/maps/osm sees libosmium"),
-    OnlyIn(r"expat", r"src/(maps/osm/|flight/plans/|app/components/kml_zones\.cpp)",
-           "only src/maps/osm, src/flight/plans and kml_zones.cpp see Expat"),
+    OnlyIn(r"expat", r"src/(maps/osm/|flight/plans/|app/kml_zones_expat\.cpp)",
+           "only src/maps/osm, src/flight/plans and kml_zones_expat.cpp see Expat"),
     OnlyIn(r"polyclipping/|clipper\.hpp", r"src/maps/city/clipping\.cpp",
            "only src/maps/city/clipping.cpp sees Clipper"),
     OnlyIn(r"Highs", r"src/flight/tour/linear_program_highs\.cpp", "only linear_program_highs.cpp sees HiGHS"),
@@ -107,15 +109,15 @@ RULES = [
           "the proof shares no geometry code with what it proves"),
     NotIn(r"tests/attack/", r"(?!(vantage|Eigen|sys)/).*/",
           "the attack needs the public headers, Eigen and the standard library: it shares nothing with what it judges"),
-    NotIn(r"bench/(?!(kernels|progress|tours)/)", rf"({'|'.join(MODULES)})/|support/internals\.h",
-          "benchmarks stand on the public API; only bench/kernels, bench/progress and bench/tours look behind it"),
+    NotIn(r"bench/(?!(kernels|progress|tours)/)", rf"(?!common/)({'|'.join(MODULES)})/|support/internals\.h",
+          "benchmarks stand on the public API and src/common; only bench/kernels, bench/progress and bench/tours look behind it"),
     OnlyIn(r"nanobind/", r"python/src/", "only python/src sees nanobind"),
-    NotIn(r"python/src/", rf"(?!cli/program\.h$)({'|'.join(MODULES)})/",
-          "the Python package stands on the public API, and on the program for `python -m vantage`"),
+    NotIn(r"python/src/", rf"(?!cli/program\.h$|common/)({'|'.join(MODULES)})/",
+          "the Python package stands on the public API and src/common, and on the program for `python -m vantage`"),
     NotIn(r"include/", r"(?!(vantage|Eigen)/).*[./]", "public headers need each other, Eigen and the standard library"),
 ] + [
-    NotIn(rf"src/{module}/[^/]*$", rf"(?!({'|'.join([module, *below])})/[^/]*$)({'|'.join(MODULES)})/",
-          f"{module} may include {', '.join(below)} only")
+    NotIn(rf"src/{module}/[^/]*$", rf"(?!({'|'.join([module, 'common', *below])})/[^/]*$)({'|'.join(MODULES)})/",
+          f"{module} may include {', '.join(['common', *below])} only")
     for module, below in MODULES.items() if module not in ("verify", "prove")
 ]
 
@@ -171,7 +173,7 @@ CASES = [
     ("src/io/place.cpp", "proj.h", False),
     ("src/maps/osm/extract.cpp", "osmium/io/reader.hpp", True),
     ("src/maps/city/city.cpp", "osmium/io/reader.hpp", False),
-    ("src/app/components/kml_zones.cpp", "expat.h", True),
+    ("src/app/kml_zones_expat.cpp", "expat.h", True),
     ("src/app/zone_file.cpp", "expat.h", False),
     ("src/maps/city/clipping.cpp", "polyclipping/clipper.hpp", True),
     ("src/maps/city/building_solid.cpp", "polyclipping/clipper.hpp", False),
@@ -208,6 +210,14 @@ CASES = [
     ("include/vantage/scene.h", "vector", True),
     ("include/vantage/scene.h", "core/bvh.h", False),
     ("include/vantage/scene.h", "boost/any.hpp", False),
+    ("include/vantage/scene.h", "common/input.h", False),
+    ("src/common/json.h", "vantage/scene.h", True),
+    ("src/cli/main.cpp", "common/input.h", True),
+    ("src/verify/verify.cpp", "common/input.h", True),
+    ("src/verify/verify.cpp", "common/json.h", False),
+    ("python/src/volume.cpp", "common/json.h", True),
+    ("bench/bench_query.cpp", "common/resources.h", True),
+    ("tests/attack/judge.cpp", "common/input.h", False),
     ("bench/bench_query.cpp", "vantage/query.h", True),
     ("bench/bench_query.cpp", "support/internals.h", False),
     ("bench/kernels/bench_depth_images.cpp", "depth/depth.h", True),
@@ -220,7 +230,7 @@ CASES = [
     ("tests/attack/judge.cpp", "trial.h", True),
     ("tests/attack/judge.cpp", "exact/blocker.h", False),
 ] + [
-    (f"src/{module}/any.cpp", f"{other}/any.h", other == module or other in below)
+    (f"src/{module}/any.cpp", f"{other}/any.h", other == module or other in below or (other == "common" and module != "prove"))
     for module, below in MODULES.items() for other in MODULES if module != "verify"
 ]
 

@@ -326,10 +326,10 @@ class Scripts(unittest.TestCase):
         linker_map = self.scratch / "map"
         linker_map.write_text("Archive member included to satisfy reference by file (symbol)\n\n"
                               "/usr/lib/libcairo.a(cairo.o)\n                a.o (cairo_create)\n"
-                              "lib/libvantage_core.a(a.cpp.o)\n  b.o (f)\nlibjbig.a(jbig.o)\n  c.o (g)\n\n"
+                              "lib/libvantage.a(a.cpp.o)\n  b.o (f)\nlibjbig.a(jbig.o)\n  c.o (g)\n\n"
                               "Memory Configuration\n\nLOAD libother.a\nlibother.a(x.o)\n", encoding="utf-8")
         archives = module.linked_archives(linker_map)
-        self.assertEqual(archives, {"libcairo.a", "libvantage_core.a", "libjbig.a"})
+        self.assertEqual(archives, {"libcairo.a", "libvantage.a", "libjbig.a"})
         self.assertEqual(module.unknown_archives(archives, listed), (["libjbig.a"], {"Cairo"}))
         linker_map.write_text("nothing", encoding="utf-8")
         with self.assertRaises(module.Failure):

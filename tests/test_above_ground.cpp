@@ -20,7 +20,6 @@
 #include "vantage/error.h"
 #include "vantage/ground.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/query.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"

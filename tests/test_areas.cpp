@@ -9,8 +9,8 @@
 #include "support/osm_maps.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
-#include "vantage/areas.h"
-#include "vantage/faces.h"
+#include "vantage/city.h"
+#include "vantage/target.h"
 
 namespace vantage::testing {
 namespace {

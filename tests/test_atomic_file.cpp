@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
+#include "common/atomic_file.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "support/places.h"
 #include "support/random.h"
 #include "support/wording.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

@@ -20,7 +20,6 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/query.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"

@@ -6,12 +6,12 @@
 
 #include <array>
 
+#include "common/input.h"
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
 #include "support/pbf_writer.h"
 #include "support/sanitizers.h"
 #include "support/shared_data.h"
-#include "vantage/input.h"
 
 namespace vantage::testing {
 namespace {

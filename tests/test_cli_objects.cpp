@@ -1,8 +1,8 @@
 // vantage inspect --objects: the names of objects, and what a mission writes for them.
+#include "common/objects.h"
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
 #include "vantage/mission.h"
-#include "vantage/objects.h"
 #include "vantage/result.h"
 
 namespace vantage::testing {

@@ -11,7 +11,7 @@
 #include "support/internals.h"
 #include "support/random.h"
 #include "support/scenes.h"
-#include "vantage/compare.h"
+#include "vantage/solid.h"
 #include "vantage/volume.h"
 
 namespace vantage::testing {

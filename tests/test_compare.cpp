@@ -17,9 +17,9 @@
 #include "support/shared_data.h"
 #include "support/solids.h"
 #include "support/wording.h"
-#include "vantage/compare.h"
 #include "vantage/error.h"
 #include "vantage/scene.h"
+#include "vantage/solid.h"
 #include "vantage/volume.h"
 
 namespace vantage::testing {

@@ -13,9 +13,9 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
+#include "vantage/target.h"
 
 namespace vantage {
 namespace {

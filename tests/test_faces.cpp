@@ -12,10 +12,9 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

@@ -10,7 +10,6 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage {

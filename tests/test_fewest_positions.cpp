@@ -16,8 +16,8 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/fewest_positions.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
+#include "vantage/tour.h"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "support/plan_texts.h"
 #include "support/wording.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::testing {
 namespace {

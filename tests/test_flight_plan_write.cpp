@@ -14,7 +14,7 @@
 #include "support/random.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::testing {
 namespace {

@@ -14,8 +14,8 @@
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/error.h"
+#include "vantage/progress.h"
 #include "vantage/query.h"
-#include "vantage/threads.h"
 
 namespace vantage {
 namespace {

@@ -16,7 +16,6 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include "support/internals.h"
 #include "support/random.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

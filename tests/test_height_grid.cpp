@@ -15,7 +15,7 @@
 
 #include "maps/terrain/gdal_library.h"
 #include "maps/terrain/height_grid.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"

@@ -9,7 +9,6 @@
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -16,9 +16,8 @@
 #include "support/shared_data.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
+#include "vantage/volume.h"
 
 namespace vantage::testing {
 namespace {

@@ -11,7 +11,7 @@
 #include "support/legs.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage {
 namespace {

@@ -19,7 +19,6 @@
 #include "support/wording.h"
 #include "support/zones.h"
 #include "vantage/error.h"
-#include "vantage/leg_query.h"
 #include "vantage/query.h"
 
 namespace vantage {

@@ -9,10 +9,10 @@
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
-#include "vantage/hash.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage::testing {
 namespace {

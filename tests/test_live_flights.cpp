@@ -8,7 +8,7 @@
 #include "live/judged_flight.h"
 #include "support/live_session.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
+#include "common/json.h"
 #include "depth/depth_request.h"
 #include "io/mesh_readers.h"
 #include "support/decimal_comma.h"
@@ -18,8 +20,6 @@
 #include "support/wording.h"
 #include "vantage/city.h"
 #include "vantage/geometry.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
 #include "verify/closed_mesh.h"

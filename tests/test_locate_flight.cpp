@@ -14,7 +14,7 @@
 #include "support/plan_texts.h"
 #include "support/random.h"
 #include "support/wording.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::testing {
 namespace {

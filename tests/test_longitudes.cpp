@@ -5,11 +5,13 @@
 #include <cmath>
 #include <vector>
 
-#include "geo/longitudes.h"
+#include "maps/osm/longitude_span.h"
 #include "support/random.h"
 
 namespace vantage::internal::geo {
 namespace {
+
+using osm::LongitudeSpan;
 
 LongitudeRange range_of(const std::vector<double>& longitudes) {
   LongitudeSpan span;

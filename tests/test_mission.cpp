@@ -8,10 +8,10 @@
 
 #include "app/mission_parser.h"
 #include "app/yaml_tree.h"
+#include "common/input.h"
 #include "support/internals.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage {

@@ -17,7 +17,7 @@
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/mission_tour.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage::testing {
 namespace {

@@ -16,7 +16,6 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/solids.h"
-#include "vantage/navigation.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/volume.h"

@@ -13,10 +13,10 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage::testing {
 namespace {

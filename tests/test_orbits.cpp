@@ -19,8 +19,7 @@
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
-#include "vantage/orbits.h"
-#include "vantage/view_description.h"
+#include "vantage/standpoints.h"
 
 namespace vantage {
 namespace {

@@ -12,10 +12,10 @@
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/outer.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
-#include "vantage/solid_index.h"
+#include "vantage/result.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -19,10 +19,10 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/dubins.h"
+#include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/flight_plan.h"
 #include "vantage/mission_tour.h"
-#include "vantage/orbits.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::testing {
 namespace {

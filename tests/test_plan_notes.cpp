@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "support/wording.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::testing {
 namespace {

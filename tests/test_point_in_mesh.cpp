@@ -15,7 +15,7 @@
 #include "support/torus.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "support/internals.h"
 #include "support/random.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/scene.h"
 
 namespace vantage {

@@ -13,9 +13,8 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/prove.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -15,10 +15,10 @@
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/zones.h"
-#include "vantage/navigation.h"
 #include "vantage/prove.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

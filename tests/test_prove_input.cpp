@@ -15,7 +15,6 @@
 #include "support/wording.h"
 #include "support/zones.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/prove.h"
 #include "vantage/volume.h"
 

@@ -11,9 +11,8 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/prove.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -15,10 +15,9 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
+#include "vantage/progress.h"
 #include "vantage/prove.h"
-#include "vantage/threads.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage {

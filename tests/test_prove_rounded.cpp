@@ -22,11 +22,10 @@
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/result.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -12,9 +12,8 @@
 
 #include "support/scenes.h"
 #include "support/wording.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
 #include "vantage/prove.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage {

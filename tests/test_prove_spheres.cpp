@@ -7,9 +7,9 @@
 #include "support/random.h"
 #include "support/ray_caster.h"
 #include "support/scenes.h"
-#include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/spheres.h"
+#include "vantage/target.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 

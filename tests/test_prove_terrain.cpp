@@ -12,8 +12,8 @@
 #include "support/limit_claims.h"
 #include "support/random.h"
 #include "support/solids.h"
-#include "vantage/navigation.h"
 #include "vantage/prove.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

@@ -11,11 +11,10 @@
 #include "support/scenes.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"
 #include "vantage/version.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

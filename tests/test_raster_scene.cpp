@@ -9,7 +9,7 @@
 #include "core/stopwatch.h"
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "support/internals.h"
 #include "support/objects.h"
 #include "support/raster_writer.h"
@@ -17,7 +17,7 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage {
 namespace {

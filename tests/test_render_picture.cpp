@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <string>
 
+#include "common/output.h"
 #include "support/opengl.h"
 #include "support/scenes.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "support/zones.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 #include "vantage/picture.h"
 
 namespace vantage {

@@ -5,13 +5,13 @@
 #include <fstream>
 #include <string>
 
+#include "common/resources.h"
 #include "geo/local_frame.h"
 #include "picture/canvas.h"
 #include "support/environment.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/resources.h"
 
 namespace vantage::internal {
 namespace {

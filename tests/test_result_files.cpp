@@ -10,13 +10,13 @@
 #include <tuple>
 #include <vector>
 
+#include "common/output.h"
 #include "core/png_mark.h"
 #include "core/progress_reporter.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
 #include "vantage/version.h"
 

@@ -12,9 +12,9 @@
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/error.h"
+#include "vantage/fraction.h"
+#include "vantage/progress.h"
 #include "vantage/query.h"
-#include "vantage/sampled_field.h"
-#include "vantage/threads.h"
 
 namespace vantage {
 namespace {

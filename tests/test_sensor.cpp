@@ -16,7 +16,6 @@
 #include "support/scenes.h"
 #include "support/solids.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/query.h"
 #include "vantage/volume.h"
 

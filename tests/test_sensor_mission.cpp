@@ -13,11 +13,10 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

@@ -19,11 +19,10 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
+#include "vantage/progress.h"
 #include "vantage/prove.h"
 #include "vantage/simplify.h"
-#include "vantage/threads.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage {

@@ -14,10 +14,8 @@
 #include "support/torus.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/footprint.h"
-#include "vantage/prepared_target.h"
-#include "vantage/slice.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
+#include "vantage/target.h"
 
 namespace vantage {
 namespace {

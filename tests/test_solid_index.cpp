@@ -9,7 +9,7 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -15,7 +15,6 @@
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/standpoints.h"
-#include "vantage/view_description.h"
 
 namespace vantage {
 namespace {

@@ -17,16 +17,16 @@
 #include <thread>
 #include <vector>
 
+#include "common/atomic_file.h"
+#include "common/stages.h"
+#include "common/temporary_folder.h"
 #include "core/replace_folder.h"
 #include "core/temporary_file.h"
 #include "core/temporary_mark.h"
 #include "support/random.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
-#include "vantage/stages.h"
-#include "vantage/temporary_folder.h"
 
 namespace vantage::internal::core {
 namespace {

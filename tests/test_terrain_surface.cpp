@@ -10,7 +10,7 @@
 
 #include "core/stopwatch.h"
 #include "maps/terrain/post_positions.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"

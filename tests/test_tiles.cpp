@@ -19,11 +19,11 @@
 #include "support/wording.h"
 #include "target/lengths.h"
 #include "target/range_region.h"
-#include "vantage/faces.h"
+#include "vantage/city.h"
 #include "vantage/ground.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
-#include "vantage/tiles.h"
+#include "vantage/target.h"
+#include "vantage/volume.h"
 
 namespace vantage::testing {
 namespace {

@@ -17,7 +17,7 @@
 #include "support/run_program.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
-#include "vantage/tour_certificate.h"
+#include "vantage/mission_tour.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::flight::tour {

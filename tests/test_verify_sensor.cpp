@@ -13,8 +13,8 @@
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 #include "verify/sensor_judge.h"
 
 namespace vantage::internal::verify {

@@ -11,9 +11,9 @@
 #include "support/flight_cases.h"
 #include "support/random.h"
 #include "support/scenes.h"
-#include "vantage/camera_aim.h"
 #include "vantage/mission.h"
-#include "vantage/view_description.h"
+#include "vantage/sensor.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::testing {
 namespace {

@@ -16,11 +16,11 @@
 #include "support/sweep_oracle.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/query.h"
 #include "vantage/scene.h"
 #include "vantage/spheres.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/visual_range.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
 namespace {

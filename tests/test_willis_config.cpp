@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "support/mesh_reading.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage::testing {
 namespace {

@@ -15,7 +15,7 @@
 #include "support/cli_fixture.h"
 #include "support/internals.h"
 #include "support/shared_data.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage::testing {
 namespace {

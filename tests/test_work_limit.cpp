@@ -13,9 +13,7 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage {

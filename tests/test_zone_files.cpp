@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "app/zone_file.h"
+#include "common/input.h"
 #include "geo/local_frame.h"
 #include "support/internals.h"
 #include "support/map_text.h"
@@ -16,7 +17,6 @@
 #include "support/wording.h"
 #include "support/zone_texts.h"
 #include "vantage/ground.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage::testing {

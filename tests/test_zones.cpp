@@ -16,7 +16,6 @@
 #include "support/solids.h"
 #include "support/wording.h"
 #include "support/zones.h"
-#include "vantage/navigation.h"
 #include "vantage/query.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"

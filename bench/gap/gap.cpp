@@ -14,7 +14,6 @@
 
 #include "support/cities.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/spheres.h"
 #include "vantage/volume.h"
 

@@ -16,8 +16,8 @@
 
 #include "support/cities.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 #include "vantage/verify.h"
+#include "vantage/volume.h"
 
 namespace vantage::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "vantage/error.h"
-#include "vantage/hash.h"
 #include "vantage/mission.h"
+#include "vantage/volume.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <future>
 #include <vector>
 
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace vantage::bench {
 namespace {

@@ -11,8 +11,9 @@
 
 #include "core/stopwatch.h"
 #include "region_files.h"
+#include "vantage/city.h"
 #include "vantage/mission.h"
-#include "vantage/outer.h"
+#include "vantage/result.h"
 
 namespace {
 
@@ -54,6 +55,7 @@ void run(const Asked& asked) {
 }  // namespace
 
 int main(int count, char** words) {
+  vantage::enable_maps();
   CLI::App app("Writes the volumes of a mission's targets as regions; prints how many, and seconds of both kinds.");
   Asked asked;
   app.add_option("MISSION", asked.mission)->required();

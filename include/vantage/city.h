@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -90,7 +91,7 @@ struct CityRegion {
   std::optional<std::array<double, 4>> bbox_deg;    ///< west, south, east, north; west > east crosses the antimeridian
 };
 
-/// What regions of one map have in common that are built one by one as if the map were built whole: vantage/tiles.h.
+/// What regions of one map have in common that are built one by one as if the map were built whole: vantage/city.h.
 struct CityFrame {
   std::array<double, 2> origin_deg{};  ///< of the scene frame: latitude, longitude (WGS 84)
   std::array<double, 4> ground_m{};    ///< west, south, east, north of the flat ground of the whole map, scene frame
@@ -190,5 +191,90 @@ struct City {
 /// terrain that cannot be used (docs/scene.md). Error(cancelled) when told to stop.
 VANTAGE_API City build_city(const std::filesystem::path& file, const CityOptions& options = {},
                             const Progress& progress = {});
+
+/// Lets missions use what the library vantage_maps does: scenes of maps and rasters, targets on the ground. A program
+/// calls it once, when it starts, before missions are resolved. Any number of times, from any thread.
+VANTAGE_API void enable_maps();
+
+// ---- A city larger than memory, in tiles: docs/python-areas.md
+
+/// A square of the map, and what must be built for targets in it.
+struct Tile {
+  std::array<double, 4>
+      square_m{};     ///< west, south, east, north, scene frame; targets with their centre here are its own
+  CityRegion region;  ///< to build, with the plan's frame
+};
+
+/// How a map is cut. The volume of a target is the same in its tile as in the whole map built with the frame: vertices,
+/// facets and causes, but for the index of the object of a cause. That holds for every target of which each part has
+/// its centre within a tile's square, or beyond it by e metres, where e and the longest reach (its range, and the
+/// distance to keep from obstacles) make `margin_m` at the most.
+struct TilePlan {
+  CityFrame frame;
+  double size_m = 0, margin_m = 0;
+  std::size_t columns = 0, rows = 0;
+  std::vector<Tile> tiles;  ///< row by row from the south, each from the west
+
+  /// Which tile a place of the scene frame belongs to. What lies outside of all belongs to the nearest: beyond the
+  /// tiles there is nothing to build.
+  VANTAGE_API std::size_t tile_at(double east_m, double north_m) const;
+};
+
+/// Cuts a map into squares of `size_m` metres, and says what to build for each, so that it holds all within `margin_m`
+/// of the square. The map is read and its outlines are cleaned once, but nothing is built.
+/// `options`: as for build_city, without a region, a frame and terrain.
+///
+/// Throws Error(input) for what build_city refuses, a size or a margin out of range (1 m to 50 km; the margin may be
+/// 0), more than 10^6 tiles, a map round a pole, and terrain. Error(cancelled) when told to stop.
+VANTAGE_API TilePlan plan_tiles(const std::filesystem::path& file, const CityOptions& options, double size_m,
+                                double margin_m, const Progress& progress = {});
+
+// ---- The areas of a map, as targets: every parking lot, every pitch
+
+/// A tag that an area must have.
+struct AreaTag {
+  std::string key;    ///< "amenity"
+  std::string value;  ///< "parking"; empty: any but "no"
+};
+
+/// "amenity=parking", or "amenity=*" for any value but "no". The key ends at the first '='. Throws Error(input), with
+/// `where`, for a text without '=', without a key or without a value.
+VANTAGE_API AreaTag area_tag(const std::string& text, const std::string& where);
+
+/// Which areas are listed: those of which all of this holds.
+struct AreaFilter {
+  std::vector<AreaTag> tags;  ///< all of these; none: any tags
+  bool named = false;         ///< only those with a name
+  CityRegion region;          ///< an area belongs to it when some of it does; default: all of the map
+};
+
+/// Degrees, WGS 84; rings are open: the first position is not repeated.
+struct AreaPolygon {
+  using Ring = std::vector<std::array<double, 2>>;  ///< longitude, latitude
+  Ring outer;                                       ///< counter-clockwise
+  std::vector<Ring> holes;                          ///< clockwise
+};
+
+/// A closed way or a multipolygon of a map.
+struct MapArea {
+  std::string source_id;                                  ///< "way/265517", "relation/5": what a target's `osm` takes
+  std::string name;                                       ///< its tag `name`; may be empty
+  std::vector<std::pair<std::string, std::string>> tags;  ///< in the order of the file
+  std::vector<AreaPolygon> polygons;                      ///< at least one
+  std::array<double, 2> center_deg{};                     ///< latitude, longitude of the middle of its bounds
+  double area_m2 = 0;                                     ///< holes taken off
+};
+
+/// The areas of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf) that `filter` wants, by type and id, each
+/// once. Areas are closed ways and multipolygons whose tags bound an area (docs/maps.md); closed ways that are lines,
+/// as a wall round a garden, are not listed. Neither are outlines that bound less than 0.01 m2, since they can be no
+/// target. Memory: 24 bytes for each node of the file, and what is wanted. Cost: the file is read twice; a third and a
+/// fourth time to explain why there is none.
+///
+/// Throws Error(input) for what build_city refuses in files and regions, and with ErrorCode::map_object_missing where
+/// no area is wanted: it says which tag no area has, and the nearest that areas have. Error(cancelled) when told to
+/// stop.
+VANTAGE_API std::vector<MapArea> read_areas(const std::filesystem::path& file, const AreaFilter& filter = {},
+                                            const Progress& progress = {});
 
 }  // namespace vantage

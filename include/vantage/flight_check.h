@@ -9,7 +9,6 @@
 
 #include "vantage/export.h"
 #include "vantage/flight.h"
-#include "vantage/flight_plan.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
@@ -152,7 +151,7 @@ struct FlightCheck {
 /// all of the tube, is inside it: exactly, and shorter by what rounding may do, never longer. It needs a volume of its
 /// own, as with Combine::each.
 ///
-/// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/leg_query.h), which err on the safe side.
+/// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/query.h), which err on the safe side.
 /// With a tube of radius R, what is said holds for every position within R of the flight, but for the yaw of the
 /// camera.
 ///

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,23 +15,49 @@
 #include <vector>
 
 #include "vantage/camera.h"
-#include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
-#include "vantage/faces.h"
-#include "vantage/kept_volumes.h"
-#include "vantage/prepared_target.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
+#include "vantage/sensor.h"
 #include "vantage/spheres.h"
 #include "vantage/target.h"
-#include "vantage/tour_settings.h"
-#include "vantage/visual_range.h"
+#include "vantage/tour.h"
 #include "vantage/volume.h"
-#include "vantage/warning.h"
 
 namespace vantage {
+
+// ---- Volumes that are kept from one run to the next
+
+/// What runs of missions have computed of their targets, before the limits of navigation, and of the sensor besides the
+/// range. Give it to each run in RunOptions::kept, with RunOptions::prepared. A target is computed again only where
+/// something has changed that its volume depends on: the scene, the target itself, the range, the share that must be
+/// seen, the tolerance. All must be the same to the bit. So results have the same bits as without it. While a limit is
+/// dragged volumes are only cut again, and while one of several targets is dragged the others stay.
+///
+/// For the exact method; nothing is kept of targets with a radio link, nor of those without a volume. It holds what the
+/// last run used and what the present one adds, at 32 bytes a facet, and the scenes of these; a target that is refused
+/// is no run. Safe to use from many threads; runs of different missions at the same time take each other's place. Where
+/// a scene is not given prepared, each run makes another one, and nothing fits.
+class VANTAGE_API KeptVolumes {
+ public:
+  KeptVolumes();
+  KeptVolumes(const KeptVolumes&) = delete;
+  KeptVolumes& operator=(const KeptVolumes&) = delete;
+  ~KeptVolumes();
+
+  std::size_t count() const;  ///< volumes held
+  std::size_t taken() const;  ///< how many volumes were not computed, in all runs so far
+  void clear();               ///< drops all volumes; taken() stays
+
+  struct Data;
+  Data& data() { return *data_; }  ///< for run_mission
+
+ private:
+  std::unique_ptr<Data> data_;
+};
 
 /// How the volume is computed.
 enum class Method {
@@ -72,7 +99,7 @@ struct TargetFile {
   bool is_volume = false;      ///< what becomes Target::volume
 };
 
-/// A target that is given by faces of objects of the scene (vantage/faces.h): one of the first three says of which.
+/// A target that is given by faces of objects of the scene (vantage/target.h): one of the first three says of which.
 /// Where several faces are meant, all of them must be seen.
 struct FaceTarget {
   std::string object;  ///< SceneObject::name, source_id or display_name of one or more objects; or

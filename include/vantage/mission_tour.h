@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -10,8 +11,7 @@
 #include <vector>
 
 #include "vantage/export.h"
-#include "vantage/fewest_positions.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
@@ -80,7 +80,7 @@ struct MissionTourOptions {
   /// Of each target the position that it is viewed from, scene frame: within 1 cm of it, so it lies at least so deep in
   /// the target's volume. TourSettings::margin_m is not looked at. Empty: the tour finds positions itself.
   std::vector<Vec3> positions = {};
-  /// The tour hovers at as few positions as possible (vantage/fewest_positions.h), TourSettings::margin_m deep in the
+  /// The tour hovers at as few positions as possible (vantage/tour.h), TourSettings::margin_m deep in the
   /// volumes of the targets that are viewed from them; their exact queries are asked, too. No flight is compared with
   /// it: there is no bound of its length, and `with_bound` is whether to find out how many positions are necessary. A
   /// multirotor alone, without `positions` and `certificate`; else Error(input).
@@ -90,7 +90,7 @@ struct MissionTourOptions {
 /// Computes a volume of each target of the mission, and plans the tour that MissionFile::tour asks for (TourSettings()
 /// where it asks for none): plan_tour, with the mission's limits of navigation and its clearance from the scene as the
 /// airspace. From the home it climbs straight up to where flying is allowed. The bound is over outer volumes
-/// (vantage/outer.h), in which every position lies from which a target is seen: so no tour is shorter, whatever its
+/// (vantage/result.h), in which every position lies from which a target is seen: so no tour is shorter, whatever its
 /// order and its positions.
 ///
 /// A target that is a volume (Target::volume) is visited inside it, within the limits of navigation; the camera looks
@@ -127,5 +127,52 @@ VANTAGE_API void write_tour_certificate(const MissionTour& tour, const std::file
 /// JSON (UTF-8, indented, a newline at the end). Lengths in metres, the scene frame. Visits of targets that are
 /// volumes, and such targets that are left out, have `"volume": true`.
 VANTAGE_API std::string json_text(const MissionTour& tour);
+
+// ---- Bounds of tours, judged from their certificates alone
+
+/// What is to be visited, as a certificate says it.
+struct TourCertificateRegion {
+  enum class Kind : std::uint8_t {
+    outer,  ///< an outer volume: it holds every position from which a target is seen
+    given,  ///< the region itself: a mesh that somebody drew
+    point,  ///< a place, such as the home
+  };
+  std::string name;
+  Kind kind = Kind::outer;
+  double dwell_m = 0;          ///< so long a stretch in it serves no other region
+  std::filesystem::path file;  ///< of the mesh; of a point none
+};
+
+/// "outer", "given", "point".
+VANTAGE_API const char* name_of(TourCertificateRegion::Kind kind);
+
+struct TourCertificateCheck {
+  bool is_accepted = false;
+  std::string reason;  ///< why it is refused; empty where it is accepted
+  double bound_m = 0;  ///< that the certificate states: no tour is shorter, where it is accepted
+  /// What its proof proves, rounded down; nothing where the proof is none. At least bound_m where it is accepted.
+  std::optional<double> proved_m = std::nullopt;
+  /// Of the tours that the bound is of: their track over ground curves no tighter but at points; 0: it may.
+  double turn_radius_m = 0;
+  bool closed = true;     ///< of tours that end where they begin; in the same direction, but at a point
+  std::string kind;       ///< of the proof: "insertion", "pairs" (docs/theory.md, "Tours")
+  std::size_t nodes = 0;  ///< of its tree
+  std::vector<TourCertificateRegion> regions;  ///< no tour that visits them all is shorter
+};
+
+/// Whether a certificate of plan_mission_tour proves its bound. Reads the certificate and the meshes that it names,
+/// which lie beside it and must have the hashes that it states; nothing of what found the bound is used or believed.
+/// All is decided in whole numbers: nothing is rounded. tools/check_tour.py is a second program for the same.
+///
+/// That the outer volumes hold all positions from which a target is seen is not judged: their files say so.
+///
+/// Throws Error(input) for a file that is not there or cannot be read as what it should be, a proof that takes more
+/// memory than any honest one does, and Error(cancelled).
+VANTAGE_API TourCertificateCheck verify_tour_certificate(const std::filesystem::path& file,
+                                                         const Progress& progress = {});
+
+/// JSON (UTF-8, indented, a newline at the end): "accepted", "reason", "bound_m", "proved_m" (null where nothing is
+/// proved, or no tour is possible), "turn_radius_m", "closed", "proof", "nodes", "regions". Lengths in metres.
+VANTAGE_API std::string json_text(const TourCertificateCheck& check);
 
 }  // namespace vantage

@@ -1,74 +1,98 @@
-// Volumes as solids: cut to limits of the sensor and of navigation, and intersected.
+// Where the vehicle may fly.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/export.h"
-#include "vantage/prepared_target.h"
+#include "vantage/geometry.h"
+#include "vantage/ground.h"
 #include "vantage/progress.h"
-#include "vantage/volume.h"
+#include "vantage/scene.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
 
-/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their
-/// causes; cut faces are CauseKind::navigation. An empty result is Outcome::outside_limits with a reason. Adds its time
-/// to `navigation` and `total` of the volume's Seconds. Uses the threads of the caller's arena (TBB).
-///
-/// Cost: one boolean operation, O(n log n) in the facets of the volume and the limits, and the check of each mesh for
-/// self-intersections, O(m log m) in its triangles. The clearance takes as many booleans as there are obstacles near
-/// what the other limits leave: more than `work_limit` allows is refused before they begin.
-///
-/// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together;
-/// Error(work_too_large); Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
-VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
-                                     double work_limit = kWorkLimit);
+/// How far a viewpoint is above the ground at its x and y. Where pieces of ground lie over each other there, it is that
+/// far above each of them. Where there is no ground, nothing is.
+struct AboveGround {
+  double min_m = 0.0, max_m = 0.0;  ///< min < max
+  Ground ground;
+};
 
-/// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
-/// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
-/// "gimbal" and "sun". As cut_to_navigation otherwise. A link is no such limit: compute_visibility takes it into
-/// account.
-///
-/// Guaranteed from the inside: the surfaces are made of facets, which take away more than the limit does, never less.
-/// How much more is in docs/camera.md. Cost: besides the boolean milliseconds, with a gimbal tens of them.
-VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation = {},
-                                 const Progress& progress = {}, double work_limit = kWorkLimit);
+/// How far a viewpoint must be from obstacles.
+struct Clearance {
+  double distance_m = 0;                       ///< > 0; viewpoints at this distance are allowed
+  std::shared_ptr<const Mesh> obstacles = {};  ///< scene frame, metres: any triangle soup; see obstacles_of. Shared,
+                                               ///< since it may be as large as the scene
+};
 
-/// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
-/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
-/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
-/// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
-/// Outcome::no_common_view.
-/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(work_too_large);
-/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails. Cost: a boolean operation per
-/// volume, O(n log n) in the facets.
-VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
-                                     double work_limit = kWorkLimit);
+/// The triangles of all objects but those of ObjectKind::ground and those in `ground` (indices of objects). Where that
+/// leaves none, those of all objects. Cost: linear.
+VANTAGE_API std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground = {});
 
-/// What at least one of the volumes claims: that of targets of which one is enough. As intersect_volumes otherwise;
-/// volumes that are empty for a good reason add nothing. Where all are, so is the result, with the first one's outcome.
-VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
-                                 double work_limit = kWorkLimit);
+/// A closed mesh to stay in.
+struct KeepInMesh {
+  Mesh mesh;         ///< closed, outward oriented, free of self-intersections; scene frame, metres
+  std::string name;  ///< for messages and for causes in reports
+};
 
-/// The volume of a target of any number of parts, before limits besides the range: compute_visibility of each part,
-/// intersected. Where no position is in front of all parts, and within range of them, that is told at once.
-///
-/// Of a target whose sensor has a VisibleShare: what sees at least that part of its area, is within range of all of it
-/// and in front of all its parts. Guaranteed from the inside: the parts are cut into convex cells, and from each point
-/// of the result so many of them are seen whole that their area is the share or more. Parts get cells in proportion to
-/// their area, at least one each; what a cell of a part costs is rounded up to an eighth of an average cell. The result
-/// has all that so many whole cells allow but where there are more than 16 of them, or parts: then some of what is
-/// missed is rounded up. It may have several pieces and holes, and is not star-shaped. Where all cells must be seen it
-/// is the volume of the whole target. Where nothing is left, Outcome::no_common_view. Cost: a volume for each cell, and
-/// booleans in proportion to the cells times the root of what may be missed; docs/camera.md has figures.
-///
-/// Throws as compute_visibility and intersect_volumes do.
-VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOptions& options = {},
-                                 const Progress& progress = {});
+/// What lies straight above and below a polygon, between two heights.
+struct Zone {
+  using Ring = std::vector<Eigen::Vector2d>;
 
-/// All that a vehicle may use: compute_parts, cut to the limits of the sensor and of navigation. Throws as these do.
-/// Cost: the sum of theirs.
-VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},
-                                  const ExactOptions& options = {}, const Progress& progress = {});
+  /// Scene frame, x and y, metres: 3 corners or more, either turn, the first one not repeated. No side may cross or
+  /// touch another one, of the same ring or of another; the sides of `holes` lie inside `outer`, and in no other hole.
+  /// At most kMostCorners in all.
+  Ring outer;
+  std::vector<Ring> holes;
+  double min_z_m = -std::numeric_limits<double>::infinity();  ///< scene z; infinite: without bound
+  double max_z_m = std::numeric_limits<double>::infinity();   ///< likewise; above min_z_m
+  std::string name;                                           ///< for messages and for causes in reports
+
+  /// Besides the bounds of z; may be infinite. Where there is no ground, a zone to stay in holds nothing, and one to
+  /// stay out of all between the bounds of z. Where pieces of ground lie over each other, a zone to stay out of begins
+  /// at its height above the lowest one and ends at its height above the highest one.
+  std::optional<AboveGround> above_ground = {};
+
+  static constexpr std::size_t kMostCorners = 20'000;
+};
+
+/// Where the vehicle may fly: the intersection of all that is given. Empty: everywhere. The borders of limits belong to
+/// what is allowed.
+struct Navigation {
+  struct Altitude {
+    double min_m = 0.0, max_m = 0.0;  ///< scene z, min < max
+  };
+  std::optional<Altitude> altitude;
+  std::vector<Box> keep_in;          ///< the volume is cut to their union, with that of `keep_in_zones`
+  std::vector<Zone> keep_in_zones;   ///< likewise
+  std::vector<Box> keep_out;         ///< each is taken away
+  std::vector<Zone> keep_out_zones;  ///< likewise
+  std::vector<KeepInMesh> meshes;    ///< the volume is cut to each
+  std::optional<AboveGround> above_ground = {};
+  std::optional<Clearance> clearance = {};
+
+  static constexpr std::size_t kMostZones = 10'000;  ///< to stay in and out of, together: 100,000 would take minutes
+
+  bool empty() const {
+    return !altitude && keep_in.empty() && keep_in_zones.empty() && keep_out.empty() && keep_out_zones.empty() &&
+           meshes.empty() && !above_ground && !clearance;
+  }
+};
+
+/// Throws Error(input) for a limit that is wrong in itself, with its name in the words of this file as the place
+/// ("navigation.keep_out[1]"): a band or a box that is reversed, empty or not finite, a zone that is none, ground or
+/// obstacles with a coordinate that is not finite or an index out of range, a clearance that is not positive, a mesh
+/// that is open, inside out or passes through itself. What cuts, asks, verifies or proves begins with this check, so
+/// that all refuse the same limits in the same words. Error(cancelled) when told to stop. Cost: linear, but for zones
+/// (O(n log n) in the corners where sides are short) and meshes (O(n log n) in the triangles as they are drawn).
+VANTAGE_API void check_navigation(const Navigation& navigation, const Progress& progress = {});
 
 }  // namespace vantage

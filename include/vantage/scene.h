@@ -69,7 +69,7 @@ struct Scene {
   std::string attribution = {};
 
   /// Of a part of a larger scene that is prepared as that is: the bounds of the larger one. So volumes in the part are
-  /// the same bits as in the whole, as long as all is in the part that their targets can reach: vantage/tiles.h. Each
+  /// the same bits as in the whole, as long as all is in the part that their targets can reach: vantage/city.h. Each
   /// object is then prepared by itself. Nothing: a scene of its own.
   std::optional<Box> whole;
 
@@ -176,5 +176,12 @@ class VANTAGE_API PreparedScene {
  private:
   std::shared_ptr<const Data> data_;
 };
+
+// ---- hash: docs/hashes.md. mission_hash is in vantage/mission.h
+
+/// SHA-256 (FIPS 180-4) of the scene's triangles: the corners as doubles in the scene frame and the index of the
+/// object, in order. 64 hexadecimal digits. Names, vertices that no triangle uses and how the vertices are numbered do
+/// not count. Throws Error(input) for an index out of range. Cost: linear; 0.3 s for a million triangles.
+VANTAGE_API std::string scene_hash(const Scene& scene);
 
 }  // namespace vantage

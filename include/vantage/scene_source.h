@@ -9,9 +9,9 @@
 
 #include "vantage/city.h"
 #include "vantage/export.h"
+#include "vantage/ground.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
-#include "vantage/terrain.h"
 
 namespace vantage {
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "vantage/camera.h"
 #include "vantage/export.h"
@@ -86,5 +87,52 @@ VANTAGE_API double range_limit_m(const Sensor& sensor);
 
 /// Throws Error(input) for a limit that is wrong in itself, or that another one excludes whatever the target is.
 VANTAGE_API void check_sensor(const Sensor& sensor);
+
+// ---- How far a pilot may be from an aircraft that is flown in sight
+
+/// EASA, "Guidelines for UAS operations in the open and specific category - Ref to Regulation (EU) 2019/947", and the
+/// same in SORA 2.5, AMC1 to Article 11: the smaller one of two distances counts. The attitude line of sight (ALOS) is
+/// from where the pilot still tells the aircraft's position and direction, the detection line of sight (DLOS) from
+/// where other aircraft are seen in time.
+struct VisualRange {
+  enum class Kind { multirotor, fixed_wing };  ///< helicopters count as multirotors
+  double aircraft_size_m = 0;                  ///< characteristic dimension: the largest one, > 0
+  Kind kind = Kind::multirotor;
+  double visibility_m = 0;  ///< ground visibility, > 0; the guidelines ask for 5000 at least
+};
+
+/// 327 CD + 20 m of a multirotor, 490 CD + 30 m of a fixed wing, CD being the aircraft's size.
+VANTAGE_API double attitude_line_of_sight_m(const VisualRange& of);
+
+/// 0.3 times the visibility.
+VANTAGE_API double detection_line_of_sight_m(const VisualRange& of);
+
+/// The smaller one of both. Throws Error(input) for a size or a visibility that is not positive and finite.
+VANTAGE_API double visual_range_m(const VisualRange& of);
+
+// ---- Where to turn a camera so that it has something in its picture
+
+/// An orientation of a camera, but for its roll.
+struct CameraAim {
+  double yaw_deg = 0;    ///< clockwise from +y of the scene (north), in [0, 360)
+  double pitch_deg = 0;  ///< 0 is level, -90 straight down
+};
+
+/// Whether all points (relative to the camera, scene axes) are in the picture.
+VANTAGE_API bool is_in_picture(const Pinhole& camera, double roll_deg, const CameraAim& aim,
+                               const std::vector<Vec3>& points);
+
+struct FittingAim {
+  CameraAim aim;
+  double room_deg = 0;  ///< between the edges of the picture and the points: an angle; negative where some are outside
+};
+
+/// Of the orientations that the mount allows the one with the most room between all points (relative to the camera,
+/// scene axes) and the edges of the picture, to 0.01 degrees of room. Nothing where none has all of them in the
+/// picture, and for points that are not finite; where one is on its edge, within 0.0001 degrees, either answer may
+/// come. `outside_deg`: points may also lie so far outside of the edges, which must be less than 90 degrees. Cost: some
+/// hundred microseconds.
+VANTAGE_API std::optional<FittingAim> fit_in_picture(const Pinhole& camera, const Mount& mount,
+                                                     const std::vector<Vec3>& points, double outside_deg = 0);
 
 }  // namespace vantage

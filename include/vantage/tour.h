@@ -1,22 +1,69 @@
 // Tours: one flight that sees every target.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/export.h"
 #include "vantage/flight.h"
 #include "vantage/geometry.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
-#include "vantage/tour_settings.h"
 
 namespace vantage {
+
+// ---- What a tour is asked for: the vehicle, where it starts, how it looks
+
+/// How a vehicle moves.
+struct TourVehicle {
+  enum class Kind {
+    multirotor,  ///< flies straight legs, stops and hovers
+    fixed_wing,  ///< neither stops nor turns on the spot
+  };
+  Kind kind = Kind::multirotor;
+  double speed_m_s = 8;          ///< along the path; 0.01 to 1000
+  double acceleration_m_s2 = 2;  ///< of a multirotor, along the path; 0.001 to 1000
+  double turn_radius_m = 40;     ///< of a fixed wing: the smallest radius, in plan; 0.01 to 1e5
+  double min_climb_deg = -15;    ///< of a fixed wing: the path's angle to the horizon; > -90, <= -0.1
+  double max_climb_deg = 20;     ///< likewise; >= 0.1, < 90
+};
+
+/// "multirotor", "fixed_wing".
+VANTAGE_API const char* name_of(TourVehicle::Kind kind);
+
+/// Where a tour begins: one of the two.
+struct TourHome {
+  std::optional<std::array<double, 2>> at_deg = std::nullopt;  ///< latitude and longitude (WGS 84), on the ground
+  std::optional<Vec3> position = std::nullopt;                 ///< metres, scene frame, or as MissionFile::crs says
+};
+
+struct TourSettings {
+  TourVehicle vehicle;
+  std::optional<TourHome> home = std::nullopt;  ///< nothing: the tour begins anywhere
+  bool closed = true;  ///< it returns to where it began; without a home in the same direction, too
+
+  /// For so long each target is in view without a break: 0 to 86,400. A shortest tour would only touch the volumes, so
+  /// it is not 0 by default. A multirotor hovers where it does not fly through the volume for that long.
+  double dwell_s = 2;
+  double margin_m = 1;        ///< meanwhile it is at least so deep inside the volume; 0 to 1e4
+  bool simultaneous = false;  ///< several targets may be viewed at once; false: one after the other
+
+  double gimbal_rate_deg_s = 30;  ///< at most so fast the camera turns; 0.001 to 36,000
+  double clearance_m = 5;         ///< of the whole flight from the whole scene, but for its ground; 0 to 1e4
+  double gap = 0.01;              ///< the search ends where (length - bound) / length is no larger; >= 0, < 1
+  double time_limit_s = 60;       ///< or after so long; > 0, at most a week
+};
+
+/// Throws Error(input) for settings that are out of their range, with the key of a mission file as the place
+/// ("tour.vehicle.speed").
+VANTAGE_API void check_tour_settings(const TourSettings& settings);
 
 /// Where a vehicle may fly: zones, heights, the distance from obstacles.
 class VANTAGE_API Airspace {
@@ -32,7 +79,7 @@ class VANTAGE_API Airspace {
 };
 
 /// At least `clearance_m` from all surfaces of a scene but its ground (ObjectKind::ground), which no leg may meet;
-/// within all limits of navigation: exactly, as LegDistances and LegLimits tell it (vantage/leg_query.h). A leg with a
+/// within all limits of navigation: exactly, as LegDistances and LegLimits tell it (vantage/query.h). A leg with a
 /// deviation of more than 2 m is not allowed. The inside of a solid that is wider than the clearance is not told from
 /// the outside: no leg leads into it. Holds on to the scene. Throws Error(input) as check_navigation, and for a
 /// clearance that is negative or not finite.
@@ -110,5 +157,79 @@ struct Tour {
 /// range, a volume that is no closed mesh, that has no point as deep as the margin, or, for a fixed wing, no room for
 /// the dwell; for a home that is not allowed.
 VANTAGE_API Tour plan_tour(const TourRequest& request, const Progress& progress = {});
+
+// ---- The fewest positions to hover at
+
+struct FewestTarget {
+  std::string name;
+  Mesh volume;  ///< from its inside the target is seen: closed, outward oriented, of any number of pieces; scene frame
+  /// Whether a position sees the target, by an exact answer; asked of each position that lies in the volume, before it
+  /// counts, by one thread at a time. Empty: the volume is believed.
+  std::function<bool(const Vec3& position)> sees = {};
+  /// Makes a closed mesh that holds every position from which the target is seen (outer_volume, vantage/result.h). It
+  /// is called once, where more than one position is needed. Empty: no such mesh is known, and any position may see it.
+  std::function<Mesh(const Progress& progress)> outer = {};
+  double outer_rounding_m = 0;  ///< positions may lie so far outside of that mesh; >= 0
+};
+
+struct FewestRequest {
+  std::vector<FewestTarget> targets;
+  double margin_m = 1;                            ///< so deep positions lie in the volumes of their targets; > 0
+  std::shared_ptr<const Airspace> airspace = {};  ///< in which they lie; nothing: everywhere
+  double deviation_m = 0;    ///< all that is so near to a position must be allowed by the airspace, too; >= 0
+  double time_limit_s = 60;  ///< of the search; making outer meshes comes on top. > 0
+  int threads = 0;           ///< 0: as many as the machine has. The result does not depend on it, but where time ends
+};
+
+/// Where to hover. Targets go by their index in the request.
+struct HoverPosition {
+  Vec3 position = Vec3::Zero();       ///< scene frame, metres
+  std::vector<std::size_t> sees;      ///< all targets that are seen from it, as deep in their volumes as the margin
+  std::vector<std::size_t> assigned;  ///< of these, those that are viewed from it: each target once
+  double depth_m = 0;                 ///< how deep it lies in the volumes of those at least
+};
+
+struct FewestPositions {
+  enum class End {
+    done,        ///< the search came to its end
+    time_limit,  ///< the best that was found until then
+    cancelled,   ///< likewise
+  };
+  /// Why so many positions are necessary.
+  enum class Reason {
+    one,     ///< there is a target
+    apart,   ///< the targets in `apart` are so many
+    groups,  ///< one less would have to see targets together of which it is known that no position does
+  };
+
+  std::vector<HoverPosition> positions;  ///< in the order of their first target
+  std::vector<std::size_t> unseen;       ///< targets of which no position was found that the airspace allows
+  /// So many positions at least see all targets but the unseen ones, wherever they are: over outer meshes alone, of the
+  /// airspace and of the margin it knows nothing. 0 where all are unseen.
+  std::size_t necessary = 0;
+  Reason reason = Reason::one;
+  std::vector<std::size_t> apart;  ///< targets whose outer meshes do not meet: no position sees two of them
+  End end = End::done;
+
+  /// Whether it is proved that no fewer do.
+  bool is_proved() const { return positions.size() == necessary; }
+};
+
+/// Positions that see all targets, as few as the search finds. Each lies as deep in the volumes of its targets as the
+/// margin, by SolidIndex, is allowed by the airspace, and sees its targets by their own answer. Of such positions one
+/// is taken that lies within 10 % of as deep as is found.
+///
+/// Candidates are random points in all volumes, and points that groups of volumes have in common, which grow from each
+/// target. An exact cover chooses among them. Then the targets are divided into one group less, without any group of
+/// which no common point was found, and these groups are searched for one: until there is no such division.
+///
+/// The lower bound is that of a largest set of targets whose outer meshes do not meet in pairs ("do not meet" is
+/// certain: they are farther apart than rounding), raised where larger sets of outer meshes have no common point.
+///
+/// The same every time, unless it ends by time or by the caller. Where the callback asks to stop, the best so far is
+/// returned; Error(cancelled) only before there is an answer. Throws Error(input), with the name of the target as the
+/// place: for no targets, a volume that is no closed mesh or has no point as deep as the margin, numbers out of range;
+/// and what `sees` and `outer` throw. Cost: seconds for 20 targets.
+VANTAGE_API FewestPositions fewest_positions(const FewestRequest& request, const Progress& progress = {});
 
 }  // namespace vantage

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"

@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
-#include "vantage/prepared_target.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -141,7 +140,7 @@ struct ExactOptions {
 };
 
 /// The exact visibility volume by docs/theory.md, before navigation cuts: of the whole target, even where its sensor
-/// has a VisibleShare. That is honoured by compute_parts and compute_volume of vantage/navigation.h, as other limits
+/// has a VisibleShare. That is honoured by compute_parts and compute_volume, as other limits
 /// besides the range are by cut_to_limits. With a link, Sensor::link, it is the volume of the positions whose zone is
 /// clear: nothing is claimed wrongly, and docs/camera.md says how much is left out. Safe to call from many threads on
 /// one scene. Fills everything of the result; of Seconds `engine` and `total`.
@@ -162,7 +161,7 @@ struct ExactOptions {
 /// Cost: it grows with what is seen from the target and with the facets of the range sphere (in proportion to max_range
 /// over tolerance), hardly with the size of the scene. Milliseconds in ordinary streets; bench/results has figures.
 ///
-/// Throws Error(input) for a target of several parts (compute_volume of vantage/navigation.h takes these), a tolerance
+/// Throws Error(input) for a target of several parts (compute_volume takes these), a tolerance
 /// that is not positive and finite, a tolerance so fine for this range that the mesh would have too many facets;
 /// Error(cancelled) when told to stop; Error(internal) when the boundary could not be triangulated safely: no volume
 /// rather than a wrong one.
@@ -226,5 +225,73 @@ struct WrittenVolume {
 /// finite or so small that coordinates overflow.
 VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file,
                                        UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
+
+// ---- Volumes as solids: cut to limits of the sensor and of navigation, and intersected
+
+/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their
+/// causes; cut faces are CauseKind::navigation. An empty result is Outcome::outside_limits with a reason. Adds its time
+/// to `navigation` and `total` of the volume's Seconds. Uses the threads of the caller's arena (TBB).
+///
+/// Cost: one boolean operation, O(n log n) in the facets of the volume and the limits, and the check of each mesh for
+/// self-intersections, O(m log m) in its triangles. The clearance takes as many booleans as there are obstacles near
+/// what the other limits leave: more than `work_limit` allows is refused before they begin.
+///
+/// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together;
+/// Error(work_too_large); Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
+VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
+                                     double work_limit = kWorkLimit);
+
+/// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
+/// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
+/// "gimbal" and "sun". As cut_to_navigation otherwise. A link is no such limit: compute_visibility takes it into
+/// account.
+///
+/// Guaranteed from the inside: the surfaces are made of facets, which take away more than the limit does, never less.
+/// How much more is in docs/camera.md. Cost: besides the boolean milliseconds, with a gimbal tens of them.
+VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation = {},
+                                 const Progress& progress = {}, double work_limit = kWorkLimit);
+
+/// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
+/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
+/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
+/// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
+/// Outcome::no_common_view.
+/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(work_too_large);
+/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails. Cost: a boolean operation per
+/// volume, O(n log n) in the facets.
+VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
+                                     double work_limit = kWorkLimit);
+
+/// What at least one of the volumes claims: that of targets of which one is enough. As intersect_volumes otherwise;
+/// volumes that are empty for a good reason add nothing. Where all are, so is the result, with the first one's outcome.
+VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
+                                 double work_limit = kWorkLimit);
+
+/// The volume of a target of any number of parts, before limits besides the range: compute_visibility of each part,
+/// intersected. Where no position is in front of all parts, and within range of them, that is told at once.
+///
+/// Of a target whose sensor has a VisibleShare: what sees at least that part of its area, is within range of all of it
+/// and in front of all its parts. Guaranteed from the inside: the parts are cut into convex cells, and from each point
+/// of the result so many of them are seen whole that their area is the share or more. Parts get cells in proportion to
+/// their area, at least one each; what a cell of a part costs is rounded up to an eighth of an average cell. The result
+/// has all that so many whole cells allow but where there are more than 16 of them, or parts: then some of what is
+/// missed is rounded up. It may have several pieces and holes, and is not star-shaped. Where all cells must be seen it
+/// is the volume of the whole target. Where nothing is left, Outcome::no_common_view. Cost: a volume for each cell, and
+/// booleans in proportion to the cells times the root of what may be missed; docs/camera.md has figures.
+///
+/// Throws as compute_visibility and intersect_volumes do.
+VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOptions& options = {},
+                                 const Progress& progress = {});
+
+/// All that a vehicle may use: compute_parts, cut to the limits of the sensor and of navigation. Throws as these do.
+/// Cost: the sum of theirs.
+VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},
+                                  const ExactOptions& options = {}, const Progress& progress = {});
+
+// ---- hash: docs/hashes.md
+
+/// SHA-256 of a volume's mesh: the corners of its facets as doubles, in order. Causes and how the vertices are numbered
+/// do not count. 64 hexadecimal digits. Throws Error(input) for an index out of range.
+VANTAGE_API std::string volume_hash(const Mesh& mesh);
 
 }  // namespace vantage

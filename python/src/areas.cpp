@@ -1,6 +1,4 @@
 // Areas of maps, and roofs and facades of scenes: what targets are made of.
-#include "vantage/areas.h"
-
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -16,8 +14,9 @@
 #include "bindings.h"
 #include "calls.h"
 #include "scene.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
+#include "vantage/target.h"
 
 namespace vantage::python {
 

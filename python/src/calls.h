@@ -12,7 +12,6 @@
 
 #include "interpreter.h"
 #include "vantage/progress.h"
-#include "vantage/threads.h"
 
 namespace vantage::python {
 

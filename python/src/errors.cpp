@@ -9,7 +9,6 @@
 #include "bindings.h"
 #include "interpreter.h"
 #include "vantage/error.h"
-#include "vantage/warning.h"
 
 namespace vantage::python {
 namespace {

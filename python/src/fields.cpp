@@ -9,8 +9,8 @@
 #include "bindings.h"
 #include "calls.h"
 #include "mission.h"
+#include "vantage/fraction.h"
 #include "vantage/query.h"
-#include "vantage/sampled_field.h"
 
 namespace vantage::python {
 

@@ -19,8 +19,8 @@
 #include "bindings.h"
 #include "calls.h"
 #include "vantage/error.h"
+#include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/flight_plan.h"
 #include "vantage/ground.h"
 
 namespace vantage::python {

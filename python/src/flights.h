@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mission.h"
+#include "vantage/error.h"
 #include "vantage/flight.h"
-#include "vantage/warning.h"
 
 namespace vantage::python {
 

@@ -6,8 +6,8 @@
 
 #include "bindings.h"
 #include "calls.h"
+#include "common/json.h"
 #include "mission.h"
-#include "vantage/json.h"
 #include "vantage/prove.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"

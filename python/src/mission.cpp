@@ -15,8 +15,8 @@
 #include "bindings.h"
 #include "calls.h"
 #include "errors.h"
-#include "vantage/constraints.h"
 #include "vantage/mission_keys.h"
+#include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "volume.h"
 

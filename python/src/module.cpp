@@ -3,8 +3,10 @@
 #include <nanobind/stl/filesystem.h>
 
 #include "bindings.h"
+#include "common/resources.h"
 #include "interpreter.h"
-#include "vantage/resources.h"
+#include "vantage/city.h"
+#include "vantage/spheres.h"
 #include "vantage/version.h"
 
 NB_MODULE(_core, module) {
@@ -22,6 +24,8 @@ NB_MODULE(_core, module) {
       "warn_of_leaks", [](bool on) { nanobind::set_leak_warnings(on); }, nanobind::arg("on"));
   module.attr("version") = VANTAGE_VERSION;
   module.def("set_resource_folder", &vantage::set_resource_folder, nanobind::arg("folder"));
+  vantage::enable_maps();
+  vantage::enable_spheres();
   bind_errors(module);
   bind_scene(module);
   bind_volume(module);

@@ -1,6 +1,4 @@
 // Meshes around volumes, and how deep points lie in meshes: for vantage/_positions.py.
-#include "vantage/outer.h"
-
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -17,7 +15,8 @@
 #include "calls.h"
 #include "mission.h"
 #include "vantage/error.h"
-#include "vantage/solid_index.h"
+#include "vantage/result.h"
+#include "vantage/solid.h"
 #include "volume.h"
 
 namespace vantage::python {

@@ -13,10 +13,10 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "common/json.h"
 #include "places.h"
 #include "vantage/geometry.h"
-#include "vantage/hash.h"
-#include "vantage/json.h"
+#include "vantage/volume.h"
 
 namespace vantage::python {
 

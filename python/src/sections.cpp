@@ -9,9 +9,8 @@
 #include "bindings.h"
 #include "calls.h"
 #include "scene.h"
-#include "vantage/footprint.h"
 #include "vantage/georeference.h"
-#include "vantage/slice.h"
+#include "vantage/solid.h"
 #include "volume.h"
 
 namespace vantage::python {

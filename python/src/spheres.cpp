@@ -7,9 +7,9 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "common/json.h"
 #include "scene.h"
 #include "vantage/camera.h"
-#include "vantage/json.h"
 #include "volume.h"
 
 namespace vantage::python {

@@ -1,6 +1,4 @@
 // Maps in tiles.
-#include "vantage/tiles.h"
-
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
@@ -12,6 +10,7 @@
 
 #include "bindings.h"
 #include "calls.h"
+#include "vantage/city.h"
 #include "vantage/georeference.h"
 #include "vantage/mission.h"
 

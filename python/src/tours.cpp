@@ -15,11 +15,11 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "common/output.h"
 #include "flights.h"
 #include "mission.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 #include "vantage/mission_tour.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
 
 namespace vantage::python {

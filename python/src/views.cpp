@@ -17,9 +17,7 @@
 #include "flights.h"
 #include "mission.h"
 #include "vantage/error.h"
-#include "vantage/orbits.h"
 #include "vantage/standpoints.h"
-#include "vantage/view_description.h"
 #include "volume.h"
 
 namespace vantage::python {
@@ -146,7 +144,7 @@ OrbitCentre centre_of(const std::string& word) {
               "choose 'around_target', 'over_target' or 'anywhere'");
 }
 
-/// JSON (vantage/orbits.h), and the orbits that it tells, in its order.
+/// JSON (vantage/standpoints.h), and the orbits that it tells, in its order.
 std::pair<std::string, std::vector<Orbit>> orbits(const std::vector<PyMission>& missions,
                                                   const std::vector<PyVolume>& volumes, double least_radius_m,
                                                   double most_radius_m, const std::string& centre, double margin_m,

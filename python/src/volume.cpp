@@ -13,14 +13,13 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "common/json.h"
 #include "places.h"
 #include "scene.h"
-#include "vantage/compare.h"
-#include "vantage/hash.h"
-#include "vantage/json.h"
-#include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "vantage/simplify.h"
+#include "vantage/solid.h"
+#include "vantage/volume.h"
 
 namespace vantage::python {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

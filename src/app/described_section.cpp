@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/places.h"
 #include "app/schema.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -94,7 +94,7 @@ void SectionReader::number(const request::Key& key, double& value, const request
   const YamlNode* const node = node_for(key, only);
   if (node == nullptr) return;
   value = value_of(*node, name_of(key), bounds);
-  with_place(place_in(reader_.file(), node->place), [&] {
+  core::with_place(place_in(reader_.file(), node->place), [&] {
     check_within(bounds, value, name_of(key));
     return 0;
   });
@@ -116,7 +116,7 @@ void SectionReader::pair(const request::Key& key, double& low, const request::Bo
   }
   low = value_of(node->items[0], name + "[0]", of_low);
   high = value_of(node->items[1], name + "[1]", of_high);
-  with_place(place_in(reader_.file(), node->place), [&] {
+  core::with_place(place_in(reader_.file(), node->place), [&] {
     check_within(of_low, low, name + "[0]");
     check_within(of_high, high, name + "[1]");
     return 0;
@@ -136,7 +136,7 @@ void SectionReader::whole(const request::Key& key, int& value, const request::Bo
   const YamlNode* const node = required(key);
   if (node == nullptr) return;
   value = whole_of(*node, name_of(key));
-  with_place(place_in(reader_.file(), node->place), [&] {
+  core::with_place(place_in(reader_.file(), node->place), [&] {
     check_within(bounds, value, name_of(key));
     return 0;
   });
@@ -151,7 +151,7 @@ void SectionReader::grid(const request::Key& key, std::optional<std::array<int, 
     reader_.fail(ErrorCode::wrong_type, *node, name + " must be two whole numbers, not " + describe(*node), form);
   }
   value = {whole_of(node->items[0], name + "[0]"), whole_of(node->items[1], name + "[1]")};
-  with_place(place_in(reader_.file(), node->place), [&] {
+  core::with_place(place_in(reader_.file(), node->place), [&] {
     check_within(of_first, (*value)[0], name + "[0]");
     check_within(of_second, (*value)[1], name + "[1]");
     return 0;
@@ -162,7 +162,7 @@ void SectionReader::device(const request::Key& key, DeviceChoice& value) const {
   const YamlNode* const node = required(key);
   if (node == nullptr) return;
   const std::string text = reader_.text(*node, name_of(key));
-  value = with_place(place_in(reader_.file(), node->place), [&] { return parse_device_choice(text); });
+  value = core::with_place(place_in(reader_.file(), node->place), [&] { return parse_device_choice(text); });
 }
 
 void SectionReader::flag(const request::Key& key, bool& value) const {

@@ -10,11 +10,11 @@
 
 #include "app/value_reader.h"
 #include "app/yaml_tree.h"
+#include "common/input.h"
 #include "request/description.h"
 #include "request/key_lists.h"
 #include "vantage/devices.h"
-#include "vantage/input.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::app {
 

@@ -16,10 +16,10 @@
 #include "app/named_objects.h"
 #include "app/scene_lookups.h"
 #include "app/target_section.h"
+#include "common/input.h"
 #include "core/text.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
-#include "vantage/input.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::app {
 namespace {

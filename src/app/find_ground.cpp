@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/named_objects.h"
+#include "common/input.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

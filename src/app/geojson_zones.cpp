@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/json_zones.h"
+#include "common/input.h"
 #include "io/mesh_builder.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -12,17 +12,17 @@
 #include <vector>
 
 #include "app/combine_targets.h"
-#include "app/components/maps.h"
 #include "app/face_targets.h"
-#include "app/places.h"
+#include "app/ground_target.h"
 #include "app/target_files.h"
 #include "app/zone_places.h"
+#include "common/input.h"
 #include "core/format.h"
+#include "core/places.h"
 #include "core/progress_reporter.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/faces.h"
-#include "vantage/input.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -152,7 +152,7 @@ void convert_zones(std::vector<Zone>& zones, ZoneUse use, const CrsConverter& co
                    const std::vector<std::string>& places) {
   for (std::size_t i = 0; i < zones.size(); ++i) {
     const std::string name = std::string(use == ZoneUse::keep_in ? "keep_in" : "keep_out") + " zone " + zones[i].name;
-    with_place(i < places.size() ? places[i] : "", [&] {
+    core::with_place(i < places.size() ? places[i] : "", [&] {
       try {
         zones[i] = converter.placed(zones[i], use);
       } catch (const Error& error) {
@@ -268,7 +268,7 @@ class PlacedPositions {
 /// The positions that the mission gives in its own coordinate reference system.
 void convert_positions(const CrsConverter& converter, MissionTarget& given) {
   PlacedPositions vertices(converter), nearest(converter), corners(converter);
-  with_place(given.place, [&] {
+  core::with_place(given.place, [&] {
     for (std::vector<Vec3>& part : given.target.parts) {
       for (Vec3& vertex : part) vertex = vertices(vertex);
     }
@@ -343,7 +343,7 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
     if (faces.note) mission.notes.push_back(std::move(*faces.note));
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
-    with_place(given[i].place, [&] {
+    core::with_place(given[i].place, [&] {
       for (const Target& target : targets[i]) {
         if (target.is_volume()) continue;
         for (std::size_t part = 0; part < target.parts.size(); ++part) make_target_frame(target, part);
@@ -378,7 +378,7 @@ void georeference(Mission& mission, const Progress& progress) {
   const core::ProgressReporter reporter(progress);
   for (MissionTarget& target : given) {
     if (!target.target_file) continue;
-    with_place(target.place, [&] {
+    core::with_place(target.place, [&] {
       if (target.target_file->is_volume) {
         read_target_volume(mission, progress, target);
       } else {

@@ -1,4 +1,4 @@
-#include "vantage/json.h"
+#include "common/json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

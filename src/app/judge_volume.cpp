@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "app/combine_targets.h"
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

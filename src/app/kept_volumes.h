@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "vantage/kept_volumes.h"
-#include "vantage/prepared_target.h"
+#include "vantage/mission.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::app {

@@ -5,14 +5,14 @@
 #include <array>
 
 #include "app/described_section.h"
-#include "app/places.h"
 #include "app/schema.h"
 #include "app/tour_home.h"
+#include "common/input.h"
+#include "common/json.h"
+#include "core/places.h"
 #include "request/describe_sensor.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
-#include "vantage/visual_range.h"
+#include "vantage/sensor.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -120,7 +120,7 @@ void place_links(Mission& mission) {
   for (const MissionLink& given : mission.as_written.links) {
     FlightLink link{given.name, Vec3::Zero(), given.max_range_m, given.radio};
     const PlaceOfFlight place{"the link '" + given.name + "'", "'point: [x, y, z]'", given.place};
-    link.point = with_place(given.place, [&] {
+    link.point = core::with_place(given.place, [&] {
       if (given.at_deg) return on_the_ground(mission, *given.at_deg, place);
       return in_the_frame(mission, given.position.value_or(Vec3::Zero()), place);
     });

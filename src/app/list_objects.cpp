@@ -5,9 +5,9 @@
 #include <unordered_map>
 
 #include "app/named_objects.h"
+#include "common/input.h"
+#include "common/objects.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/objects.h"
 
 namespace vantage {
 namespace {

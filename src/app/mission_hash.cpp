@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "common/input.h"
 #include "core/sha256.h"
 #include "request/describe_spheres.h"
 #include "request/sensor_json.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

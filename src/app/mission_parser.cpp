@@ -9,18 +9,18 @@
 #include "app/input_file.h"
 #include "app/links_section.h"
 #include "app/navigation_section.h"
-#include "app/places.h"
 #include "app/scene_section.h"
 #include "app/schema.h"
 #include "app/sensor_section.h"
 #include "app/target_section.h"
 #include "app/value_reader.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "options/spheres_options.h"
 #include "request/describe_mission.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -214,7 +214,7 @@ void MissionParser::parse_method(const YamlNode& node) {
 
 void MissionParser::parse_spheres(const YamlNode& node) {
   read_section(node, *this, mission_.spheres);
-  with_place(place_in(file(), node.place), [&] {
+  core::with_place(place_in(file(), node.place), [&] {
     options::check_options(mission_.spheres);
     return 0;
   });

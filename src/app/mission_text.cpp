@@ -10,11 +10,11 @@
 #include "app/links_section.h"
 #include "app/sensor_section.h"
 #include "app/value_reader.h"
+#include "common/input.h"
+#include "common/json.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/city.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 #include "vantage/mission.h"
 
 namespace vantage {

@@ -4,9 +4,9 @@
 #include <array>
 #include <string_view>
 
+#include "common/input.h"
+#include "common/json.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 
 namespace vantage::internal::app {
 namespace {

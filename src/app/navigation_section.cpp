@@ -8,10 +8,10 @@
 
 #include "app/scene_section.h"
 #include "app/schema.h"
+#include "common/input.h"
 #include "core/limit_check.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

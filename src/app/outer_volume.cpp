@@ -8,14 +8,15 @@
 #include <utility>
 
 #include "app/combine_targets.h"
-#include "app/components/solid.h"
-#include "app/places.h"
+#include "app/join_volumes.h"
 #include "core/parallel.h"
+#include "core/places.h"
 #include "core/portable_math.h"
 #include "core/triangle_distance.h"
 #include "vantage/error.h"
-#include "vantage/outer.h"
 #include "vantage/prove.h"
+#include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {
@@ -162,7 +163,7 @@ Volume within_incidence(const Volume& volume, const PreparedTarget& part, const 
                                        (1 + kPartOfRange) * work.range_m + margin, margin),
                             "incidence"});
   }
-  return internal::app::within_limits(volume, part, cones, work.progress, work.mission.as_written.exact.work_limit);
+  return cut_to_limits(volume, part, cones, work.progress, work.mission.as_written.exact.work_limit);
 }
 
 Volume around_target(const Target& target, const Work& work) {
@@ -250,8 +251,7 @@ void fill(Work& work) {
   if (!volume.empty() && !wide.empty()) {
     Sensor range_only;
     range_only.max_range_m = work.range_m;
-    volume = internal::app::within_limits(volume, PreparedTarget(work.scene, *first, range_only), wide, work.progress,
-                                          work_limit);
+    volume = cut_to_limits(volume, PreparedTarget(work.scene, *first, range_only), wide, work.progress, work_limit);
   }
   work.result.volume = std::move(volume);
 }
@@ -269,7 +269,7 @@ OuterVolume outer_volume(const Mission& mission, const RunOptions& options, cons
   internal::parallel::with_threads(options.threads, [&] {
     const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
     Work work{mission, scene, outer, progress, range_limit_m(mission.sensor), 0, result};
-    internal::app::with_place(mission.as_written.places.target, [&] { fill(work); });
+    internal::core::with_place(mission.as_written.places.target, [&] { fill(work); });
   });
   return result;
 }

@@ -7,9 +7,9 @@
 
 #include "app/named_objects.h"
 #include "app/scene_warnings.h"
+#include "common/input.h"
 #include "core/format.h"
 #include "geo/local_frame.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

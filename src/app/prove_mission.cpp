@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "app/certified_ply.h"
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

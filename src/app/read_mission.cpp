@@ -3,8 +3,8 @@
 
 #include "app/input_file.h"
 #include "app/mission_parser.h"
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage {

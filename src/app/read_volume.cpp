@@ -6,15 +6,15 @@
 
 #include "app/input_file.h"
 #include "app/navigation_meshes.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "core/orientation.h"
 #include "geo/local_frame.h"
 #include "io/output_formats.h"
 #include "io/read_causes.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::app {
 namespace {

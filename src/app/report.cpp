@@ -7,9 +7,9 @@
 #include "io/georeference_text.h"
 #include "request/describe_spheres.h"
 #include "request/json_object.h"
-#include "vantage/hash.h"
 #include "vantage/result.h"
 #include "vantage/version.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

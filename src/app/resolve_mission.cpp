@@ -9,13 +9,13 @@
 #include "app/input_file.h"
 #include "app/links_section.h"
 #include "app/navigation_meshes.h"
-#include "app/places.h"
 #include "app/tour_home.h"
 #include "app/zone_files.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "core/solid_check.h"
 #include "core/stopwatch.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage {
@@ -35,7 +35,7 @@ std::vector<internal::app::NavigationMesh> read_navigation_meshes(const MissionF
     const Scene read = read_scene(named.file, options);
     mesh.keep_in.name = named.name;
     mesh.keep_in.mesh =
-        internal::app::with_place(mesh.place, [&] { return internal::core::checked_solid(read.mesh, named.name); });
+        internal::core::with_place(mesh.place, [&] { return internal::core::checked_solid(read.mesh, named.name); });
     mesh.in_scene_axes = is_obj(named.file) && !named.up && !read.states_axes;
     mesh.in_scene_unit = is_obj(named.file) && !named.scale && !read.states_axes;
     mesh.georeference = read.georeference;

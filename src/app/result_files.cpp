@@ -4,13 +4,13 @@
 #include <set>
 #include <utility>
 
+#include "common/atomic_file.h"
+#include "common/output.h"
 #include "core/progress_reporter.h"
 #include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "io/writers.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
 
 namespace vantage {

@@ -6,19 +6,19 @@
 #include <utility>
 
 #include "app/combine_targets.h"
-#include "app/components/solid.h"
-#include "app/components/spheres.h"
+#include "app/join_volumes.h"
 #include "app/kept_volumes.h"
 #include "app/pierced_advice.h"
-#include "app/places.h"
+#include "app/providers/spheres.h"
+#include "common/input.h"
 #include "core/parallel.h"
+#include "core/places.h"
 #include "core/stopwatch.h"
-#include "vantage/constraints.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
+#include "vantage/navigation.h"
 #include "vantage/sensor.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {
@@ -60,7 +60,7 @@ Error naming(const Error& error, const Mission& mission, const Target& target) {
 template <typename Action>
 auto about_target(const Mission& mission, const Target& target, const Action& action) {
   try {
-    return internal::app::with_place(mission.as_written.places.target, action);
+    return internal::core::with_place(mission.as_written.places.target, action);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     throw TargetError(naming(error, mission, target));
@@ -82,12 +82,12 @@ void check_method(const Mission& mission) {
 
 /// What would be wrong for every target.
 void check_what_all_share(const Mission& mission) {
-  internal::app::with_place(mission.as_written.places.sensor, [&] {
+  internal::core::with_place(mission.as_written.places.sensor, [&] {
     check_sensor(mission.sensor);
     return 0;
   });
   check_method(mission);
-  internal::app::with_place(mission.as_written.file.string(), [&] {
+  internal::core::with_place(mission.as_written.file.string(), [&] {
     check_navigation(mission.navigation);
     return 0;
   });
@@ -107,7 +107,7 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const RunOp
     ExactOptions options = mission.as_written.exact;
     options.threads = 0;  // those of the arena that the mission runs in
     return internal::app::kept_or_computed(run.kept, target, options.tolerance_m,
-                                           [&] { return internal::app::exact_volume(target, options, progress); });
+                                           [&] { return compute_parts(target, options, progress); });
   }
   check_method(mission);
   SpheresOptions options = mission.as_written.spheres;
@@ -118,10 +118,11 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const RunOp
     run.stages(copy);
   };
   const StageSink sink = run.stages ? StageSink(georeferenced) : StageSink();
+  const auto& provider = internal::app::spheres_provider("missions with method: spheres", "method");
   std::vector<Volume> volumes;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
     SpheresReport report;
-    volumes.push_back(internal::app::spheres_volume(target.part(i), options, report, sink, progress));
+    volumes.push_back(provider.compute_visibility_spheres(target.part(i), options, &report, sink, progress));
     add_report(report, result.spheres);
   }
   return internal::app::joined(std::move(volumes), progress, mission.as_written.exact.work_limit);
@@ -143,13 +144,12 @@ Volume limited(const Mission& mission, const PreparedTarget& target, const RunOp
   const bool is_limited = !mission.navigation.empty() || target.sensor().limits_view();
   if (volume.outcome == Outcome::computed && is_limited) {
     try {
-      volume = internal::app::within_limits(volume, target, mission.navigation, progress,
-                                            mission.as_written.exact.work_limit);
+      volume = cut_to_limits(volume, target, mission.navigation, progress, mission.as_written.exact.work_limit);
     } catch (const Error& error) {
       const auto throw_it = [&]() -> int { throw error; };
       // How much work the limits are depends on the volume that they cut: another target may need less.
       if (error.code() == ErrorCode::work_too_large) about_target(mission, target.target(), throw_it);
-      internal::app::with_place(mission.as_written.file.string(), throw_it);
+      internal::core::with_place(mission.as_written.file.string(), throw_it);
     }
     seconds.navigation += stopwatch.lap();
   }

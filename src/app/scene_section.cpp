@@ -6,10 +6,10 @@
 #include <initializer_list>
 #include <utility>
 
-#include "app/places.h"
 #include "app/schema.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "vantage/city.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -5,8 +5,9 @@
 #include <cctype>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "app/components/maps.h"
+#include "app/providers/maps.h"
 #include "app/scene_lookups.h"
 #include "app/scene_warnings.h"
 
@@ -19,16 +20,26 @@ bool ends_with_any(const std::string& name, std::initializer_list<std::string_vi
 
 /// As its kind is loaded.
 LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
+  LoadedScene loaded;
   switch (source.kind) {
-    case SceneSource::Kind::map:
-      return internal::app::load_map(source, progress);
-    case SceneSource::Kind::raster:
-      return internal::app::load_raster(source, progress);
+    case SceneSource::Kind::map: {
+      const auto& maps = internal::app::map_provider("maps", source.file.string());
+      City city = maps.build_city(source.file, source.city, progress);
+      loaded.scene = std::move(city.scene);
+      loaded.city = std::move(city.report);
+      break;
+    }
+    case SceneSource::Kind::raster: {
+      const auto& maps = internal::app::map_provider("rasters", source.file.string());
+      RasterScene raster = maps.scene_from_raster(source.file, source.raster, progress);
+      loaded.scene = std::move(raster.scene);
+      loaded.raster = raster.report;
+      break;
+    }
     case SceneSource::Kind::mesh:
+      loaded.scene = read_scene(source.file, source.mesh, progress);
       break;
   }
-  LoadedScene loaded;
-  loaded.scene = read_scene(source.file, source.mesh, progress);
   return loaded;
 }
 

@@ -13,8 +13,8 @@
 #include "app/combine_targets.h"
 #include "app/pierced_advice.h"
 #include "app/triangle_runs.h"
+#include "common/input.h"
 #include "core/triangle_distance.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

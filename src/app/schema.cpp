@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/input.h"
 #include "request/sections.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "app/described_section.h"
-#include "app/places.h"
 #include "app/schema.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "core/portable_math.h"
 #include "request/describe_sensor.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -154,7 +154,7 @@ void SensorReader::keys(Keys /*keys*/, std::optional<Pinhole>& camera, Mount& mo
   const YamlNode *numbers = given("camera"), *fov = given("fov");
   if (numbers || fov) {
     const CameraSource source = camera_source(numbers, fov);
-    camera = with_place(place_in(reader().file(), (numbers ? *numbers : *fov).place), [&] {
+    camera = core::with_place(place_in(reader().file(), (numbers ? *numbers : *fov).place), [&] {
       if (!source.model.empty()) return pinhole_of(find_camera(source.model));
       if (!source.fov_deg) return pinhole_of(*source.numbers);
       const Camera& picture = source.numbers.value_or(Camera{});
@@ -286,7 +286,7 @@ SensorSection SensorReader::read() {
     reader().fail(ErrorCode::missing_key, root(), "sensor lacks the key 'max_range'",
                   "write 'max_range: 100': metres, to every point of the target");
   }
-  with_place(place_in(reader().file(), root().place), [&] {
+  core::with_place(place_in(reader().file(), root().place), [&] {
     check_sensor(result_.sensor);
     return 0;
   });

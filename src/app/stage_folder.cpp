@@ -12,17 +12,17 @@
 #include <vector>
 
 #include "app/point_json.h"
+#include "common/atomic_file.h"
+#include "common/input.h"
+#include "common/output.h"
+#include "common/stages.h"
+#include "common/temporary_folder.h"
 #include "core/format.h"
 #include "core/temporary_mark.h"
 #include "core/text.h"
 #include "io/json_text.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
-#include "vantage/stages.h"
-#include "vantage/temporary_folder.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
 

@@ -16,12 +16,12 @@
 #include "app/target_section.h"
 #include "app/zone_file.h"
 #include "app/zone_files.h"
+#include "common/input.h"
 #include "core/solid_check.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -7,12 +7,12 @@
 #include <initializer_list>
 #include <utility>
 
-#include "app/places.h"
 #include "app/scene_section.h"
 #include "app/schema.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -403,7 +403,7 @@ void TargetParser::check_target(const YamlNode& place) {
   section_.place = place_in(file(), place.place);
   const bool is_placed_later = section_.ground_target || section_.face_target || section_.target_file;
   if (!mission_.crs.empty() || is_placed_later) return;  // georeference() does it
-  with_place(section_.place, [&] {
+  core::with_place(section_.place, [&] {
     for (std::size_t i = 0; i < section_.target.parts.size(); ++i) make_target_frame(section_.target, i);
     return 0;
   });

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/places.h"
+#include "core/places.h"
 #include "vantage/error.h"
 #include "vantage/georeference.h"
 #include "vantage/ground.h"
@@ -44,7 +44,7 @@ void place_home(Mission& mission) {
   const TourHome& home = *mission.as_written.tour->home;
   const std::string& where = mission.as_written.places.tour;
   const PlaceOfFlight place{"tour.home", "tour.home as [x, y, z]", where};
-  mission.home = with_place(where, [&]() -> std::optional<Vec3> {
+  mission.home = core::with_place(where, [&]() -> std::optional<Vec3> {
     if (home.at_deg) return on_the_ground(mission, *home.at_deg, place);
     if (home.position) return in_the_frame(mission, *home.position, place);
     return std::nullopt;

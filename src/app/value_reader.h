@@ -8,9 +8,9 @@
 
 #include "app/schema.h"
 #include "app/yaml_tree.h"
+#include "common/input.h"
 #include "vantage/error.h"
 #include "vantage/geometry.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 

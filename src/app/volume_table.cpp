@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "common/input.h"
 #include "io/written_marks.h"
-#include "vantage/input.h"
 #include "vantage/result.h"
 
 namespace vantage {

@@ -9,10 +9,10 @@
 #include "app/combine_targets.h"
 #include "app/scene_warnings.h"
 #include "app/triangle_runs.h"
+#include "common/known_data.h"
 #include "core/format.h"
 #include "geo/local_frame.h"
 #include "geo/longitudes.h"
-#include "vantage/known_data.h"
 #include "vantage/mission.h"
 
 namespace vantage {

@@ -8,9 +8,9 @@
 
 #include "app/input_file.h"
 #include "app/value_reader.h"
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage {
 

@@ -8,8 +8,8 @@
 #include <istream>
 #include <streambuf>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/components/maps.h"
 #include "app/json_zones.h"
+#include "app/kml_zones.h"
+#include "common/input.h"
 #include "io/json_text.h"
 #include "io/zip.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {

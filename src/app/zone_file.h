@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "vantage/constraints.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::app {
 

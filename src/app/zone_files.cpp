@@ -13,14 +13,14 @@
 
 #include "app/combine_targets.h"
 #include "app/input_file.h"
-#include "app/places.h"
 #include "app/zone_file.h"
 #include "app/zone_places.h"
+#include "common/input.h"
+#include "core/places.h"
 #include "core/progress_reporter.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -328,7 +328,7 @@ void add_file_zones(Mission& mission, const Progress& callback) {
   const auto add = [&](const std::vector<ZoneFile>& files, const std::vector<std::string>& places, ZoneUse use,
                        std::vector<Zone>& zones) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-      with_place(i < places.size() ? places[i] : "", [&] {
+      core::with_place(i < places.size() ? places[i] : "", [&] {
         FileZones(mission, files[i], use, frame).add_to(zones, progress);
         return 0;
       });

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::app {
 

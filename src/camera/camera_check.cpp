@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "common/input.h"
 #include "core/format.h"
 #include "core/text.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::camera {
 namespace {

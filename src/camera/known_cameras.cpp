@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

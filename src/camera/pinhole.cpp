@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "camera/camera_check.h"
+#include "common/input.h"
 #include "core/format.h"
 #include "core/portable_math.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <utility>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::cli {
 

@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <cstring>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace vantage::cli {
 namespace {

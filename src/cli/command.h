@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/warning.h"
+#include "vantage/error.h"
 
 namespace vantage::cli {
 

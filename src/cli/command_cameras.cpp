@@ -10,10 +10,10 @@
 
 #include "cli/command.h"
 #include "cli/text_table.h"
+#include "common/input.h"
+#include "common/json.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 
 namespace vantage::cli {
 namespace {

@@ -16,12 +16,12 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
-#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {

@@ -10,12 +10,12 @@
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "vantage/compare.h"
+#include "common/input.h"
+#include "common/json.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
+#include "vantage/solid.h"
 #include "vantage/volume.h"
 
 namespace vantage::cli {

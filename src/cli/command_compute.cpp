@@ -9,14 +9,14 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
+#include "common/input.h"
+#include "common/output.h"
+#include "common/stages.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
-#include "vantage/output.h"
 #include "vantage/prove.h"
 #include "vantage/result.h"
-#include "vantage/stages.h"
 #include "vantage/volume.h"
 
 namespace vantage::cli {

@@ -2,8 +2,8 @@
 
 #include "cli/command.h"
 #include "cli/text_table.h"
+#include "common/json.h"
 #include "vantage/devices.h"
-#include "vantage/json.h"
 
 namespace vantage::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/command_table.h"
 #include "cli/completion.h"
 #include "cli/man_page.h"
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {

@@ -9,11 +9,11 @@
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
 #include "cli/text_table.h"
-#include "vantage/areas.h"
+#include "common/input.h"
+#include "common/json.h"
+#include "common/objects.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
-#include "vantage/objects.h"
 #include "vantage/scene.h"
 
 namespace vantage::cli {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission_keys.h"
 
 namespace vantage::cli {

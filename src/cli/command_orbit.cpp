@@ -14,11 +14,11 @@
 #include "cli/target_volumes.h"
 #include "cli/text_table.h"
 #include "cli/view_rows.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
-#include "vantage/input.h"
-#include "vantage/orbits.h"
-#include "vantage/output.h"
+#include "vantage/flight.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::cli {
 namespace {

@@ -17,12 +17,12 @@
 #include "cli/progress_line.h"
 #include "cli/row_reader.h"
 #include "cli/standard_streams.h"
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
 #include "vantage/fraction.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
-#include "vantage/output.h"
 #include "vantage/query.h"
 
 namespace vantage::cli {

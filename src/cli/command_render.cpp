@@ -8,10 +8,10 @@
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
 #include "cli/standard_streams.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
-#include "vantage/output.h"
 #include "vantage/picture.h"
 #include "vantage/result.h"
 

@@ -3,13 +3,13 @@
 #include "cli/command.h"
 #include "cli/page_file.h"
 #include "cli/progress_line.h"
+#include "common/atomic_file.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "live/report_page.h"
 #include "live/session.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
-#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {

@@ -6,10 +6,10 @@
 #include "cli/progress_line.h"
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
+#include "common/json.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/json.h"
-#include "vantage/output.h"
 #include "vantage/result.h"
 #include "vantage/scene_source.h"
 

@@ -4,10 +4,10 @@
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
+#include "common/output.h"
 #include "vantage/devices.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace vantage::cli {
 namespace {

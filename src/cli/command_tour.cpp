@@ -15,13 +15,13 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
+#include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/flight_plan.h"
-#include "vantage/input.h"
 #include "vantage/mission.h"
 #include "vantage/mission_tour.h"
-#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "vantage/tour_certificate.h"
+#include "vantage/mission_tour.h"
 
 namespace vantage::cli {
 namespace {

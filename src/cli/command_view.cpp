@@ -14,11 +14,11 @@
 #include "cli/located_plan.h"
 #include "cli/page_file.h"
 #include "cli/progress_line.h"
+#include "common/input.h"
 #include "live/judged_flight.h"
 #include "live/page_server.h"
 #include "live/session.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::cli {
 namespace {

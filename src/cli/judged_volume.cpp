@@ -5,8 +5,8 @@
 
 #include "cli/chosen_target.h"
 #include "cli/standard_streams.h"
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/target.h"
 
 namespace vantage::cli {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/input.h"
+#include "common/resources.h"
 #include "live/file_bytes.h"
 #include "live/page_text.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/resources.h"
 
 namespace vantage::cli {
 namespace {

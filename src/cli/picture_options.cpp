@@ -7,9 +7,9 @@
 #include <system_error>
 
 #include "cli/text_table.h"
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {

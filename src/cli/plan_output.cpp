@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
+#include "common/output.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {

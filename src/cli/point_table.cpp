@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "common/input.h"
+#include "common/json.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 
 namespace vantage::cli {
 namespace {

@@ -12,7 +12,9 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/usage_error.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
+#include "vantage/spheres.h"
 #include "vantage/version.h"
 
 namespace vantage::cli {
@@ -136,6 +138,8 @@ int run(const std::vector<std::string>& typed, Host host) {
   // A closed pipe or a file size limit must end in an exit code, not in the program's death.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  enable_maps();
+  enable_spheres();
 
   CLI::App app("The closed volume of every position from which a whole convex polygon is visible.", "vantage");
   app.set_version_flag("--version", "vantage " VANTAGE_VERSION);

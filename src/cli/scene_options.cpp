@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "cli/command.h"
+#include "common/input.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::cli {
 namespace {

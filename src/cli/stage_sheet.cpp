@@ -2,8 +2,8 @@
 
 #include "cli/picture_options.h"
 #include "cli/text_table.h"
-#include "vantage/navigation.h"
 #include "vantage/result.h"
+#include "vantage/volume.h"
 
 namespace vantage::cli {
 namespace {

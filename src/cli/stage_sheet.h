@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "common/stages.h"
 #include "vantage/mission.h"
 #include "vantage/picture.h"
 #include "vantage/progress.h"
-#include "vantage/stages.h"
 
 namespace vantage::cli {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "common/temporary_folder.h"
 #include "vantage/mission.h"
-#include "vantage/temporary_folder.h"
 
 namespace vantage::cli {
 

@@ -5,8 +5,8 @@
 
 #include "cli/chosen_target.h"
 #include "cli/command.h"
-#include "vantage/input.h"
-#include "vantage/warning.h"
+#include "common/input.h"
+#include "vantage/error.h"
 
 namespace vantage::cli {
 

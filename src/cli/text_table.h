@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
 #include "vantage/geometry.h"
-#include "vantage/input.h"
 
 namespace vantage::cli {
 

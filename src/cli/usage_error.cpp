@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage::cli {
 namespace {

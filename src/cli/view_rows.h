@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/text_table.h"
-#include "vantage/view_description.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::cli {
 

@@ -17,7 +17,7 @@ namespace vantage::internal::core {
 class CauseList {
  public:
   /// The number of the cause: a new one, unless it is there.
-  VANTAGE_INTERNAL_API std::uint32_t add(const Cause& cause);
+  std::uint32_t add(const Cause& cause);
 
   const std::vector<Cause>& causes() const { return causes_; }
 
@@ -28,7 +28,6 @@ class CauseList {
 
 /// Measures the causes' areas and drops those that no triangle has. `cause_of`: per triangle of `mesh`, an index into
 /// `causes`; numbered anew.
-VANTAGE_INTERNAL_API void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of,
-                                         std::vector<Cause>& causes);
+void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of, std::vector<Cause>& causes);
 
 }  // namespace vantage::internal::core

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 

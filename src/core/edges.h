@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::core {
@@ -18,7 +19,7 @@ struct EdgeUse {
 
 /// The 3 F sides of all triangles, sorted by (low, high, triangle), so that those of one edge are neighbours. Linear
 /// time. Throws Error(input) naming the triangle when an index is not below `vertices`.
-std::vector<EdgeUse> edge_uses(const std::vector<Triangle>& triangles, std::size_t vertices);
+VANTAGE_INTERNAL_API std::vector<EdgeUse> edge_uses(const std::vector<Triangle>& triangles, std::size_t vertices);
 
 /// Calls `visit` with the uses of each edge in turn.
 template <typename Visit>

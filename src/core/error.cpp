@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage {
 namespace {

@@ -1,10 +1,9 @@
 // docs/hashes.md
-#include "vantage/hash.h"
-
 #include <span>
 
 #include "core/sha256.h"
 #include "vantage/error.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage::internal::core {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "common/input.h"
 #include "vantage/devices.h"
-#include "vantage/input.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 

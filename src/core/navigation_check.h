@@ -4,13 +4,12 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "vantage/constraints.h"
 #include "vantage/export.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::core {
 
 /// check_navigation, for those who cut: returns the meshes to stay in as checked_solid does, welded.
-VANTAGE_INTERNAL_API std::vector<Mesh> checked_navigation(const Navigation& navigation,
-                                                          const ProgressReporter& progress = {});
+std::vector<Mesh> checked_navigation(const Navigation& navigation, const ProgressReporter& progress = {});
 
 }  // namespace vantage::internal::core

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage {
 namespace {

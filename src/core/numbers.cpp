@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage {
 namespace {

@@ -11,6 +11,6 @@ namespace vantage::internal::core {
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// In the plane: 1 where c lies left of the way from a to b, -1 right, 0 on the line.
-VANTAGE_INTERNAL_API int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
 
 }  // namespace vantage::internal::core

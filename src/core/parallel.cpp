@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "core/system_limits.h"
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace vantage::internal::parallel {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/labelled_mesh.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::core {
@@ -23,11 +24,11 @@ struct Pieces {
 
 /// Triangles that share a vertex are of one piece. The mesh must be closed with two triangles to an edge, as to_mesh
 /// and the engines make it. Linear time.
-Pieces find_pieces(const Mesh& mesh);
+VANTAGE_INTERNAL_API Pieces find_pieces(const Mesh& mesh);
 
 /// Removes pieces that are thinner than `thickness_m` (volume over area): what booleans do not resolve. Cavities stay:
 /// to fill one would add space. Vertices that nothing uses any more go too.
-void drop_slivers(LabelledMesh& labelled, double thickness_m);
+VANTAGE_INTERNAL_API void drop_slivers(LabelledMesh& labelled, double thickness_m);
 
 /// Numbers the vertices anew, in their order, without those that no triangle uses.
 void drop_unused_vertices(Mesh& mesh);

@@ -1,8 +1,8 @@
 // Text from files and arguments as it may be shown: no byte of it acts on a terminal, or on the order of what is read.
 #include <algorithm>
 
+#include "common/input.h"
 #include "core/characters.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "vantage/resources.h"
+#include "common/resources.h"
 
 #include <mutex>
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/progress_reporter.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::core {
@@ -17,6 +18,7 @@ namespace vantage::internal::core {
 ///   - is inside out or has parts that overlap, so that some space counts other than once or not at all.
 /// Triangles that pass through others are let be where they make up no more than `folds` of the mesh's area.
 /// Error(cancelled) when told to stop. Cost: O(n log n) for meshes as they are drawn.
-Mesh checked_solid(const Mesh& mesh, const std::string& name, const ProgressReporter& progress = {}, double folds = 0);
+VANTAGE_INTERNAL_API Mesh checked_solid(const Mesh& mesh, const std::string& name,
+                                        const ProgressReporter& progress = {}, double folds = 0);
 
 }  // namespace vantage::internal::core

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
+
 namespace vantage::internal::core {
 
 /// Throws Error(system_limit): the system gives no more threads.
-[[noreturn]] void fail_for_threads();
+[[noreturn]] VANTAGE_INTERNAL_API void fail_for_threads();
 
 /// Throws Error(system_limit) if no more files can be opened: what is there would be taken for missing.
 void check_open_files();
@@ -15,6 +17,6 @@ void check_open_files();
 /// Loads the first of the libraries of these names that is there, for as long as the program runs. Null where none is.
 /// Throws Error(out_of_memory) where there is not enough memory to load it, or Error(system_limit) where no more files
 /// can be opened. `what`: for people, "GDAL".
-void* load_library(const std::vector<std::string>& names, const std::string& what);
+VANTAGE_INTERNAL_API void* load_library(const std::vector<std::string>& names, const std::string& what);
 
 }  // namespace vantage::internal::core

@@ -1,4 +1,4 @@
-#include "vantage/temporary_folder.h"
+#include "common/temporary_folder.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "common/input.h"
 #include "core/characters.h"
 #include "core/format.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::core {
 

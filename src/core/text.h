@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::core {
@@ -12,13 +13,13 @@ namespace vantage::internal::core {
 std::string number_text(double number);
 
 /// Four digits and the unit: "0.1234 m".
-std::string metres_text(double metres);
+VANTAGE_INTERNAL_API std::string metres_text(double metres);
 
 /// "(1, 2.5, 3)".
 std::string point_text(const Vec3& point);
 
 /// With so many decimals: fixed_text({1, 2.5, 3}, 2) is "(1.00, 2.50, 3.00)".
-std::string fixed_text(const Vec3& point, int decimals);
+VANTAGE_INTERNAL_API std::string fixed_text(const Vec3& point, int decimals);
 
 /// "1 edge has", "12 edges have".
 std::string count_text(std::size_t count, const char* one, const char* many);

@@ -23,7 +23,7 @@ struct Labels {
 void check_labelled(const Mesh& mesh, const Labels& labels);
 
 /// The same of a volume and its causes.
-VANTAGE_INTERNAL_API void check_volume(const Volume& volume);
+void check_volume(const Volume& volume);
 
 /// Measures what the engine or a cut made. Throws Error(internal) unless it is closed and oriented: it must not be
 /// written then.

@@ -2,7 +2,7 @@
 #include <array>
 #include <cstddef>
 
-#include "vantage/warning.h"
+#include "vantage/error.h"
 
 namespace vantage {
 namespace {

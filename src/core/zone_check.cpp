@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage::internal::core {
 namespace {

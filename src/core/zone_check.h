@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/limit_check.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::core {
 

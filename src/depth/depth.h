@@ -54,7 +54,7 @@ class DepthRenderer {
 };
 
 /// A device that cannot hold the scene or the images, or was lost. Who did not insist on it goes on with the CPU.
-class VANTAGE_INTERNAL_API DeviceFailure : public std::runtime_error {
+class DeviceFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -67,6 +67,6 @@ struct ChosenRenderer {
 /// The renderer of the device that `choice` asks for. Where it does not insist, falls back to the CPU, also later, in
 /// the middle of a request, and `note` or the renderer's device() says so. Throws Error(input) where it insists and the
 /// device is not there or cannot hold the scene.
-VANTAGE_INTERNAL_API ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoice& choice);
+ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoice& choice);
 
 }  // namespace vantage::internal::depth

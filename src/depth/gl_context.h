@@ -23,24 +23,24 @@ struct GlDeviceInfo {
 
 /// The devices that give an OpenGL 4.5 context, as EGL lists them, each once. When there is none, `why_none` says why
 /// and what to install or mend. Never throws for what is missing. Opens and closes a context on each.
-VANTAGE_INTERNAL_API std::vector<GlDeviceInfo> gl_devices(std::string& why_none);
+std::vector<GlDeviceInfo> gl_devices(std::string& why_none);
 std::vector<GlDeviceInfo> gl_devices(std::string& why_none, const std::shared_ptr<const GlLibrary>& library);
 
 /// A context that no window belongs to. It is current on no thread until a GlCurrent is made. Throws DeviceFailure.
 class GlContext {
  public:
-  VANTAGE_INTERNAL_API explicit GlContext(const GlDeviceInfo& info);
+  explicit GlContext(const GlDeviceInfo& info);
   GlContext(const GlDeviceInfo& info, std::shared_ptr<const GlLibrary> library);
-  VANTAGE_INTERNAL_API ~GlContext();
+  ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
   const RenderDevice& device() const { return info_.device; }
-  VANTAGE_INTERNAL_API const GlFunctions& gl() const;
+  const GlFunctions& gl() const;
 
   /// Throws DeviceFailure, with what was being done ("uploading the scene"), when OpenGL has noted an error or the
   /// device was lost. Only while this context is current.
-  VANTAGE_INTERNAL_API void check(std::string_view doing) const;
+  void check(std::string_view doing) const;
 
   bool has_extension(std::string_view name) const;  ///< of OpenGL; only while this context is current
 
@@ -60,7 +60,7 @@ class GlContext {
 };
 
 /// Makes a context current on this thread; its end makes current again what was before.
-class VANTAGE_INTERNAL_API GlCurrent {
+class GlCurrent {
  public:
   explicit GlCurrent(const GlContext& context);  ///< throws DeviceFailure
   ~GlCurrent();

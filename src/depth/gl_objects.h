@@ -13,7 +13,7 @@ namespace vantage::internal::depth {
 
 /// Makes objects of a context, which must be current; its end deletes them all. Throws DeviceFailure for a program that
 /// does not build or a framebuffer that the device refuses.
-class VANTAGE_INTERNAL_API GlObjects {
+class GlObjects {
  public:
   explicit GlObjects(const GlContext& context) : context_(context), gl_(context.gl()) {}
   ~GlObjects();

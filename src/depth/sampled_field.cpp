@@ -1,6 +1,4 @@
 // Fraction fields from depth images: each sample of the target looks at all voxels at once.
-#include "vantage/sampled_field.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -14,6 +12,7 @@
 #include "core/progress_reporter.h"
 #include "depth/depth.h"
 #include "vantage/error.h"
+#include "vantage/fraction.h"
 #include "vantage/query.h"
 
 namespace vantage {

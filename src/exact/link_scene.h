@@ -11,7 +11,7 @@
 #include "exact/zone_pieces.h"
 #include "scene/prepared_data.h"
 #include "target/range_region.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::exact {
 

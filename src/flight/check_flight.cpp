@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/known_data.h"
 #include "core/format.h"
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
@@ -18,8 +19,7 @@
 #include "flight/check_links.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
-#include "vantage/known_data.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage {
 namespace {

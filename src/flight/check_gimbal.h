@@ -8,7 +8,7 @@
 #include "flight/gimbal.h"
 #include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::flight {
 

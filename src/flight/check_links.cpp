@@ -7,7 +7,6 @@
 #include "core/format.h"
 #include "core/text.h"
 #include "vantage/error.h"
-#include "vantage/prepared_target.h"
 #include "vantage/sensor.h"
 #include "vantage/target.h"
 

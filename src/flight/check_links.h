@@ -7,8 +7,8 @@
 
 #include "flight/along.h"
 #include "vantage/flight_check.h"
-#include "vantage/leg_query.h"
 #include "vantage/mission.h"
+#include "vantage/query.h"
 #include "vantage/scene.h"
 
 namespace vantage::internal::flight {

@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include "common/input.h"
 #include "core/format.h"
 #include "core/text.h"
 #include "vantage/flight_check.h"
 #include "vantage/georeference.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "vantage/flight.h"
 #include "vantage/geometry.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::flight {
 

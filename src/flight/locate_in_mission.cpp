@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "vantage/error.h"
+#include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/flight_plan.h"
 #include "vantage/georeference.h"
 #include "vantage/ground.h"
 

@@ -14,7 +14,7 @@
 #include "flight/closed_curve.h"
 #include "flight/solid_depth.h"
 #include "vantage/geometry.h"
-#include "vantage/orbits.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::internal::flight {
 

@@ -1,5 +1,3 @@
-#include "vantage/orbits.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -19,7 +17,8 @@
 #include "flight/view_describer_data.h"
 #include "vantage/error.h"
 #include "vantage/query.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
+#include "vantage/standpoints.h"
 
 namespace vantage {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flight/view_json.h"
-#include "vantage/orbits.h"
+#include "vantage/standpoints.h"
 
 namespace vantage {
 namespace {

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "vantage/error.h"
-#include "vantage/leg_query.h"
 #include "vantage/mission.h"
-#include "vantage/orbits.h"
+#include "vantage/query.h"
+#include "vantage/standpoints.h"
 
 namespace vantage {
 namespace {

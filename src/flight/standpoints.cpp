@@ -16,7 +16,7 @@
 #include "flight/view_describer_data.h"
 #include "vantage/error.h"
 #include "vantage/query.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "flight/target_view.h"
-#include "vantage/camera_aim.h"
+#include "vantage/sensor.h"
 
 namespace vantage::internal::flight {
 namespace {

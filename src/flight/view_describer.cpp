@@ -4,7 +4,7 @@
 
 #include "flight/view_describer_data.h"
 #include "vantage/error.h"
-#include "vantage/view_description.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::internal::flight {
 namespace {

@@ -9,7 +9,7 @@
 #include "flight/view_aim.h"
 #include "geo/local_frame.h"
 #include "vantage/ground.h"
-#include "vantage/view_description.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::internal::flight {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "vantage/view_description.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::internal::flight {
 

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
+#include "common/resources.h"
 #include "core/format.h"
 #include "core/system_limits.h"
 #include "geo/local_frame.h"
 #include "geo/proj_files.h"
 #include "geo/proj_library.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/resources.h"
 
 namespace vantage::internal::geo {
 namespace {

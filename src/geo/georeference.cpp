@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "common/input.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/input.h"
 #include "geo/proj_library.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::geo {
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 
@@ -27,17 +28,17 @@ struct LonLat {
 class LocalFrame {
  public:
   /// Throws Error(input) for a latitude or longitude that is out of range (-90 to 90, -180 to 180) or not finite.
-  explicit LocalFrame(LonLat origin);
-  ~LocalFrame();
+  VANTAGE_INTERNAL_API explicit LocalFrame(LonLat origin);
+  VANTAGE_INTERNAL_API ~LocalFrame();
   LocalFrame(LocalFrame&&) noexcept;
   LocalFrame& operator=(LocalFrame&&) noexcept;
 
-  LonLat origin() const;
+  VANTAGE_INTERNAL_API LonLat origin() const;
   /// Metres, (east, north). Longitudes may be any finite number of degrees. Throws Error(input) for a position that is
   /// not on the earth.
-  Eigen::Vector2d to_local(LonLat position) const;
+  VANTAGE_INTERNAL_API Eigen::Vector2d to_local(LonLat position) const;
   /// Longitude in -180 to 180. Throws Error(input) for a point that is not finite.
-  LonLat to_lonlat(const Eigen::Vector2d& local) const;
+  VANTAGE_INTERNAL_API LonLat to_lonlat(const Eigen::Vector2d& local) const;
 
  private:
   struct Data;
@@ -51,7 +52,7 @@ inline constexpr double kFarthestM = 100e3;
 double geodesic_m(LonLat from, LonLat to);
 
 /// Throws Error(input) for an origin farther than kFarthestM from `middle`, that of what is to lie about it.
-void check_origin(LonLat origin, LonLat middle, const std::string& where);
+VANTAGE_INTERNAL_API void check_origin(LonLat origin, LonLat middle, const std::string& where);
 
 /// x and y of points of the frame about `from`'s origin into that about `to`'s; the same origin leaves every bit as it
 /// is. z is left alone. Returns whether the origins differ. Throws Error(input) for one that is not a place on the
@@ -67,21 +68,22 @@ class CoordinateSystem {
  public:
   /// Throws Error(input) for a text that PROJ does not know, a system that is not geographic or projected, or a PROJ
   /// that lacks its database; `where` says where the text was found.
-  CoordinateSystem(const std::string& text, const std::string& where);
-  ~CoordinateSystem();
-  CoordinateSystem(CoordinateSystem&&) noexcept;
+  VANTAGE_INTERNAL_API CoordinateSystem(const std::string& text, const std::string& where);
+  VANTAGE_INTERNAL_API ~CoordinateSystem();
+  VANTAGE_INTERNAL_API CoordinateSystem(CoordinateSystem&&) noexcept;
   CoordinateSystem& operator=(CoordinateSystem&&) noexcept;
 
-  LonLat to_lonlat(const Eigen::Vector2d& position) const;  ///< throws Error(input) where the projection has no value
-  Eigen::Vector2d from_lonlat(LonLat position) const;       ///< likewise
-  bool is_geographic() const;                               ///< coordinates are angles: degrees, but for a few old ones
-  const std::string& name() const;                          ///< "EPSG:28992 (Amersfoort / RD New)"
-  const std::string& code() const;                          ///< "EPSG:28992"; empty when it has none
+  VANTAGE_INTERNAL_API LonLat
+  to_lonlat(const Eigen::Vector2d& position) const;  ///< throws Error(input) where the projection has no value
+  VANTAGE_INTERNAL_API Eigen::Vector2d from_lonlat(LonLat position) const;  ///< likewise
+  VANTAGE_INTERNAL_API bool is_geographic() const;       ///< coordinates are angles: degrees, but for a few old ones
+  VANTAGE_INTERNAL_API const std::string& name() const;  ///< "EPSG:28992 (Amersfoort / RD New)"
+  VANTAGE_INTERNAL_API const std::string& code() const;  ///< "EPSG:28992"; empty when it has none
   /// "NAP height" of a compound system, "ellipsoidal height" of a geographic or projected one with three axes; else
   /// empty.
-  const std::string& vertical_name() const;
+  VANTAGE_INTERNAL_API const std::string& vertical_name() const;
   /// Metres in one unit of the third axis, negative when it is a depth; nothing without such an axis.
-  std::optional<double> vertical_unit_m() const;
+  VANTAGE_INTERNAL_API std::optional<double> vertical_unit_m() const;
   /// The area that the system is made for, in the authority's words, when the position lies outside it; nothing inside,
   /// or where no area is known.
   std::optional<std::string> area_without(LonLat position) const;

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage::internal::io {
 namespace {

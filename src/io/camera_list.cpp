@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "camera/camera_check.h"
+#include "common/input.h"
 #include "core/format.h"
 #include "core/progress_reporter.h"
 #include "core/read_limits.h"
@@ -20,7 +21,6 @@
 #include "io/mesh_source.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::io {
 namespace {

@@ -16,7 +16,7 @@ inline constexpr std::string_view kGeoreferenceMark = "vantage georeference:";
 
 /// {"latitude_deg": …, "longitude_deg": …, "vertical": …, "source_crs": …, "projection": …}; the numbers read back
 /// exactly. "projection" is what projection_text says, for other programs; it is not read.
-VANTAGE_INTERNAL_API nlohmann::ordered_json georeference_json(const Georeference& georeference);
+nlohmann::ordered_json georeference_json(const Georeference& georeference);
 /// The same as text on one line, in ASCII.
 std::string georeference_text(const Georeference& georeference);
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
 
 namespace vantage::internal::io {
 

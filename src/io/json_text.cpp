@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/input.h"
+#include "common/input.h"
 
 namespace vantage::internal::io {
 namespace {

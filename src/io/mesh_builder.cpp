@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/input.h"
 #include "io/object_text.h"
 #include "io/triangulate_polygon.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::io {
 

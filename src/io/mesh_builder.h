@@ -116,6 +116,6 @@ class MeshBuilder {
 };
 
 /// A name for reports and files: printable(), without blanks at its ends.
-VANTAGE_INTERNAL_API std::string clean_name(std::string_view name);
+std::string clean_name(std::string_view name);
 
 }  // namespace vantage::internal::io

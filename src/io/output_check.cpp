@@ -6,13 +6,13 @@
 #include <cstring>
 #include <system_error>
 
+#include "common/input.h"
+#include "common/output.h"
 #include "core/temporary_file.h"
 #include "io/output_formats.h"
 #include "io/sidecar.h"
 #include "io/written_marks.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 
 namespace vantage {
 namespace {

@@ -4,11 +4,11 @@
 #include <array>
 #include <string>
 
+#include "common/input.h"
+#include "common/output.h"
 #include "io/scene_writers.h"
 #include "io/writers.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
-#include "vantage/output.h"
 
 namespace vantage::internal::io {
 namespace {

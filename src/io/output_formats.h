@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "common/atomic_file.h"
 #include "io/stored_mesh.h"
-#include "vantage/atomic_file.h"
 #include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
@@ -31,7 +31,7 @@ struct OutputFormat {
 std::span<const OutputFormat> output_formats();
 
 /// The one that the extension names, upper or lower case; null for another.
-VANTAGE_INTERNAL_API const OutputFormat* find_output_format(const std::filesystem::path& file);
+const OutputFormat* find_output_format(const std::filesystem::path& file);
 
 /// Throws Error(output) for another, and says which there are.
 const OutputFormat& output_format(const std::filesystem::path& file);

@@ -12,6 +12,6 @@ namespace vantage::internal::io {
 /// Fills `cause_of` and `causes`, areas too, of a volume whose mesh was read from `file`; leaves them empty for a file
 /// that no write_ply wrote, or that other programs have changed since. Returns what the file states. Throws
 /// Error(input) for a file that cannot be read, causes that are out of range and a statement that is garbled.
-VANTAGE_INTERNAL_API std::optional<VolumeStatement> read_causes(const std::filesystem::path& file, Volume& volume);
+std::optional<VolumeStatement> read_causes(const std::filesystem::path& file, Volume& volume);
 
 }  // namespace vantage::internal::io

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/input.h"
 #include "io/text_cursor.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::io {
 namespace {

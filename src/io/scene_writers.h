@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/atomic_file.h"
+#include "common/atomic_file.h"
 #include "vantage/scene.h"
 
 namespace vantage::internal::io {

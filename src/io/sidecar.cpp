@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/output.h"
 #include "io/georeference_text.h"
 #include "io/rounding_text.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 
 namespace vantage::internal::io {
 

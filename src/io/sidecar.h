@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/atomic_file.h"
 #include "io/mesh_source.h"
-#include "vantage/atomic_file.h"
 #include "vantage/georeference.h"
 
 namespace vantage::internal::io {

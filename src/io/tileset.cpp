@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/input.h"
 #include "io/json_text.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::io {
 namespace {

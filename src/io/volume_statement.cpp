@@ -7,7 +7,7 @@
 #include "io/sidecar.h"
 #include "request/sensor_json.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::io {
 namespace {

@@ -3,13 +3,13 @@
 #include <set>
 #include <vector>
 
+#include "common/input.h"
 #include "io/axes_text.h"
 #include "io/georeference_text.h"
 #include "io/rounding_text.h"
 #include "io/volume_statement.h"
 #include "io/writers.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::io {

@@ -1,11 +1,11 @@
 // PLY 1.0, binary, little-endian; scene frame.
 #include <limits>
 
+#include "common/input.h"
 #include "io/georeference_text.h"
 #include "io/rounding_text.h"
 #include "io/volume_statement.h"
 #include "io/writers.h"
-#include "vantage/input.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::io {

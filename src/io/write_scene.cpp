@@ -4,6 +4,7 @@
 #include <numeric>
 #include <string>
 
+#include "common/output.h"
 #include "core/volume_check.h"
 #include "io/axes_text.h"
 #include "io/georeference_text.h"
@@ -13,7 +14,6 @@
 #include "io/sidecar.h"
 #include "io/writers.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::io {

@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/output.h"
 #include "core/volume_check.h"
 #include "io/output_formats.h"
 #include "io/sidecar.h"
 #include "io/volume_statement.h"
 #include "io/writers.h"
 #include "vantage/error.h"
-#include "vantage/output.h"
 
 namespace vantage::internal::io {
 

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/atomic_file.h"
 #include "io/stored_mesh.h"
-#include "vantage/atomic_file.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::io {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "common/output.h"
 #include "core/png_mark.h"
 #include "core/version_text.h"
-#include "vantage/output.h"
 
 namespace vantage::internal::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace vantage::live {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "vantage/flight.h"
 #include "vantage/flight_check.h"
-#include "vantage/flight_plan.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"

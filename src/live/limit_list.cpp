@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "vantage/input.h"
+#include "common/input.h"
 #include "vantage/sensor.h"
 
 namespace vantage::live {

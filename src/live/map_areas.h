@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/areas.h"
+#include "vantage/city.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"

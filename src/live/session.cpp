@@ -7,18 +7,18 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/input.h"
+#include "common/json.h"
+#include "common/temporary_folder.h"
 #include "live/file_bytes.h"
 #include "live/limit_list.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
-#include "vantage/json.h"
 #include "vantage/mission_tour.h"
-#include "vantage/slice.h"
-#include "vantage/temporary_folder.h"
+#include "vantage/solid.h"
 #include "vantage/version.h"
+#include "vantage/volume.h"
 
 namespace vantage::live {
 namespace {

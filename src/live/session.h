@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "live/judged_flight.h"
-#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 #include "vantage/prove.h"

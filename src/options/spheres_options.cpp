@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <string>
 
 #include "request/checker.h"
@@ -53,22 +52,6 @@ void check_memory(const SpheresOptions& options) {
 }
 
 }  // namespace
-
-int face_size_for(const std::array<int, 2>& grid) {
-  const double step = std::min(2 * std::numbers::pi / grid[0], std::numbers::pi / grid[1]);
-  // A texel is widest in the middle of its face: 2 / n.
-  return 2 * static_cast<int>(std::ceil(2 / step));
-}
-
-int face_size(const SpheresOptions& options) {
-  return options.resolution ? face_size_for(*options.resolution) : options.cubemap;
-}
-
-std::size_t facet_count(const SpheresOptions& options) {
-  if (options.resolution)
-    return 2 * static_cast<std::size_t>((*options.resolution)[0]) * ((*options.resolution)[1] - 1);
-  return 12 * static_cast<std::size_t>(options.cubemap) * options.cubemap;
-}
 
 void check_options(const SpheresOptions& options) {
   request::Checker checker(request::kSection<SpheresOptions>);

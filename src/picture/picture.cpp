@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/atomic_file.h"
 #include "core/png_mark.h"
 #include "core/progress_reporter.h"
 #include "depth/depth.h"
@@ -14,7 +15,6 @@
 #include "picture/draw_list.h"
 #include "picture/gl_picture.h"
 #include "picture/occlusion_rays.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
 
 namespace vantage {

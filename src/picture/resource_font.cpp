@@ -8,7 +8,7 @@
 #include <map>
 #include <mutex>
 
-#include "vantage/resources.h"
+#include "common/resources.h"
 
 namespace vantage::internal::picture {
 namespace {

@@ -1,4 +1,4 @@
-// The fonts of the resource folder (vantage/resources.h), which need no font service.
+// The fonts of the resource folder (common/resources.h), which need no font service.
 #pragma once
 
 #include <cairo.h>

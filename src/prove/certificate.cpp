@@ -1,12 +1,11 @@
 // The format is in docs/proof.md; tools/check_certificate.py reads it.
-#include "vantage/certificate.h"
-
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
-#include "vantage/input.h"
+#include "common/input.h"
+#include "vantage/prove.h"
 
 namespace vantage {
 namespace {

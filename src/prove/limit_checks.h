@@ -1,7 +1,7 @@
 // Whether the limits are what the proof takes them for, by code of its own: check_navigation has been there before.
 #pragma once
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::prove {
 

@@ -6,7 +6,7 @@
 #include "core/progress_reporter.h"
 #include "prove/limited_volume.h"
 #include "prove/view.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/sensor.h"
 
 namespace vantage::internal::prove {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "prove/view.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/prove.h"
 
 namespace vantage::internal::prove {

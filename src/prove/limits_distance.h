@@ -4,7 +4,7 @@
 #include "core/progress_reporter.h"
 #include "prove/limited_volume.h"
 #include "prove/view.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::prove {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "prove/limited_volume.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::prove {
 

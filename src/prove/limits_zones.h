@@ -5,7 +5,7 @@
 
 #include "core/progress_reporter.h"
 #include "prove/limited_volume.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::prove {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "prove/convex_polygon.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::prove {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::prove {
 

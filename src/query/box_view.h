@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "query/side.h"
-#include "vantage/fraction_field.h"
+#include "vantage/fraction.h"
 
 namespace vantage::internal::query {
 

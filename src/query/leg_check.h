@@ -1,7 +1,7 @@
 // What legs may be asked about.
 #pragma once
 
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::query {
 

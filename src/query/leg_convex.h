@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "vantage/geometry.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::query {
 

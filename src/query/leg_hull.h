@@ -6,7 +6,7 @@
 
 #include "core/bvh.h"
 #include "query/side.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::query {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::query {
 

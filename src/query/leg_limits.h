@@ -13,8 +13,8 @@
 #include "core/triangle_tree.h"
 #include "query/leg_intervals.h"
 #include "sensor/sensor_limits.h"
-#include "vantage/constraints.h"
-#include "vantage/leg_query.h"
+#include "vantage/navigation.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::query {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "query/link_query.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::query {
 

@@ -17,7 +17,7 @@
 #include "query/side.h"
 #include "target/numerics.h"
 #include "vantage/error.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include "query/ground_heights.h"
 #include "query/obstacle_distance.h"
 #include "sensor/sensor_limits.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::query {
 

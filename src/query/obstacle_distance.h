@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/bvh.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::query {
 

@@ -1,7 +1,7 @@
 // Where points are in the plan of a zone.
 #pragma once
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::query {
 

@@ -8,7 +8,7 @@
 
 #include "request/description.h"
 #include "vantage/error.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::request {
 

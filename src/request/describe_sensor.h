@@ -8,7 +8,6 @@
 #include "request/description.h"
 #include "vantage/mission.h"
 #include "vantage/sensor.h"
-#include "vantage/visual_range.h"
 
 namespace vantage::internal::request {
 

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "request/description.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::request {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "common/input.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::request {
 namespace {

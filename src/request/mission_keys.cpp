@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "common/input.h"
 #include "request/description.h"
 #include "request/sections.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

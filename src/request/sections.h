@@ -9,7 +9,7 @@
 #include "request/describe_target.h"
 #include "request/describe_tour.h"
 #include "vantage/spheres.h"
-#include "vantage/tour_settings.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::request {
 

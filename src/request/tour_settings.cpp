@@ -1,7 +1,6 @@
-#include "vantage/tour_settings.h"
-
 #include "request/checker.h"
 #include "request/describe_tour.h"
+#include "vantage/tour.h"
 
 namespace vantage {
 

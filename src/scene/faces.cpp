@@ -1,5 +1,3 @@
-#include "vantage/faces.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -20,6 +18,7 @@
 #include "scene/plane_pieces.h"
 #include "scene/triangle_index.h"
 #include "vantage/error.h"
+#include "vantage/target.h"
 
 namespace vantage {
 

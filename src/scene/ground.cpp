@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 
 namespace vantage {
 namespace {

@@ -22,22 +22,21 @@ struct AimedView {
 
   double approach(std::size_t edge, const Vec3& direction) const { return -edges[edge].dot(direction); }
   /// Infinite where the direction is not in the picture. `slack`: by how much farther inside all must be, per edge.
-  VANTAGE_INTERNAL_API double distance(const Vec3& direction, const std::array<double, 4>& slack = {}) const;
+  double distance(const Vec3& direction, const std::array<double, 4>& slack = {}) const;
 };
 
 class AimFinder {
  public:
   /// `corners`: about c. `least`: needs are at the least this long.
-  VANTAGE_INTERNAL_API AimFinder(const std::vector<Vec3>& corners, const Pinhole& camera, const Mount& mount,
-                                 double least);
+  AimFinder(const std::vector<Vec3>& corners, const Pinhole& camera, const Mount& mount, double least);
 
   AimedView view(const Aim& aim) const;
   /// With the orientation that the mount allows next to the given one.
-  VANTAGE_INTERNAL_API AimedView next_to(const Aim& aim) const;
+  AimedView next_to(const Aim& aim) const;
   /// For the viewpoints along a direction of unit length: an allowed orientation that is good, maybe not the best.
   /// `near`: what is found near that one, as good for the direction or better.
-  VANTAGE_INTERNAL_API AimedView best(const Vec3& direction, const std::optional<Aim>& near = {}) const;
-  VANTAGE_INTERNAL_API bool is_at_limit(const Aim& aim) const;
+  AimedView best(const Vec3& direction, const std::optional<Aim>& near = {}) const;
+  bool is_at_limit(const Aim& aim) const;
 
  private:
   using PerEdge = std::array<double, 4>;

@@ -1,11 +1,10 @@
-#include "vantage/camera_aim.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "sensor/aim.h"
 #include "sensor/find_aim.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "vantage/export.h"
 #include "vantage/geometry.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::sensor {
 
@@ -22,10 +22,10 @@ struct Viewed {
   std::vector<ViewedPart> parts;
   std::vector<Vec3> corners;  ///< of all parts
 
-  VANTAGE_INTERNAL_API double radius() const;  ///< of a ball about the origin that holds all corners, metres
+  double radius() const;  ///< of a ball about the origin that holds all corners, metres
 };
 
 /// The parts as they are used, lifts included.
-VANTAGE_INTERNAL_API Viewed viewed_of(const PreparedTarget& target);
+Viewed viewed_of(const PreparedTarget& target);
 
 }  // namespace vantage::internal::sensor

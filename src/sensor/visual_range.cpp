@@ -1,9 +1,8 @@
-#include "vantage/visual_range.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "vantage/error.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
 namespace {

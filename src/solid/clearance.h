@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "solid/csg.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::solid {
 

@@ -1,6 +1,4 @@
 // compare_volumes: two booleans, and how far what only one mesh claims reaches from the other's surface.
-#include "vantage/compare.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "solid/csg.h"
 #include "solid/farthest.h"
 #include "vantage/error.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/parallel.h"
 #include "solid/kernel_point.h"
 #include "solid/visible_share.h"
-#include "vantage/navigation.h"
 #include "vantage/version.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

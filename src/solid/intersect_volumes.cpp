@@ -12,7 +12,7 @@
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace {

@@ -1,8 +1,6 @@
 // Cutting a volume to where the vehicle may fly. Boxes, zones and the like are small solids beside a volume of perhaps
 // a hundred thousand facets, so they are combined first. What limits of the sensor and the clearance have in common
 // costs more than to cut the volume to one after the other.
-#include "vantage/navigation.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -26,6 +24,7 @@
 #include "solid/regions.h"
 #include "solid/sensor_regions.h"
 #include "vantage/error.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::solid {
 namespace {

@@ -1,7 +1,5 @@
 // The plane cuts a triangle in a segment from the edge that the triangle runs downward to the one that it runs upward:
 // so the solid lies left of it. The neighbour at that edge runs it downward, and goes on.
-#include "vantage/slice.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "core/orientation.h"
 #include "core/weld.h"
 #include "vantage/error.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

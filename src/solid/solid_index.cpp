@@ -1,5 +1,3 @@
-#include "vantage/solid_index.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,6 +14,7 @@
 #include "core/triangle_tree.h"
 #include "solid/exact_winding.h"
 #include "vantage/error.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

@@ -18,7 +18,7 @@
 #include "solid/clean.h"
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
-#include "vantage/navigation.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::solid {
 namespace {

@@ -2,8 +2,8 @@
 // seen".
 #pragma once
 
-#include "vantage/prepared_target.h"
 #include "vantage/progress.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::solid {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::internal::solid {
 

@@ -11,7 +11,7 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
                           SpheresReport* report, const StageSink& stages, const Progress& progress);
 
 /// As visibility_sphere.
-VANTAGE_INTERNAL_API Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                                            depth::DepthRenderer& renderer, const Progress& progress);
+Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
+                       depth::DepthRenderer& renderer, const Progress& progress);
 
 }  // namespace vantage::internal::spheres

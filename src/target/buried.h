@@ -6,8 +6,8 @@
 
 #include "scene/prepared_data.h"
 #include "target/lengths.h"
+#include "vantage/error.h"
 #include "vantage/target.h"
-#include "vantage/warning.h"
 
 namespace vantage::internal::target {
 

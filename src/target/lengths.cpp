@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "target/numerics.h"
-
 namespace vantage::internal::target {
 namespace {
 
@@ -24,10 +22,6 @@ Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, d
   const double small = std::min(1.0, max_range / numerics::kFullRange);
   const double clear = std::max(numerics::kClear * small, 4 * slack);
   return {rounding, slack, clear, std::max(numerics::kMaxLift * small, 4 * clear)};
-}
-
-double min_useful_depth(double max_range) {
-  return numerics::kMinUsefulDepth * std::min(1.0, max_range / numerics::kFullRange);
 }
 
 }  // namespace vantage::internal::target

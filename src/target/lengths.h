@@ -1,7 +1,11 @@
 // Lengths that go with the size of the world: the caps of numerics.h, less where the world is small.
 #pragma once
 
+#include <algorithm>
+
 #include "scene/prepared_data.h"
+#include "target/numerics.h"
+#include "vantage/export.h"
 #include "vantage/target.h"
 
 namespace vantage::internal::target {
@@ -16,9 +20,11 @@ struct Lengths {
 };
 
 /// The frame's polygon has at least 3 vertices. `max_range` is positive.
-Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range);
+VANTAGE_INTERNAL_API Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range);
 
 /// A volume that ends this close to the target is of no use to anyone: the view is blocked at once.
-double min_useful_depth(double max_range);
+inline double min_useful_depth(double max_range) {
+  return numerics::kMinUsefulDepth * std::min(1.0, max_range / numerics::kFullRange);
+}
 
 }  // namespace vantage::internal::target

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scene/prepared_data.h"
+#include "vantage/error.h"
 #include "vantage/target.h"
-#include "vantage/warning.h"
 
 namespace vantage::internal::target {
 

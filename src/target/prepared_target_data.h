@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "target/point_target.h"
-#include "vantage/prepared_target.h"
-#include "vantage/warning.h"
+#include "vantage/error.h"
+#include "vantage/target.h"
 
 namespace vantage {
 

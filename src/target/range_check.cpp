@@ -4,10 +4,6 @@
 
 namespace vantage::internal::target {
 
-bool can_reach(const TargetFrame& frame, const Sensor& sensor) {
-  return frame.enclosing_radius_m * (1 + 1e-9) < range_limit_m(sensor);
-}
-
 void set_out_of_range(const TargetFrame& frame, const Sensor& sensor, Volume& volume) {
   volume.outcome = Outcome::out_of_range;
   volume.reason = "no point within " + core::metres_text(range_limit_m(sensor)) +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/plane.h"
+#include "vantage/export.h"
 #include "vantage/target.h"
 
 namespace vantage::internal::target {
@@ -79,6 +80,6 @@ class RangeRegion {
 
 /// Moves the frame's origin inside every ball. The centre of the smallest enclosing circle always is, but may lie on
 /// the target's outline, so the origin keeps as far from it as the range allows. The range exceeds the circle's radius.
-void move_into_range(TargetFrame& frame, double max_range);
+VANTAGE_INTERNAL_API void move_into_range(TargetFrame& frame, double max_range);
 
 }  // namespace vantage::internal::target

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "verify/closed_mesh.h"
 #include "verify/ground_probe.h"
 #include "verify/obstacle_probe.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "verify/box_index.h"
 
 namespace vantage::internal::verify {

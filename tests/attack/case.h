@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/scene.h"
 #include "vantage/sensor.h"
 #include "vantage/target.h"

@@ -6,8 +6,7 @@
 
 #include "mesh_case.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 #include "vantage/volume.h"
 
 namespace attack {

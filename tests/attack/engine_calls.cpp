@@ -5,11 +5,11 @@
 #include <fstream>
 #include <numbers>
 
-#include "vantage/compare.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 #include "vantage/scene_source.h"
+#include "vantage/solid.h"
+#include "vantage/volume.h"
 
 namespace attack {
 namespace {

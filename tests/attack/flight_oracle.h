@@ -12,8 +12,8 @@
 
 #include "flight_rooms.h"
 #include "trial.h"
-#include "vantage/leg_query.h"
 #include "vantage/mission.h"
+#include "vantage/query.h"
 
 namespace attack {
 
@@ -28,7 +28,7 @@ class OneTarget {
  public:
   OneTarget(const vantage::Scene& scene, const vantage::PreparedTarget& prepared);
 
-  /// Why not all of it is seen from there, whatever the guarantee excepts (vantage/leg_query.h); empty: it is not sure.
+  /// Why not all of it is seen from there, whatever the guarantee excepts (vantage/query.h); empty: it is not sure.
   std::string surely_not_seen(const Vec3& position, double rounding_m) const;
   /// Whether all of it is seen with some room: neither a place `aside_m` beside nor an outline larger by that changes
   /// it. `link_share`: of the zone of a link, that must be free.

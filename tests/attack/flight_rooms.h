@@ -7,7 +7,7 @@
 
 #include "closed_mesh.h"
 #include "seen_target.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/sensor.h"
 
 namespace attack {

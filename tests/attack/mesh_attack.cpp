@@ -10,7 +10,7 @@
 
 #include "isolated.h"
 #include "mesh_judge.h"
-#include "vantage/threads.h"
+#include "vantage/progress.h"
 
 namespace attack {
 namespace {

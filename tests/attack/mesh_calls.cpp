@@ -8,8 +8,8 @@
 #include "mesh_case.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
-#include "vantage/prepared_target.h"
 #include "vantage/query.h"
+#include "vantage/target.h"
 
 namespace attack {
 namespace {

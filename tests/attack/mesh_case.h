@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "random.h"
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/prove.h"
 #include "vantage/scene.h"
 #include "vantage/sensor.h"

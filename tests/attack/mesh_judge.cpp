@@ -8,7 +8,7 @@
 
 #include "closed_mesh.h"
 #include "exact.h"
-#include "vantage/prepared_target.h"
+#include "vantage/target.h"
 
 namespace attack {
 namespace {

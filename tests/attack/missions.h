@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 #include "vantage/scene.h"
 
 namespace attack {

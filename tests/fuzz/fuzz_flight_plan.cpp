@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace {
 

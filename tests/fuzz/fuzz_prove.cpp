@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "fuzz/bytes.h"
-#include "vantage/certificate.h"
 #include "vantage/prove.h"
 #include "vantage/target.h"
 

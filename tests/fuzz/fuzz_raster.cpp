@@ -5,7 +5,7 @@
 
 #include "fuzz/bytes.h"
 #include "fuzz/files.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage::fuzzing {
 namespace {

@@ -15,7 +15,7 @@
 #include "fuzz/files.h"
 #include "vantage/error.h"
 #include "vantage/geometry.h"
-#include "vantage/tour_certificate.h"
+#include "vantage/mission_tour.h"
 
 namespace vantage::fuzzing {
 namespace {

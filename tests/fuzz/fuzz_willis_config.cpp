@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "vantage/error.h"
-#include "vantage/willis.h"
+#include "vantage/spheres.h"
 
 namespace {
 

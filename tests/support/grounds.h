@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "support/random.h"
-#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage::testing {

@@ -7,7 +7,7 @@
 
 #include "support/random.h"
 #include "support/scenes.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::testing {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "support/solids.h"
-#include "vantage/navigation.h"
 #include "vantage/prove.h"
+#include "vantage/volume.h"
 
 namespace vantage::testing {
 

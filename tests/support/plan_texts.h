@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/flight_plan.h"
-#include "vantage/input.h"
+#include "common/input.h"
+#include "vantage/flight.h"
 
 namespace vantage::testing::plan_texts {
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "vantage/error.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 

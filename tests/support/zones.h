@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "vantage/constraints.h"
+#include "vantage/navigation.h"
 
 namespace vantage::testing {
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
+#include "common/input.h"
 #include "flight/judge/judged_cells.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::judge {
 namespace {

@@ -5,13 +5,13 @@
 #include <string_view>
 #include <utility>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "flight/judge/judged_proofs.h"
 #include "flight/judge/region_file.h"
 #include "vantage/error.h"
-#include "vantage/hash.h"
-#include "vantage/input.h"
-#include "vantage/tour_certificate.h"
+#include "vantage/mission_tour.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 namespace internal::flight::judge {

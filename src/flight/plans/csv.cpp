@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "flight/plans/plan_source.h"
 #include "flight/plans/text_lines.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "flight/plans/kml.h"
 #include "flight/plans/point_details.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "flight/plans/point_details.h"
 #include "flight/plans/text_lines.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

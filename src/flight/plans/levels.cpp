@@ -2,9 +2,9 @@
 
 #include <string_view>
 
+#include "common/input.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 

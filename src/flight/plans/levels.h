@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::internal::flight::plans {
 

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "flight/plans/arcs.h"
 #include "flight/plans/ground_profile.h"
 #include "flight/plans/levels.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
-#include "vantage/input.h"
+#include "vantage/flight.h"
 
 namespace vantage {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "flight/plans/plan_writer.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage {
 namespace {

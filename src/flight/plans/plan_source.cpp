@@ -4,8 +4,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "common/input.h"
 #include "core/text.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

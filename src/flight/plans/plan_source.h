@@ -10,7 +10,7 @@
 
 #include "core/progress_reporter.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::internal::flight::plans {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include "common/atomic_file.h"
+#include "common/input.h"
 #include "core/format.h"
 #include "flight/plans/arcs.h"
-#include "vantage/atomic_file.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

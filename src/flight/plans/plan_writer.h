@@ -10,7 +10,7 @@
 
 #include "flight/plans/levels.h"
 #include "geo/local_frame.h"
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 
 namespace vantage::internal::flight::plans {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "flight/plans/text_lines.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "flight/plans/json_text.h"
 #include "flight/plans/mission_items.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

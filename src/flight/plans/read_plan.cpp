@@ -8,13 +8,13 @@
 #include <string_view>
 #include <system_error>
 
+#include "common/input.h"
 #include "core/progress_reporter.h"
 #include "flight/plans/plan_source.h"
 #include "flight/plans/text_lines.h"
 #include "io/zip.h"
 #include "vantage/error.h"
-#include "vantage/flight_plan.h"
-#include "vantage/input.h"
+#include "vantage/flight.h"
 
 namespace vantage {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "flight/plans/mission_items.h"
 #include "flight/plans/text_lines.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "core/text.h"
 #include "flight/plans/kml.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

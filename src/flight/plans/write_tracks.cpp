@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/input.h"
 #include "flight/plans/plan_writer.h"
 #include "flight/plans/point_details.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::flight::plans {
 namespace {

@@ -1,5 +1,3 @@
-#include "vantage/fewest_positions.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,7 +11,8 @@
 #include "flight/tour/covering.h"
 #include "flight/tour/position_search.h"
 #include "vantage/error.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
+#include "vantage/tour.h"
 
 namespace vantage {
 namespace {

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "common/output.h"
 #include "core/format.h"
 #include "flight/tour/tour_certificate.h"
 #include "flight/tour/tour_region.h"
 #include "scene/viewpoint_check.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
-#include "vantage/leg_query.h"
-#include "vantage/output.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::flight::tour {
 namespace {

@@ -3,12 +3,11 @@
 
 #include <filesystem>
 
-#include "vantage/constraints.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
+#include "vantage/navigation.h"
 #include "vantage/scene.h"
 #include "vantage/tour.h"
-#include "vantage/tour_settings.h"
 
 namespace vantage::internal::flight::tour {
 

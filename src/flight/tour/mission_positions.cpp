@@ -7,8 +7,8 @@
 
 #include "flight/tour/tour_region.h"
 #include "vantage/error.h"
-#include "vantage/outer.h"
 #include "vantage/query.h"
+#include "vantage/result.h"
 
 namespace vantage::internal::flight::tour {
 namespace {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "vantage/fewest_positions.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
 #include "vantage/mission_tour.h"

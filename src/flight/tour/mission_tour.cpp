@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/known_data.h"
 #include "core/format.h"
 #include "core/text.h"
 #include "flight/gimbal.h"
@@ -16,10 +17,9 @@
 #include "flight/tour/tour_region.h"
 #include "flight/tour/tour_views.h"
 #include "vantage/error.h"
-#include "vantage/known_data.h"
-#include "vantage/navigation.h"
-#include "vantage/outer.h"
-#include "vantage/solid_index.h"
+#include "vantage/result.h"
+#include "vantage/solid.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "vantage/geometry.h"
-#include "vantage/outer.h"
+#include "vantage/result.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::flight::tour {

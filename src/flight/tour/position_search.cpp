@@ -10,7 +10,7 @@
 #include "flight/tour/common_point.h"
 #include "flight/tour/tour_random.h"
 #include "flight/tour/tour_region.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 
 namespace vantage::internal::flight::tour {
 namespace {

@@ -11,9 +11,9 @@
 #include "core/stopwatch.h"
 #include "flight/solid_depth.h"
 #include "flight/tour/covering.h"
-#include "vantage/fewest_positions.h"
 #include "vantage/geometry.h"
-#include "vantage/solid_index.h"
+#include "vantage/solid.h"
+#include "vantage/tour.h"
 
 namespace vantage::internal::flight::tour {
 

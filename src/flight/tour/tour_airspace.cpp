@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "vantage/error.h"
-#include "vantage/leg_query.h"
+#include "vantage/query.h"
 #include "vantage/tour.h"
 
 namespace vantage {

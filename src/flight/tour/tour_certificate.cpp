@@ -11,9 +11,9 @@
 #include <utility>
 #include <variant>
 
-#include "vantage/atomic_file.h"
-#include "vantage/hash.h"
-#include "vantage/output.h"
+#include "common/atomic_file.h"
+#include "common/output.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::flight::tour {
 namespace {

@@ -1,7 +1,7 @@
 // Where a plan of a tour takes its photos.
 #pragma once
 
-#include "vantage/flight_plan.h"
+#include "vantage/flight.h"
 #include "vantage/mission_tour.h"
 
 namespace vantage::internal::flight::tour {

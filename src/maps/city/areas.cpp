@@ -1,17 +1,16 @@
 // read_areas: the areas of a map that can be targets.
-#include "vantage/areas.h"
-
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string_view>
 
+#include "common/input.h"
 #include "maps/city/footprint.h"
 #include "maps/city/region.h"
 #include "maps/city/structures.h"
 #include "maps/osm/extract.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

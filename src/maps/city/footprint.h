@@ -5,21 +5,19 @@
 #include <cstddef>
 #include <vector>
 
-#include "vantage/export.h"
+#include "app/providers/maps.h"
+#include "core/footprint.h"
 
 namespace vantage::internal::city {
 
 using Vec2 = Eigen::Vector2d;
-using Ring = std::vector<Vec2>;  ///< open: the first point is not repeated
+using core::Ring;
 
-/// A simple polygon with holes: metres in the scene frame, every coordinate a multiple of kGrid (so that buildings that
-/// share a node share a point). Rings do not cross themselves or each other; they may touch in single points, which
-/// `make_solid` sees to. No ring has fewer than 3 points, repeated points or points in the middle of a straight side
-/// closer to it than kGrid (but where sides would cross without them).
-struct Footprint {
-  Ring outer;               ///< counter-clockwise
-  std::vector<Ring> holes;  ///< clockwise
-};
+/// A simple polygon with holes, every coordinate a multiple of kGrid (so that buildings that share a node share a
+/// point). Rings do not cross themselves or each other; they may touch in single points, which `make_solid` sees to. No
+/// ring has fewer than 3 points, repeated points or points in the middle of a straight side closer to it than kGrid
+/// (but where sides would cross without them).
+using core::Footprint;
 
 constexpr double kGrid = 1.0 / 8192;  ///< metres: far below what OpenStreetMap stores (1e-7 degrees: 11 mm)
 
@@ -51,15 +49,10 @@ std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double 
 /// (triangulated, then joined while convex: Hertel and Mehlhorn, 1983). One when the footprint is convex without holes.
 std::vector<Ring> convex_pieces(const Footprint& footprint);
 
-struct ConvexArea {
-  Ring outer;
-  std::vector<Ring> pieces;  ///< convex_pieces
-};
+using app::ConvexArea;
+using app::Outlines;
 
-/// What state outlines are in.
-enum class Outlines { clean, rough };
-
-/// The pieces of footprints; rough ones are cleaned first, which may leave nothing.
-VANTAGE_INTERNAL_API std::vector<ConvexArea> convex_areas(const std::vector<Footprint>& footprints, Outlines state);
+/// The convex_pieces of footprints; rough ones are cleaned first, which may leave nothing.
+std::vector<ConvexArea> convex_areas(const std::vector<Footprint>& footprints, Outlines state);
 
 }  // namespace vantage::internal::city

@@ -5,6 +5,7 @@
 
 #include "core/format.h"
 #include "maps/terrain/height_grid.h"
+#include "maps/terrain/triangulate.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -35,10 +36,10 @@ Ground Ground::from_file(const std::filesystem::path& file, const geo::LocalFram
   return ground;
 }
 
-terrain::TriangulatedTerrain::Range Ground::range(const std::vector<Footprint>& footprints) const {
+scene::TriangulatedTerrain::Range Ground::range(const std::vector<Footprint>& footprints) const {
   if (!surface_) return {0, 0};
   const double infinity = std::numeric_limits<double>::infinity();
-  terrain::TriangulatedTerrain::Range all{infinity, -infinity};
+  scene::TriangulatedTerrain::Range all{infinity, -infinity};
   for (const Footprint& footprint : footprints) {
     const auto range = surface_->range(footprint.outer);
     if (!range) {

@@ -8,7 +8,7 @@
 
 #include "geo/local_frame.h"
 #include "maps/city/footprint.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "scene/triangulated_terrain.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 
@@ -24,7 +24,7 @@ class Ground {
                           const Progress& progress);
 
   /// Of the ground under some footprints (at least one), z in metres.
-  terrain::TriangulatedTerrain::Range range(const std::vector<Footprint>& footprints) const;
+  scene::TriangulatedTerrain::Range range(const std::vector<Footprint>& footprints) const;
   double height(const Vec2& at) const;
 
   const Mesh& mesh() const;             ///< counter-clockwise seen from above
@@ -32,7 +32,7 @@ class Ground {
 
  private:
   Mesh plane_;
-  std::optional<terrain::TriangulatedTerrain> surface_;
+  std::optional<scene::TriangulatedTerrain> surface_;
   std::string vertical_;
 };
 

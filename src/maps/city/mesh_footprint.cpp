@@ -12,7 +12,7 @@
 #include "core/edges.h"
 #include "maps/city/clipping.h"
 #include "maps/city/grid_polygon.h"
-#include "vantage/footprint.h"
+#include "vantage/solid.h"
 
 namespace vantage {
 namespace {

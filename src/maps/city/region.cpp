@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/format.h"
-#include "geo/longitudes.h"
+#include "maps/osm/longitude_span.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -126,7 +126,7 @@ void for_corners(const osm::Extract& extract, const Visit& visit) {
 }
 
 Bounds areas_bounds(const osm::Extract& extract) {
-  geo::LongitudeSpan span;
+  osm::LongitudeSpan span;
   double south = 90, north = -90;
   for_corners(extract, [&](LonLat at) {
     span.add(at.longitude_deg);

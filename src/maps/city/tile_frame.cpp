@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "geo/longitudes.h"
+#include "common/input.h"
+#include "maps/osm/longitude_span.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -88,7 +88,7 @@ std::array<double, 4> degrees_round(const PlanBounds& bounds, const geo::LocalFr
     throw Error(ErrorCode::not_applicable, "a map round a pole cannot be cut into tiles", "tiles",
                 "build the map in one piece");
   }
-  geo::LongitudeSpan longitudes;
+  osm::LongitudeSpan longitudes;
   double low = 90, high = -90;
   for_samples([&](double s, double t) {
     const geo::LonLat at = frame.to_lonlat(larger.min + Vec2(s, t).cwiseProduct(larger.max - larger.min));

@@ -9,18 +9,17 @@
 // middle of its bounds is in the square, and is no larger than the square: it reaches beyond it by half a side. A group
 // comes within reach, then, only if its square comes within half a diagonal more than that; the square is a diagonal
 // across; and each polygon has a place within half a diagonal of the middle of its bounds. Two diagonals in all.
-#include "vantage/tiles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "common/input.h"
 #include "core/group_side.h"
 #include "maps/city/region.h"
 #include "maps/city/tile_frame.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
-#include "vantage/input.h"
 
 namespace vantage {
 namespace {

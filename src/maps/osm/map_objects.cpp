@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "geo/longitudes.h"
+#include "maps/osm/longitude_span.h"
 #include "maps/osm/meaning.h"
 
 namespace vantage::internal::osm {
@@ -210,7 +210,7 @@ class Loader {
   Versions<Entry> way_versions_, relation_versions_;
   std::vector<Kept> kept_points_, kept_ways_, kept_relations_;
   std::vector<std::int64_t> member_ways_;  // by id
-  geo::LongitudeSpan longitudes_;
+  LongitudeSpan longitudes_;
   double south_ = std::numeric_limits<double>::infinity(), north_ = -std::numeric_limits<double>::infinity();
   osmium::item_type previous_type_ = osmium::item_type::undefined;
   std::int64_t previous_id_ = 0;

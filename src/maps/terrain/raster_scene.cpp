@@ -11,9 +11,9 @@
 #include "maps/terrain/post_positions.h"
 #include "maps/terrain/tin.h"
 #include "maps/terrain/tin_mesh.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "vantage/error.h"
-#include "vantage/terrain.h"
+#include "vantage/ground.h"
 
 namespace vantage::internal::terrain {
 namespace {

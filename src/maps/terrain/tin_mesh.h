@@ -5,7 +5,7 @@
 
 #include "core/progress_reporter.h"
 #include "maps/terrain/tin.h"
-#include "maps/terrain/triangulated_terrain.h"
+#include "maps/terrain/triangulate.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::terrain {

@@ -1,3 +1,5 @@
+#include "maps/terrain/triangulate.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,6 @@
 #include "maps/terrain/post_positions.h"
 #include "maps/terrain/tin.h"
 #include "maps/terrain/tin_mesh.h"
-#include "maps/terrain/triangulated_terrain.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::terrain {

@@ -1,5 +1,5 @@
-// Missions in a build without solid, maps and depth: they are read, written and run, and what needs one of these is
-// refused.
+// Missions in a program without the libraries for maps and pictures: they are read, written and run, and what needs one
+// of these is refused.
 #include <cstdio>
 #include <string>
 
@@ -9,15 +9,15 @@
 
 namespace {
 
-/// Whether running a mission is refused for want of `component`.
-bool is_refused(const std::string& text, const std::string& folder, const std::string& component) try {
+/// Whether running a mission is refused for want of `library`.
+bool is_refused(const std::string& text, const std::string& folder, const std::string& library) try {
   vantage::run_mission(vantage::resolve_mission(vantage::read_mission_text(text, folder + "/mission.yaml")));
-  std::printf("%s is not missed\n", component.c_str());
+  std::printf("%s is not missed\n", library.c_str());
   return false;
 } catch (const vantage::Error& error) {
-  const bool names_it = error.problem().find("'" + component + "'") != std::string::npos;
+  const bool names_it = error.problem().find("'" + library + "'") != std::string::npos;
   if (error.code() == vantage::ErrorCode::component_missing && names_it) return true;
-  std::printf("instead of the lack of %s: %s\n", component.c_str(), error.what());
+  std::printf("instead of the lack of %s: %s\n", library.c_str(), error.what());
   return false;
 }
 
@@ -37,13 +37,11 @@ int main(int argc, char** argv) try {
   vantage::write_results(result.volume, vantage::result_request(mission, result, {argv[2]}));
   if (vantage::read_volume(argv[2]).volume.mesh.triangles.size() != result.volume.mesh.triangles.size()) return 1;
 
-  const std::string parts =
-      "target: {parts: [[[-4, -4, 0], [4, -4, 0], [4, 4, 0], [-4, 4, 0]], [[4, -4, 0], [8, -4, 0], [8, 4, 0]]]}\n";
   const bool all_refused =
-      is_refused(start + parts, folder, "solid") &&
-      is_refused(start + square + "navigation: {altitude: [3, 50]}\n", folder, "solid") &&
-      is_refused(start + square + "method: spheres\n", folder, "depth") &&
-      is_refused("scene: {osm: ../town/town.osm}\nsensor: {max_range: 40}\n" + square, folder, "maps");
+      is_refused(start + square + "method: spheres\n", folder, "vantage_picture") &&
+      is_refused("scene: {osm: ../town/town.osm}\nsensor: {max_range: 40}\n" + square, folder, "vantage_maps") &&
+      is_refused("scene: {raster: plaza.obj}\nsensor: {max_range: 40}\n" + square, folder, "vantage_maps") &&
+      is_refused(start + "target: {outline: [[0, 0], [4, 0], [4, 4]]}\n", folder, "vantage_maps");
   return all_refused ? 0 : 1;
 } catch (const vantage::Error& error) {
   std::puts(error.what());

@@ -1,0 +1,57 @@
+// Results on the disk: found out before a long computation whether they can be written, and written all or none.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/atomic_file.h"
+#include "vantage/export.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+/// Throws Error(output or input) unless a file can be made at `file`: its folder exists and takes new files, `file` is
+/// no folder and no device, and an existing file is not write-protected.
+VANTAGE_API void check_can_write(const std::filesystem::path& file);
+
+/// For a file whose name was not given, but follows from that of an output ("volume.report.json" of "volume.ply"):
+/// check_can_write, and Error(input) where a file of that name is there that vantage did not write. It is known by what
+/// vantage writes first, to the letter and with a version: the first comment of PLY and OBJ, the header of STL, the
+/// generator of GLB, the software of PNG; the columns of a table, the keys of a report and of a place file. Cost: reads
+/// a JSON file of up to 64 MB, and the first 64 KiB of another one.
+VANTAGE_API void check_derived_output(const std::filesystem::path& file);
+
+/// What chooses the format: the extension in lower case, ".ply".
+VANTAGE_API std::string format_extension(const std::filesystem::path& file);
+
+/// check_can_write, and the extension must be one that write_volume knows. Of a format with a file beside it
+/// ("volume.stl.place.json") check_derived_output of that, too.
+VANTAGE_API void check_volume_output(const std::filesystem::path& file);
+
+/// Throws Error(input) if `output` is one of the `inputs`: writing it would destroy what it was made from.
+VANTAGE_API void check_not_an_input(const std::filesystem::path& output,
+                                    const std::vector<std::filesystem::path>& inputs);
+
+/// A volume that is written but not in place yet: give the files to commit_all.
+struct StagedVolume {
+  std::vector<std::unique_ptr<AtomicFile>> files;  ///< the volume's first; for STL the one beside it too
+  WrittenVolume report;
+};
+
+/// Does all that write_volume does but the last step. Throws as write_volume does.
+VANTAGE_API StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file,
+                                      UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
+
+/// A scene that is written but not in place yet: give the files to commit_all.
+struct StagedScene {
+  std::vector<std::unique_ptr<AtomicFile>> files;  ///< the scene's first; for STL the one beside it too
+  double rounding_m = 0;                           ///< what write_scene returns
+};
+
+/// Does all that write_scene does but the last step. Throws as write_scene does.
+VANTAGE_API StagedScene stage_scene(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace vantage
