@@ -101,13 +101,13 @@ const bool registered = [] {
   add_cut("zone", [](Navigation& navigation) {
     Zone zone;
     zone.outer = {{-150, -150}, {150, -150}, {150, 150}, {0, 20}, {-150, 150}};
-    navigation.keep_in_zones = {zone};
+    navigation.keep_in = {zone};
   });
   add_cut("zone_agl", [](Navigation& navigation) {
     Zone zone;
     zone.outer = {{-150, -150}, {150, -150}, {150, 150}, {0, 20}, {-150, 150}};
     zone.above_ground = {20, 120, *ground_of(slope()->city.scene)};
-    navigation.keep_in_zones = {zone};
+    navigation.keep_in = {zone};
   });
   add_cut("clearance", [](Navigation& navigation) { navigation.clearance = {10, obstacles_of(slope()->city.scene)}; });
   return true;

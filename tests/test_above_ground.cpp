@@ -159,7 +159,7 @@ TEST(AboveGround, ZonesHaveHeightsToo) {
         for (const bool is_kept : {true, false}) {
           SCOPED_TRACE(::testing::Message() << origin.x() << has_bridge << min_m << is_kept);
           Navigation navigation;
-          (is_kept ? navigation.keep_in_zones : navigation.keep_out_zones) = {zone};
+          (is_kept ? navigation.keep_in : navigation.keep_out) = {zone};
           const Volume dome = make_hemisphere(origin, 60);
           const Volume cut = cut_to_navigation(dome, navigation);
           ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
@@ -322,7 +322,7 @@ TEST(AboveGround, VerifyJudgesZones) {
   for (const bool is_kept : {true, false}) {
     const auto with_heights = [&](double min_m, double max_m) {
       Navigation navigation;
-      Zone& added = (is_kept ? navigation.keep_in_zones : navigation.keep_out_zones).emplace_back(zone);
+      Zone& added = (is_kept ? navigation.keep_in : navigation.keep_out).emplace_back(zone);
       added.above_ground = {min_m, max_m, world.navigation.above_ground->ground};
       return navigation;
     };

@@ -80,7 +80,7 @@ TEST(FacetPolygons, HideTheTargetBeyondTheFacet) {
 
     Navigation limits;
     limits.altitude = {2, 30};
-    limits.keep_out = {{Vec3(10, 10, 0), Vec3(25, 30, 40)}};
+    limits.keep_out = {Box{Vec3(10, 10, 0), Vec3(25, 30, 40)}};
     facets += check(cut_to_navigation(volume, limits), scene, {target});
   }
   EXPECT_GT(facets, 500U);

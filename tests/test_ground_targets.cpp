@@ -202,7 +202,7 @@ TEST_F(GroundTargetTest, BoxesHoldWithSidesThatCurve) {
                                  ", width: 4, length: 6}\ncrs: EPSG:4326\nnavigation:\n"
                                  "  boxes: [{min: [11.52, 48.13, 1], max: [11.63, 48.145, 80]}]\n"
                                  "  keep_out: [{min: [11.52, 48.13, 1], max: [11.63, 48.145, 80]}]\n");
-  const Box &in = mission.navigation.keep_in.at(0), &out = mission.navigation.keep_out.at(0);
+  const Box in = mission.navigation.keep_in.at(0).box(), out = mission.navigation.keep_out.at(0).box();
   const double ends = frame.to_local({11.52, 48.145}).y(), middle = frame.to_local({kOrigin.longitude_deg, 48.145}).y();
   EXPECT_GT(ends - middle, 1);
   EXPECT_LE(in.max.y(), middle);

@@ -84,8 +84,8 @@ Navigation some_navigation(Random& random, const LegWorld& world, Kind kind) {
       wide.above_ground = above_in(world, ground, 2, 30);
       bent.above_ground = above_in(world, ground, 4, INFINITY);
     }
-    navigation.keep_in_zones = {zone_in(world, wide), zone_in(world, testing::zone_of(kBent, 0, 60, "kept"))};
-    navigation.keep_out_zones = {zone_in(world, with_hole), zone_in(world, bent)};
+    navigation.keep_in = {zone_in(world, wide), zone_in(world, testing::zone_of(kBent, 0, 60, "kept"))};
+    navigation.keep_out = {zone_in(world, with_hole), zone_in(world, bent)};
   }
   if (kind == Kind::ground) navigation.above_ground = above_in(world, some_ground(random), 3, 20);
   if (kind == Kind::mesh) {
@@ -407,7 +407,7 @@ TEST(LegLimits, SensorsAgreeWithPointsOfTheTube) {
 TEST(LegLimits, KnowsAmountsAndPlaces) {
   Navigation navigation;
   navigation.altitude = {10, 50};
-  navigation.keep_out = {{Vec3(20, -5, 0), Vec3(30, 5, 100)}};
+  navigation.keep_out = {Box{Vec3(20, -5, 0), Vec3(30, 5, 100)}};
   navigation.above_ground = {5, 100, Ground{8, {}}};
   const LegLimits limits(navigation);
   const std::vector<LegBreak> breaks = limits.broken({{0, 0, 4}, {100, 0, 54}});
@@ -443,7 +443,7 @@ TEST(LegLimits, KnowsHowFarItIsInAZoneAboveGround) {
   zone.name = "low";
   zone.outer = {{-30, -30}, {30, -30}, {30, 30}, {-30, 30}};
   zone.above_ground = AboveGround{0, 20, Ground{8, {}}};
-  navigation.keep_out_zones = {zone};
+  navigation.keep_out = {zone};
   const std::vector<LegBreak> breaks = LegLimits(navigation).broken({{-60, 0, 27}, {60, 0, 27}});
   ASSERT_EQ(breaks.size(), 1U);
   EXPECT_NEAR(breaks[0].worst, 1, 1e-9);
@@ -453,11 +453,11 @@ TEST(LegLimits, KnowsHowFarItIsInAZoneAboveGround) {
 TEST(LegLimits, AllowsBorders) {
   Navigation navigation;
   navigation.altitude = {30, 120};
-  navigation.keep_in = {{Vec3(-100, -100, 0), Vec3(100, 100, 200)}};
-  navigation.keep_out = {{Vec3(0, 50, 0), Vec3(50, 100, 200)}};
+  navigation.keep_in = {Box{Vec3(-100, -100, 0), Vec3(100, 100, 200)}};
+  navigation.keep_out = {Box{Vec3(0, 50, 0), Vec3(50, 100, 200)}};
   const Mesh flat = testing::make_box_mesh({-200, -200, -1}, {200, 200, 0});
   navigation.above_ground = {30, 120, Ground{0, std::make_shared<const Mesh>(flat)}};
-  navigation.keep_out_zones = {testing::zone_of({{-80, -80}, {-40, -80}, {-40, -40}}, 0, 30, "low")};
+  navigation.keep_out.push_back(testing::zone_of({{-80, -80}, {-40, -80}, {-40, -40}}, 0, 30, "low"));
   const LegLimits limits(navigation);
   // The flat box has a floor as well: the lowest piece of ground is 1 m down.
   for (const Leg& leg : {Leg{{-100, -100, 30}, {100, 50, 30}}, Leg{{-100, 50, 30}, {100, 50, 30}},

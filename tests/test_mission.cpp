@@ -95,10 +95,10 @@ exact: {tolerance: 0.02}
   EXPECT_EQ(mission.navigation.altitude->min_m, -20);
   EXPECT_EQ(mission.navigation.altitude->max_m, 120);
   ASSERT_EQ(mission.navigation.keep_in.size(), 2U);
-  EXPECT_EQ(mission.navigation.keep_in[0].max, Vec3(3, 4, 5));
-  EXPECT_EQ(mission.navigation.keep_in[1].min, Vec3(.5, .5, .5));
+  EXPECT_EQ(mission.navigation.keep_in[0].box().max, Vec3(3, 4, 5));
+  EXPECT_EQ(mission.navigation.keep_in[1].box().min, Vec3(.5, .5, .5));
   ASSERT_EQ(mission.navigation.keep_out.size(), 1U);
-  EXPECT_EQ(mission.navigation.keep_out[0].min, Vec3(6, 7, 8));
+  EXPECT_EQ(mission.navigation.keep_out[0].box().min, Vec3(6, 7, 8));
   EXPECT_EQ(mission.exact.tolerance_m, 0.02);
 
   ASSERT_EQ(mission.navigation_meshes.size(), 3U);
@@ -122,17 +122,21 @@ TEST(Mission, OfSeveralPolygons) {
 }
 
 // What is written reads back as the same text: nothing that a mission says is lost.
-void expect_same_boxes(const std::vector<Box>& found, const std::vector<Box>& expected) {
+void expect_same_zones(const std::vector<Zone>& found, const std::vector<Zone>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_EQ(found[i].min, expected[i].min);
-    EXPECT_EQ(found[i].max, expected[i].max);
+    EXPECT_EQ(found[i].outer, expected[i].outer);
+    EXPECT_EQ(found[i].holes, expected[i].holes);
+    EXPECT_EQ(found[i].min_z_m, expected[i].min_z_m);
+    EXPECT_EQ(found[i].max_z_m, expected[i].max_z_m);
+    EXPECT_EQ(found[i].name, expected[i].name);
+    EXPECT_EQ(found[i].is_box, expected[i].is_box);
   }
 }
 
 // All members are named: a limit that is added does not compile here before it is compared.
 void expect_same_limits(const Navigation& found, const Navigation& expected) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = found;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = found;
   ASSERT_EQ(above_ground.has_value(), expected.above_ground.has_value());
   if (above_ground) {
     EXPECT_EQ(above_ground->min_m, expected.above_ground->min_m);
@@ -147,8 +151,8 @@ void expect_same_limits(const Navigation& found, const Navigation& expected) {
     EXPECT_EQ(altitude->min_m, expected.altitude->min_m);
     EXPECT_EQ(altitude->max_m, expected.altitude->max_m);
   }
-  expect_same_boxes(keep_in, expected.keep_in);
-  expect_same_boxes(keep_out, expected.keep_out);
+  expect_same_zones(keep_in, expected.keep_in);
+  expect_same_zones(keep_out, expected.keep_out);
   EXPECT_EQ(meshes.size(), expected.meshes.size());
 }
 
@@ -494,7 +498,7 @@ TEST(MissionUnits, AreUnderstood) {
   EXPECT_EQ(mission.navigation.altitude->max_m, 1609.344);
   EXPECT_NEAR(*mission.ground->plane_z_m, 3.6576, 1e-15);
   EXPECT_EQ(mission.navigation.clearance->distance_m, 3.048);
-  EXPECT_EQ(mission.navigation.keep_out_zones[0].max_z_m, 121.92);
+  EXPECT_EQ(mission.navigation.keep_out[0].max_z_m, 121.92);
   EXPECT_EQ(mission.exact.tolerance_m, 0.005);
   // In JSON a number with a unit has to be in quotes.
   const MissionFile json =

@@ -40,7 +40,7 @@ TEST(MissionBoxes, KeepInLiesWithinCurvedSidesAndKeepOutRoundThem) {
   const Mission mission =
       placed("crs: EPSG:4326\ntarget: {center: [70, 11], width: 5, length: 5}\nnavigation:\n  boxes: [" + box_text() +
              "]\n  keep_out: [" + box_text() + "]\n");
-  const Box &keep = mission.navigation.keep_in.at(0), &avoid = mission.navigation.keep_out.at(0);
+  const Box keep = mission.navigation.keep_in.at(0).box(), avoid = mission.navigation.keep_out.at(0).box();
   const geo::LocalFrame frame(kNorth);
   constexpr double kRounding = 1e-7;  // degrees
   for (int k = 0; k <= 1000; ++k) {

@@ -188,7 +188,7 @@ TEST_F(MissionPlaces, LimitsInReferenceSystems) {
                               "}\nnavigation:\n  boxes: [{min: " + corner(low, 5) + ", max: " + corner(high, 60) +
                               "}]\n  keep_out: [{min: " + corner(out, 0) + ", max: " + corner(high, 30) + "}]\n");
   ASSERT_EQ(result.navigation.keep_in.size(), 1U);
-  const Box &keep = result.navigation.keep_in[0], &avoid = result.navigation.keep_out.at(0);
+  const Box keep = result.navigation.keep_in[0].box(), avoid = result.navigation.keep_out.at(0).box();
   EXPECT_NEAR((keep.min - Vec3(-40, -40, 5)).norm(), 0, 0.01);
   EXPECT_NEAR((keep.max - Vec3(40, 40, 60)).norm(), 0, 0.01);
   EXPECT_NEAR((avoid.min - Vec3(5, 5, 0)).norm(), 0, 0.01);
@@ -210,9 +210,9 @@ TEST_F(MissionPlaces, LimitsInDegreesNeedTheSystem) {
       EXPECT_NE(error.where().find("mission.yaml"), std::string::npos) << error.where();
     }
   }
-  EXPECT_EQ(placed(map_scene(), "crs: EPSG:4326\n" + target + "  keep_out: [" + polygon + "]\n")
-                .navigation.keep_out_zones.size(),
-            1U);
+  EXPECT_EQ(
+      placed(map_scene(), "crs: EPSG:4326\n" + target + "  keep_out: [" + polygon + "]\n").navigation.keep_out.size(),
+      1U);
 }
 
 // ---- targets by name ----

@@ -42,19 +42,20 @@ TEST(MissionZones, ReadsBoxesAndPolygonsFromOneList) {
       "{min: [0, 1, 2], max: [3, 4, 5]}]\n"
       "  keep_out: [{polygon: [[0, 0], [9, 0], [0, 9]], heights: any}]");
   const Navigation& navigation = mission.navigation;
-  ASSERT_EQ(navigation.keep_in.size(), 1u);
-  EXPECT_EQ(navigation.keep_in[0].max, Vec3(3, 4, 5));
-  ASSERT_EQ(navigation.keep_in_zones.size(), 1u);
-  const Zone& kept = navigation.keep_in_zones[0];
+  ASSERT_EQ(navigation.keep_in.size(), 2u);
+  EXPECT_TRUE(navigation.keep_in[1].is_box);
+  EXPECT_EQ(navigation.keep_in[1].box().max, Vec3(3, 4, 5));
+  EXPECT_EQ(navigation.keep_in[1].name, "1");
+  const Zone& kept = navigation.keep_in[0];
   EXPECT_EQ(kept.outer, (Zone::Ring{{0, 0}, {9, 0}, {5, 5}, {0, 9}}));
   ASSERT_EQ(kept.holes.size(), 1u);
   EXPECT_EQ(kept.holes[0][2], Eigen::Vector2d(1, 2));
   EXPECT_EQ(kept.min_z_m, -1);
   EXPECT_EQ(kept.max_z_m, 20);
   EXPECT_EQ(kept.name, "0");
-  ASSERT_EQ(navigation.keep_out_zones.size(), 1u);
-  EXPECT_EQ(navigation.keep_out_zones[0].min_z_m, -INFINITY);
-  EXPECT_EQ(navigation.keep_out_zones[0].max_z_m, INFINITY);
+  ASSERT_EQ(navigation.keep_out.size(), 1u);
+  EXPECT_EQ(navigation.keep_out[0].min_z_m, -INFINITY);
+  EXPECT_EQ(navigation.keep_out[0].max_z_m, INFINITY);
   const std::string place = "/data/mission.yaml:5:13";
   EXPECT_EQ(mission.places.keep_in_zones.at(0), place);
   EXPECT_FALSE(navigation.empty());
@@ -63,8 +64,9 @@ TEST(MissionZones, ReadsBoxesAndPolygonsFromOneList) {
 TEST(MissionZones, BoxesIsTheOldNameOfKeepIn) {
   const std::string box = "[{min: [0, 1, 2], max: [3, 4, 5]}]";
   const std::string polygon = "boxes: [{polygon: [[0, 0], [9, 0], [0, 9]], z: [0, 1]}]";
-  EXPECT_EQ(parsed("boxes: " + box).navigation.keep_in[0].min, parsed("keep_in: " + box).navigation.keep_in[0].min);
-  EXPECT_EQ(parsed(polygon).navigation.keep_in_zones.size(), 1u);
+  EXPECT_EQ(parsed("boxes: " + box).navigation.keep_in[0].box().min,
+            parsed("keep_in: " + box).navigation.keep_in[0].box().min);
+  EXPECT_EQ(parsed(polygon).navigation.keep_in.size(), 1u);
   expect_error([&] { parsed("keep_in: " + box + "\n  boxes: " + box); }, ErrorCode::conflicting_keys,
                "/data/mission.yaml:6:10");
 }
@@ -96,12 +98,12 @@ TEST(MissionZones, TextReadsBackAsTheSame) {
   const std::string text = mission_text(read, "/data");
   const MissionFile again = app::parse_mission(text, "/data/again.yaml");
   EXPECT_EQ(mission_text(again, "/data"), text);
-  ASSERT_EQ(again.navigation.keep_in_zones.size(), 1u);
-  EXPECT_EQ(again.navigation.keep_in_zones[0].outer, read.navigation.keep_in_zones[0].outer);
-  EXPECT_EQ(again.navigation.keep_in_zones[0].holes, read.navigation.keep_in_zones[0].holes);
-  EXPECT_EQ(again.navigation.keep_in_zones[0].max_z_m, 20.5);
-  ASSERT_EQ(again.navigation.keep_out_zones.size(), 1u);
-  EXPECT_EQ(again.navigation.keep_out_zones[0].max_z_m, INFINITY);
+  ASSERT_EQ(again.navigation.keep_in.size(), 1u);
+  EXPECT_EQ(again.navigation.keep_in[0].outer, read.navigation.keep_in[0].outer);
+  EXPECT_EQ(again.navigation.keep_in[0].holes, read.navigation.keep_in[0].holes);
+  EXPECT_EQ(again.navigation.keep_in[0].max_z_m, 20.5);
+  ASSERT_EQ(again.navigation.keep_out.size(), 1u);
+  EXPECT_EQ(again.navigation.keep_out[0].max_z_m, INFINITY);
 }
 
 TEST(MissionZones, EachNumberOfAZoneIsInTheHash) {
@@ -215,8 +217,8 @@ TEST(MissionZones, FollowTheCrs) {
       "keep_in: [{polygon: [[10.999, 47.999], [11.001, 47.999], [11.001, 48.001]], z: [5, 60]}]\n"
       "  keep_out: [{polygon: [[10.9995, 47.9995], [11.0005, 47.9995], [11, 48]], heights: any}]");
   const geo::LocalFrame frame({11, 48});
-  ASSERT_EQ(mission.navigation.keep_in_zones.size(), 1u);
-  const Zone& kept = mission.navigation.keep_in_zones[0];
+  ASSERT_EQ(mission.navigation.keep_in.size(), 1u);
+  const Zone& kept = mission.navigation.keep_in[0];
   const auto has_corner_near = [&](const Zone& zone, double longitude, double latitude) {
     const Eigen::Vector2d at = frame.to_local({longitude, latitude});
     return std::any_of(zone.outer.begin(), zone.outer.end(), [&](const auto& p) { return (p - at).norm() < 0.01; });
@@ -225,7 +227,7 @@ TEST(MissionZones, FollowTheCrs) {
   EXPECT_TRUE(has_corner_near(kept, 11.001, 48.001));
   EXPECT_EQ(kept.min_z_m, 5);
   EXPECT_EQ(kept.max_z_m, 60);
-  const Zone& out = mission.navigation.keep_out_zones.at(0);
+  const Zone& out = mission.navigation.keep_out.at(0);
   EXPECT_TRUE(has_corner_near(out, 11, 48));
   EXPECT_EQ(out.max_z_m, INFINITY);
 }

@@ -87,14 +87,14 @@ Zone moved(const Zone& zone, const Motion& motion) {
 
 // All members are named: a limit that is added does not compile here before it is moved, and drawn below.
 Navigation moved(const Navigation& navigation, const Motion& motion) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   Navigation result;
   if (altitude) result.altitude = {motion.of_z(altitude->min_m), motion.of_z(altitude->max_m)};
-  for (const Box& box : keep_in) result.keep_in.push_back(moved(box, motion));
-  for (const Zone& zone : keep_in_zones) result.keep_in_zones.push_back(moved(zone, motion));
-  for (const Box& box : keep_out) result.keep_out.push_back(moved(box, motion));
-  for (const Zone& zone : keep_out_zones) result.keep_out_zones.push_back(moved(zone, motion));
+  const auto any_moved = [&](const Zone& zone) {
+    return zone.is_box ? Zone(moved(zone.box(), motion)) : moved(zone, motion);
+  };
+  for (const Zone& zone : keep_in) result.keep_in.push_back(any_moved(zone));
+  for (const Zone& zone : keep_out) result.keep_out.push_back(any_moved(zone));
   for (const KeepInMesh& mesh : meshes) result.meshes.push_back({moved(mesh.mesh, motion), mesh.name});
   if (above_ground) result.above_ground = moved(*above_ground, motion);
   if (clearance) {
@@ -288,21 +288,21 @@ const std::vector<Limit>& limits() {
        }},
       {"keep_in", Turns::quarters, 0, true,
        [](World& w, Random& r) {
-         w.navigation.keep_in = {{r.point(-22, -2), r.point(4, 25)}, {r.point(-30, -20), r.point(-8, 9)}};
+         w.navigation.keep_in = {Box{r.point(-22, -2), r.point(4, 25)}, Box{r.point(-30, -20), r.point(-8, 9)}};
        }},
       {"keep_in zones", Turns::about_z, 0, true,
        [](World& w, Random& r) {
-         w.navigation.keep_in_zones = {draw_zone(r)};
-         w.navigation.keep_in_zones[0].holes = {{{-4, -3}, {6, -2}, {1, 5}}};
+         w.navigation.keep_in = {draw_zone(r)};
+         w.navigation.keep_in[0].holes = {{{-4, -3}, {6, -2}, {1, 5}}};
        }},
       {"keep_out", Turns::quarters, 0, true,
        [](World& w, Random& r) {
-         w.navigation.keep_out = {{r.point(-14, 2), r.point(5, 19)}};
+         w.navigation.keep_out = {Box{r.point(-14, 2), r.point(5, 19)}};
        }},
       {"keep_out zones", Turns::about_z, 0, false,  // there is no proof of heights above terrain
        [](World& w, Random& r) {
-         w.navigation.keep_out_zones = {draw_zone(r)};
-         w.navigation.keep_out_zones[0].above_ground = {2, r.uniform(9, 20), Ground{0, draw_terrain(r)}};
+         w.navigation.keep_out = {draw_zone(r)};
+         w.navigation.keep_out[0].above_ground = {2, r.uniform(9, 20), Ground{0, draw_terrain(r)}};
        }},
       {"meshes", Turns::all, 0, true,
        [](World& w, Random& r) {

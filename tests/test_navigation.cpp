@@ -160,8 +160,8 @@ TEST(Navigation, BoxCornersAreExact) {
     expect_sound(cut);
     const MeshMeasures measures = measure(cut.mesh);
     EXPECT_EQ(measures.vertices, 8u);
-    EXPECT_EQ(measures.bounds.min, navigation.keep_in[0].min);
-    EXPECT_EQ(measures.bounds.max, navigation.keep_in[0].max);
+    EXPECT_EQ(measures.bounds.min, navigation.keep_in[0].box().min);
+    EXPECT_EQ(measures.bounds.max, navigation.keep_in[0].box().max);
     ASSERT_EQ(cut.causes.size(), 1u);
     EXPECT_EQ(cut.causes[0].name, "box 0");
     EXPECT_NEAR(measures.volume_m3, 21.6 * 16 * 16.2, 1e-5);
@@ -236,8 +236,9 @@ TEST(Navigation, AllLimitsTogetherAgreeWithPointTests) {
     const unsigned seed = 3;
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> xy(-90, 90), z(0, 80);
-    const auto in_any = [&](const std::vector<Box>& boxes, const Vec3& p) {
-      for (const Box& b : boxes) {
+    const auto in_any = [&](const std::vector<Zone>& zones, const Vec3& p) {
+      for (const Zone& zone : zones) {
+        const Box b = zone.box();
         if ((p.array() >= b.min.array()).all() && (p.array() <= b.max.array()).all()) return true;
       }
       return false;
@@ -267,10 +268,10 @@ TEST(Navigation, NothingIsPushedOutward) {
   for (int i = 0; i < 20; ++i) {
     Navigation navigation = band(kUtm.z() + 10 + 8 * uniform(random), kUtm.z() + 30 + 8 * uniform(random));
     const Vec3 centre = kUtm + Vec3(40 * uniform(random), 40 * uniform(random), 20);
-    navigation.keep_in = {{centre - Vec3(30, 25, 40), centre + Vec3(30, 25, 40)}};
+    navigation.keep_in = {Box{centre - Vec3(30, 25, 40), centre + Vec3(30, 25, 40)}};
     const Volume cut = cut_to_navigation(dome, navigation);
     expect_sound(cut);
-    const Box& b = navigation.keep_in[0];
+    const Box b = navigation.keep_in[0].box();
     for (const Vec3& v : cut.mesh.vertices) {
       EXPECT_GE(v.z(), navigation.altitude->min_m);
       EXPECT_LE(v.z(), navigation.altitude->max_m);
@@ -324,7 +325,8 @@ Navigation random_limits(std::mt19937& random, const Volume& volume) {
 }
 
 bool within_limits(const Navigation& navigation, const Vec3& p) {
-  const auto in = [&](const Box& b) {
+  const auto in = [&](const Zone& zone) {
+    const Box b = zone.box();
     return (p.array() >= b.min.array()).all() && (p.array() <= b.max.array()).all();
   };
   if (navigation.altitude && (p.z() < navigation.altitude->min_m || p.z() > navigation.altitude->max_m)) return false;

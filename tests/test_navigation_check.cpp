@@ -67,8 +67,8 @@ std::vector<WrongLimit> wrong_limits() {
   band(kNaN, 5, ErrorCode::value_out_of_range);
   band(0, kInfinity, ErrorCode::value_out_of_range);
   const auto zone = [&](const Zone& wrong, ErrorCode code) {
-    add("keep_in_zones", code, [&](Navigation& n) { n.keep_in_zones = {wrong}; });
-    add("keep_out_zones", code, [&](Navigation& n) { n.keep_out_zones = {wrong}; });
+    add("keep_in", code, [&](Navigation& n) { n.keep_in = {wrong}; });
+    add("keep_out", code, [&](Navigation& n) { n.keep_out = {wrong}; });
   };
   zone(zone_of(square, 5, 3), ErrorCode::limits_reversed);
   zone(zone_of(square, 5, 5), ErrorCode::limits_empty);
@@ -77,8 +77,8 @@ std::vector<WrongLimit> wrong_limits() {
   zone(zone_of({{0, 0}, {1, 0}}, 0, 5), ErrorCode::zone_not_simple);
   zone(zone_of({{0, 0}, {9, 0}, {9, kNaN}}, 0, 5), ErrorCode::coordinate_not_finite);
   add("zones", ErrorCode::value_out_of_range, [&](Navigation& n) {
-    n.keep_in_zones.assign(Navigation::kMostZones / 2, zone_of(square, 0, 5));
-    n.keep_out_zones.assign(Navigation::kMostZones / 2 + 1, zone_of(square, 0, 5));
+    n.keep_in.assign(Navigation::kMostZones / 2, zone_of(square, 0, 5));
+    n.keep_out.assign(Navigation::kMostZones / 2 + 1, zone_of(square, 0, 5));
   });
   Zone above = zone_of(square, 0, 50);
   above.above_ground = AboveGround{9, 5, {0, nullptr}};
@@ -199,7 +199,7 @@ TEST(NavigationCheck, WhatIsReversedIsShownTheRightWayRound) {
                     "[30, 120.5]"));
   EXPECT_TRUE(shows(fix_of([](Navigation& n) { n.keep_in = {Box{{0, 9, 0}, {1, 2, 3}}}; }), "y = 2"));
   EXPECT_TRUE(shows(fix_of([](Navigation& n) {
-                      n.keep_out_zones = {zone_of({{0, 0}, {9, 0}, {9, 9}}, 7, 1)};
+                      n.keep_out = {zone_of({{0, 0}, {9, 0}, {9, 9}}, 7, 1)};
                     }),
                     "z: [1, 7]"));
 }
@@ -208,8 +208,8 @@ TEST(NavigationCheck, WhatIsRightIsTaken) {
   Navigation navigation;
   check_navigation(navigation);
   navigation.altitude = {0, 50};
-  navigation.keep_out_zones = {zone_of({{0, 0}, {9, 0}, {9, 9}}, -kInfinity, kInfinity)};
-  navigation.keep_out_zones[0].above_ground = AboveGround{-kInfinity, 20, {0, nullptr}};
+  navigation.keep_out = {zone_of({{0, 0}, {9, 0}, {9, 9}}, -kInfinity, kInfinity)};
+  navigation.keep_out[0].above_ground = AboveGround{-kInfinity, 20, {0, nullptr}};
   navigation.meshes = {{make_box_mesh({-9, -9, -9}, {9, 9, 9}), "airspace.ply"}};
   navigation.above_ground =
       AboveGround{1, 5, {kNaN, std::make_shared<const Mesh>(make_box_mesh({0, 0, 0}, {1, 1, 1}))}};

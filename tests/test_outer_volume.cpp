@@ -102,8 +102,8 @@ TEST(OuterVolume, HoldsAllPositionsWithinLimits) {
   Mission mission = mission_in(random_city(random, 30, 12), {}, 80);
   mission.target = random_target(random, 4, 5, Vec3(0, 0, 0.5), Vec3(0, 0, 1));
   mission.navigation.altitude = {4, 50};
-  mission.navigation.keep_in = {{{-60, -60, 0}, {60, 40, 60}}};
-  mission.navigation.keep_out = {{{-9, -30, 20}, {20, 40, 40}}};
+  mission.navigation.keep_in = {Box{{-60, -60, 0}, {60, 40, 60}}};
+  mission.navigation.keep_out = {Box{{-9, -30, 20}, {20, 40, 40}}};
   mission.navigation.clearance = Clearance{2, obstacles_of(mission.scene(), {0})};
   expect_holds_all(mission, random);
   EXPECT_EQ(outer_volume(mission).ignored, std::vector<std::string>{"clearance"});

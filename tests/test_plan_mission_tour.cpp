@@ -381,14 +381,12 @@ TEST(MissionTourLimits, TheWidthOfZonesIsThatOfTheNarrowestStrip) {
     Navigation navigation;
     Zone zone;
     for (int k = random.integer(3, 9); k > 0; --k) zone.outer.emplace_back(random.uniform(0, 9), random.uniform(0, 4));
-    navigation.keep_in_zones.push_back(zone);
-    if (random.chance(0.5)) navigation.keep_in.push_back({{1, 1, 0}, {random.uniform(2, 5), random.uniform(2, 3), 9}});
+    navigation.keep_in.push_back(zone);
+    if (random.chance(0.5))
+      navigation.keep_in.push_back(Box{{1, 1, 0}, {random.uniform(2, 5), random.uniform(2, 3), 9}});
     std::vector<Eigen::Vector2d> points(zone.outer.begin(), zone.outer.end());
-    for (const Box& box : navigation.keep_in) {
-      for (const double x : {box.min.x(), box.max.x()}) {
-        for (const double y : {box.min.y(), box.max.y()}) points.emplace_back(x, y);
-      }
-    }
+    if (navigation.keep_in.size() > 1)
+      points.insert(points.end(), navigation.keep_in[1].outer.begin(), navigation.keep_in[1].outer.end());
     double slow = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3000; ++k) {
       const Eigen::Vector2d across(std::cos(k * std::numbers::pi / 3000), std::sin(k * std::numbers::pi / 3000));
@@ -439,13 +437,13 @@ TEST(MissionTourLimits, OpenFlightsInNarrowZonesSayWhatTheyLack) {
   tour.problems = {{TourProblem::Kind::no_way, 1, 0, ""}};
   using internal::flight::tour::note_of_narrow_zones;
   EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
-  mission.navigation.keep_in = {{{0, 0, 0}, {300, 79, 90}}};
+  mission.navigation.keep_in = {Box{{0, 0, 0}, {300, 79, 90}}};
   EXPECT_TRUE(note_of_narrow_zones(mission, settings, tour));
   tour.order.clear();
   expect_error([&] { note_of_narrow_zones(mission, settings, tour); }, ErrorCode::limits_empty, "");
-  mission.navigation.keep_in[0].max.y() = 81;
+  mission.navigation.keep_in = {Box{{0, 0, 0}, {300, 81, 90}}};
   EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour));
-  mission.navigation.keep_in[0].max.y() = 79;
+  mission.navigation.keep_in = {Box{{0, 0, 0}, {300, 79, 90}}};
   tour.problems.push_back({TourProblem::Kind::no_place, 2, 0, "a tower"});
   EXPECT_FALSE(note_of_narrow_zones(mission, settings, tour)) << "it may be the tower";
   tour.problems.clear();

@@ -173,13 +173,13 @@ TEST(ProveForged, NoLimitIsProvedOfALobeThatIsInsideOut) {
     navigation.keep_in.push_back(Box{{-9, -9, 9}, {9, 9, 29}});
     check("keep_in", plain, navigation);
     navigation = {};
-    navigation.keep_in_zones = {testing::zone_of({{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, 10, 30)};
+    navigation.keep_in = {testing::zone_of({{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, 10, 30)};
     check("keep_in", plain, navigation);
     navigation = {};
     navigation.keep_out = {Box{{-1, -1, 2}, {1, 1, 5}}};
     check("keep_out", plain, navigation);
     navigation = {};
-    navigation.keep_out_zones = {testing::zone_of({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, 2, 5)};
+    navigation.keep_out = {testing::zone_of({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, 2, 5)};
     check("keep_out", plain, navigation);
     navigation = {};
     navigation.meshes = {{make_box_mesh({-9, -9, 10}, {9, 9, 30}), "hall"}};

@@ -86,9 +86,9 @@ TEST(ProveInput, LimitsThatBoundNothingAreRefused) {
   for (Triangle& t : hall.triangles) std::swap(t[0], t[1]);
   expect_code([&] { yard.prove(); }, ErrorCode::mesh_inside_out);
   yard.navigation = {};
-  yard.navigation.keep_out_zones = {zone_of({{-20, -20}, {20, 20}, {20, -20}, {-20, 20}}, 0, 9)};  // crosses itself
+  yard.navigation.keep_out = {zone_of({{-20, -20}, {20, 20}, {20, -20}, {-20, 20}}, 0, 9)};  // crosses itself
   expect_code([&] { yard.prove(); }, ErrorCode::zone_not_simple);
-  yard.navigation.keep_out_zones = {zone_of({{20, 20}, {30, 20}, {30, kNaN}}, 0, 9)};
+  yard.navigation.keep_out = {zone_of({{20, 20}, {30, 20}, {30, kNaN}}, 0, 9)};
   expect_code([&] { yard.prove(); }, ErrorCode::coordinate_not_finite);
   const std::vector<std::pair<Zone::Ring, std::vector<Zone::Ring>>> bad = {
       {{{20, 20}, {30, 20}}, {}},                                          // two corners
@@ -102,12 +102,12 @@ TEST(ProveInput, LimitsThatBoundNothingAreRefused) {
   for (const auto& [outer, holes] : bad) {
     Zone zone = zone_of(outer, 0, 9);
     zone.holes = holes;
-    yard.navigation.keep_out_zones = {zone};
+    yard.navigation.keep_out = {zone};
     expect_code([&] { yard.prove(); }, ErrorCode::zone_not_simple);
   }
   Zone ring = zone_of({{20, 20}, {40, 20}, {40, 40}, {20, 40}}, 0, 9);
   ring.holes = {{{22, 22}, {26, 22}, {26, 26}}, {{30, 30}, {30, 35}, {35, 35}}};
-  yard.navigation.keep_out_zones = {ring};
+  yard.navigation.keep_out = {ring};
   EXPECT_EQ(verdict_on(yard.prove(), "keep_out"), ProofVerdict::proved);
   yard.navigation = {};
   yard.navigation.above_ground = AboveGround{1, 7, {kNaN, nullptr}};

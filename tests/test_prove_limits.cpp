@@ -41,12 +41,13 @@ TEST(ProveLimits, ABoxToStayOutOf) {
     Navigation navigation;
     navigation.keep_out = {world.box({4, -3, 0}, {8, 3, 5}), world.box({-3, -3, 9}, {3, 3, 12})};
     expect_proved(world, navigation, volume);
-    navigation.keep_out[1].min.z() -= 1e-3 * world.scale;
+    navigation.keep_out[1].min_z_m -= 1e-3 * world.scale;
     expect_wrong(world, navigation, volume, [](const Vec3& p) {
       return inside_box_by(p, {-3, -3, 8.999}, {3, 3, 12});
     });
-    navigation.keep_out[1].min.z() += 1e-3 * world.scale;
-    navigation.keep_out[0].min.x() -= 1e-3 * world.scale;
+    navigation.keep_out[1].min_z_m += 1e-3 * world.scale;
+    navigation.keep_out[0] =
+        Box{navigation.keep_out[0].box().min - Vec3(1e-3 * world.scale, 0, 0), navigation.keep_out[0].box().max};
     expect_wrong(world, navigation, volume, [](const Vec3& p) { return inside_box_by(p, {3.999, -3, 0}, {8, 3, 5}); });
   }
 }
@@ -96,8 +97,8 @@ TEST(ProveLimits, AZoneToStayOutOf) {
   for (const World& world : worlds()) {
     Navigation navigation;
     const double low = world.at(0, 0, 3).z(), high = world.at(0, 0, 8).z();
-    navigation.keep_out_zones = {zone_of(world.ring(outer), low, high, "park")};
-    navigation.keep_out_zones[0].holes = {world.ring(hole)};
+    navigation.keep_out = {zone_of(world.ring(outer), low, high, "park")};
+    navigation.keep_out[0].holes = {world.ring(hole)};
     expect_proved(world, navigation, box(world, 10, 10, 18, 19));
     expect_proved(world, navigation, box(world, 2, 2, 6, 6));
     expect_proved(world, navigation, box(world, 20, -2, 25, 12));
@@ -105,8 +106,8 @@ TEST(ProveLimits, AZoneToStayOutOf) {
     expect_wrong(world, navigation, box(world, 2, 1.95, 6, 6), inside_by);
     expect_wrong(world, navigation, box(world, -5, 8, 25, 9), inside_by);
     expect_wrong(world, navigation, box(world, -5, -5, 25, 25), inside_by);
-    navigation.keep_out_zones[0].min_z_m = world.at(0, 0, 9).z();
-    navigation.keep_out_zones[0].max_z_m = std::numeric_limits<double>::infinity();
+    navigation.keep_out[0].min_z_m = world.at(0, 0, 9).z();
+    navigation.keep_out[0].max_z_m = std::numeric_limits<double>::infinity();
     expect_proved(world, navigation, box(world, -5, -5, 25, 25));
   }
 }
@@ -120,20 +121,20 @@ TEST(ProveLimits, BoxesAndZonesToStayIn) {
   for (const World& world : worlds()) {
     const Mesh volume = world.mesh({-9, -9, 1}, {9, 9, 9});
     Navigation navigation;
-    navigation.keep_in = {world.box({-10, -10, 0}, {0, 10, 20})};
     const double low = world.at(0, 0, 0).z(), high = world.at(0, 0, 20).z();
-    navigation.keep_in_zones = {zone_of(world.ring({{0, -10}, {10, -10}, {10, 10}, {0, 10}}), low, high)};
+    navigation.keep_in = {world.box({-10, -10, 0}, {0, 10, 20}),
+                          zone_of(world.ring({{0, -10}, {10, -10}, {10, 10}, {0, 10}}), low, high)};
     expect_proved(world, navigation, volume);
-    navigation.keep_in_zones[0].outer = world.ring({{0.1, -10}, {10, -10}, {10, 10}, {0.1, 10}});
+    navigation.keep_in[1].outer = world.ring({{0.1, -10}, {10, -10}, {10, 10}, {0.1, 10}});
     expect_wrong(world, navigation, volume, outside_by);
-    navigation.keep_in_zones[0].outer = world.ring({{-1, -10}, {10, -10}, {10, 10}, {-1, 10}});
-    navigation.keep_in_zones[0].holes = {world.ring({{5, 5}, {6, 5}, {6, 6}, {5, 6}})};
+    navigation.keep_in[1].outer = world.ring({{-1, -10}, {10, -10}, {10, 10}, {-1, 10}});
+    navigation.keep_in[1].holes = {world.ring({{5, 5}, {6, 5}, {6, 6}, {5, 6}})};
     expect_wrong(world, navigation, volume, [](const Vec3& p) {
       return std::min(std::min(p.x() - 5, 6 - p.x()), std::min(p.y() - 5, 6 - p.y()));
     });
-    navigation.keep_in_zones[0].holes.clear();
+    navigation.keep_in[1].holes.clear();
     expect_proved(world, navigation, volume);
-    navigation.keep_in_zones[0].max_z_m = world.at(0, 0, 8.91).z();
+    navigation.keep_in[1].max_z_m = world.at(0, 0, 8.91).z();
     expect_wrong(world, navigation, volume, [](const Vec3& p) { return std::min(p.z() - 8.91, p.x()); });
   }
 }
@@ -222,11 +223,11 @@ TEST(ProveLimits, HeightsOfZonesAboveTerrainAreNamed) {
   Zone zone = zone_of({{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, 0, 100);
   zone.above_ground = AboveGround{20, 40, {0, surface}};
   Navigation navigation;
-  navigation.keep_out_zones = {zone};
+  navigation.keep_out = {zone};
   EXPECT_EQ(claim_of(world, navigation, world.mesh({-5, -5, 1}, {5, 5, 8})).verdict, ProofVerdict::not_proved);
   expect_proved(world, navigation, world.mesh({9, -5, 1}, {15, 5, 8}));
   navigation = {};
-  navigation.keep_in_zones = {zone};
+  navigation.keep_in = {zone};
   expect_proved(world, navigation, world.mesh({-9, -5, 20}, {9, 5, 40}));
   expect_wrong(world, navigation, world.mesh({-9, -5, 19.9}, {9, 5, 40}), [](const Vec3& p) { return 20 - p.z(); });
   expect_wrong(world, navigation, world.mesh({-9, -5, 20}, {9.1, 5, 40}), [](const Vec3& p) { return p.x() - 9; });
@@ -239,9 +240,8 @@ TEST(ProveLimits, WhatWasCutIsProved) {
   const World world;
   Navigation navigation;
   navigation.altitude = Navigation::Altitude{1.1, 8.7};
-  navigation.keep_in_zones = {zone_of({{-30, -25}, {28, -31}, {33, 27}, {-29, 34}}, -5, 50)};
-  navigation.keep_out = {Box{{-8, -8, 3}, {-6, -6, 5}}};
-  navigation.keep_out_zones = {zone_of({{3, 3}, {12, 5}, {6, 6}, {7, 14}}, -5, 6)};
+  navigation.keep_in = {zone_of({{-30, -25}, {28, -31}, {33, 27}, {-29, 34}}, -5, 50)};
+  navigation.keep_out = {Box{{-8, -8, 3}, {-6, -6, 5}}, zone_of({{3, 3}, {12, 5}, {6, 6}, {7, 14}}, -5, 6)};
   auto surface = std::make_shared<Mesh>();
   surface->vertices = {{-60, -60, -6}, {60, -60, -3}, {60, 60, -8}, {-60, 60, -2}, {1, 2, 1}};
   surface->triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
@@ -262,8 +262,8 @@ TEST(ProveLimits, WhatWasCutIsProved) {
 TEST(ProveLimits, AZoneOfNoHeight) {
   const World world;
   Navigation navigation;
-  navigation.keep_out_zones = {zone_of({{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, 0, 5)};
-  navigation.keep_out_zones[0].above_ground = AboveGround{10, 20, {0, nullptr}};
+  navigation.keep_out = {zone_of({{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, 0, 5)};
+  navigation.keep_out[0].above_ground = AboveGround{10, 20, {0, nullptr}};
   expect_proved(world, navigation, world.mesh({-5, -5, 1}, {5, 5, 30}));
 }
 
@@ -279,7 +279,7 @@ TEST(ProveLimits, LimitsThatAreWrongInThemselvesAreRefused) {
   navigation.keep_out = {Box{{0, 0, 0}, {1, 1, 0}}};
   EXPECT_EQ(code(navigation), ErrorCode::limits_empty);
   navigation = {};
-  navigation.keep_in_zones = {zone_of({{0, 0}, {1, 1}}, 0, 9)};
+  navigation.keep_in = {zone_of({{0, 0}, {1, 1}}, 0, 9)};
   EXPECT_EQ(code(navigation), ErrorCode::zone_not_simple);
   navigation = {};
   navigation.clearance = Clearance{1, nullptr};

@@ -299,32 +299,33 @@ TEST_P(ProveMaximalLimits, AreWitnesses) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, ProveMaximalLimits,
-    ::testing::Values(LimitCase{"altitude", "altitude max",
-                                [](MaximalCity& city) {
-                                  city.navigation.altitude = {3, 30};
-                                }},
-                      LimitCase{"agl", "agl min",
-                                [](MaximalCity& city) {
-                                  city.navigation.above_ground = {5, 60, {1}};
-                                }},
-                      LimitCase{"keep_in", "keep_in",
-                                [](MaximalCity& city) {
-                                  city.navigation.keep_in = {{{-9, -30, 2}, {20, 40, 50}}};
-                                }},
-                      LimitCase{"boxes", "keep_in",
-                                [](MaximalCity& city) {
-                                  city.navigation.keep_in = {{{-9, -30, 2}, {20, 40, 50}}, {{10, 0, 5}, {50, 50, 60}}};
-                                }},
-                      LimitCase{"keep_out", "keep_out 1",
-                                [](MaximalCity& city) {
-                                  city.navigation.keep_out = {{{-9, -30, 30}, {20, 40, 50}}, {{-3, -3, 5}, {7, 5, 9}}};
-                                }},
-                      LimitCase{"incidence", "incidence", [](MaximalCity& city) { city.sensor.incidence_deg = 55; }},
-                      LimitCase{"min_range", "min_range", [](MaximalCity& city) { city.sensor.min_range_m = 12; }},
-                      LimitCase{"sun", "sun",
-                                [](MaximalCity& city) {
-                                  city.sensor.sun = SunLimit{{0.3, 0.2, -0.8}, 25};
-                                }}),
+    ::testing::Values(
+        LimitCase{"altitude", "altitude max",
+                  [](MaximalCity& city) {
+                    city.navigation.altitude = {3, 30};
+                  }},
+        LimitCase{"agl", "agl min",
+                  [](MaximalCity& city) {
+                    city.navigation.above_ground = {5, 60, {1}};
+                  }},
+        LimitCase{"keep_in", "keep_in",
+                  [](MaximalCity& city) {
+                    city.navigation.keep_in = {Box{{-9, -30, 2}, {20, 40, 50}}};
+                  }},
+        LimitCase{"boxes", "keep_in",
+                  [](MaximalCity& city) {
+                    city.navigation.keep_in = {Box{{-9, -30, 2}, {20, 40, 50}}, Box{{10, 0, 5}, {50, 50, 60}}};
+                  }},
+        LimitCase{"keep_out", "keep_out 1",
+                  [](MaximalCity& city) {
+                    city.navigation.keep_out = {Box{{-9, -30, 30}, {20, 40, 50}}, Box{{-3, -3, 5}, {7, 5, 9}}};
+                  }},
+        LimitCase{"incidence", "incidence", [](MaximalCity& city) { city.sensor.incidence_deg = 55; }},
+        LimitCase{"min_range", "min_range", [](MaximalCity& city) { city.sensor.min_range_m = 12; }},
+        LimitCase{"sun", "sun",
+                  [](MaximalCity& city) {
+                    city.sensor.sun = SunLimit{{0.3, 0.2, -0.8}, 25};
+                  }}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(ProveMaximal, TheSizeOfPixelsIsALimit) {

@@ -57,8 +57,8 @@ TEST(Query, NamesWhatHidesAndByHowMuch) {
 TEST(Query, NamesTheLimitsThatArePassed) {
   Navigation navigation;
   navigation.altitude = {5, 30};
-  navigation.keep_in = {{Vec3(-10, -10, 0), Vec3(10, 10, 40)}};
-  navigation.keep_out = {{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
+  navigation.keep_in = {Box{Vec3(-10, -10, 0), Vec3(10, 10, 40)}};
+  navigation.keep_out = {Box{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
   const PreparedScene scene(walls());
   const auto answers = query_points(PreparedTarget(scene, square(), {50}), navigation,
                                     {{0, 0, 10}, {0, 0, 20}, {0, 0, 35}, {0, 12, 20}, {0, 3, 2}});
@@ -72,7 +72,7 @@ TEST(Query, NamesTheLimitsThatArePassed) {
 TEST(Query, LimitsBoundTheMargin) {
   Navigation navigation;
   navigation.altitude = {5, 30};
-  navigation.keep_out = {{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
+  navigation.keep_out = {Box{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
   const PreparedScene scene(walls());
   const auto margin = [&](const Vec3& point) {
     return query_points(PreparedTarget(scene, square(), {50}), navigation, {point})[0].margin_m;
@@ -97,8 +97,8 @@ TEST(Query, LimitsBoundTheMargin) {
 TEST(Query, BoxesAndMeshesBoundTheMargin) {
   const PreparedScene scene(walls());
   Navigation boxes;  // two that touch are one
-  boxes.keep_in = {
-      {Vec3(-9, -9, 10), Vec3(9, 9, 20)}, {Vec3(-9, -9, 20), Vec3(9, 9, 32)}, {Vec3(30, 30, 1), Vec3(31, 31, 2)}};
+  boxes.keep_in = {Box{Vec3(-9, -9, 10), Vec3(9, 9, 20)}, Box{Vec3(-9, -9, 20), Vec3(9, 9, 32)},
+                   Box{Vec3(30, 30, 1), Vec3(31, 31, 2)}};
   Navigation meshes;
   meshes.meshes = {{testing::make_box_mesh(Vec3(-9, -9, 10), Vec3(9, 9, 32)), "zone"},
                    {testing::make_box_mesh(Vec3(-40, -40, -1), Vec3(40, 40, 40)), "all"}};
@@ -121,8 +121,8 @@ TEST(Query, BoxesAndMeshesBoundTheMargin) {
 Navigation some_limits() {
   Navigation navigation;
   navigation.altitude = {4, 38};
-  navigation.keep_in = {{Vec3(-40, -40, 0), Vec3(5, 40, 45)}, {Vec3(-5, -25, 2), Vec3(45, 25, 30)}};
-  navigation.keep_out = {{Vec3(-20, 5, 0), Vec3(-5, 15, 20)}, {Vec3(6, -12, 8), Vec3(20, -2, 50)}};
+  navigation.keep_in = {Box{Vec3(-40, -40, 0), Vec3(5, 40, 45)}, Box{Vec3(-5, -25, 2), Vec3(45, 25, 30)}};
+  navigation.keep_out = {Box{Vec3(-20, 5, 0), Vec3(-5, 15, 20)}, Box{Vec3(6, -12, 8), Vec3(20, -2, 50)}};
   navigation.meshes = {{testing::make_box_mesh(Vec3(-35, -30, -10), Vec3(40, 30, 60)), "zone"}};
   for (int v = 4; v < 8; ++v) navigation.meshes[0].mesh.vertices[v].x() += 10;  // slanted sides
   return navigation;

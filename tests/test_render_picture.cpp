@@ -226,14 +226,14 @@ TEST_F(RenderPicture, DrawsNavigationBoxes) {
 
 TEST_F(RenderPicture, DrawsNavigationZones) {
   const Picture without = render();
-  request_.navigation.keep_in_zones = {testing::zone_of({{-30, 10}, {-10, 10}, {-10, 30}, {-30, 30}}, 5, INFINITY)};
+  request_.navigation.keep_in = {testing::zone_of({{-30, 10}, {-10, 10}, {-10, 30}, {-30, 30}}, 5, INFINITY)};
   const Picture with = render();
   const Pixel edge = at(with, -10, 20);
   EXPECT_NE(edge, at(without, -10, 20));
   EXPECT_GT(edge.green, edge.red) << edge;
   EXPECT_EQ(at(with, -20, 20), at(without, -20, 20));
-  request_.navigation.keep_out_zones = std::move(request_.navigation.keep_in_zones);
-  request_.navigation.keep_in_zones.clear();
+  request_.navigation.keep_out = std::move(request_.navigation.keep_in);
+  request_.navigation.keep_in.clear();
   const Pixel out = at(render(), -10, 20);
   EXPECT_NE(out, at(without, -10, 20));
   EXPECT_NE(out, edge);

@@ -486,7 +486,7 @@ TEST_F(SeveralTargets, TheMethodOfSpheresIsRefusedOnceForAll) {
 TEST_F(SeveralTargets, TheWorkForOneTargetIsItsOwn) {
   Mission all = of("each", {kWest, kNorth});
   all.as_written.exact.work_limit = 1;
-  all.navigation.keep_out.push_back({Vec3(-20, -20, 5), Vec3(20, 20, 9)});
+  all.navigation.keep_out.push_back(Box{Vec3(-20, -20, 5), Vec3(20, 20, 9)});
   for (const Attempt& attempt : try_missions(all)) {
     ASSERT_TRUE(attempt.error);
     EXPECT_EQ(attempt.error->code(), ErrorCode::work_too_large);

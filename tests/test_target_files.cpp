@@ -318,8 +318,8 @@ TEST_F(TargetFiles, KmzIsUnpacked) {
         "scene: {osm: city.osm, center: [48.1374, 11.5755], radius: 300}\nsensor: {max_range: 90}\n"
         "target: {file: a.kmz}\nnavigation: {keep_out: [{file: zones.kmz, z: [0, 9]}]}\n");
   const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
-  ASSERT_EQ(mission.navigation.keep_out_zones.size(), 1u);
-  EXPECT_EQ(mission.navigation.keep_out_zones[0].name, "zones.kmz park");
+  ASSERT_EQ(mission.navigation.keep_out.size(), 1u);
+  EXPECT_EQ(mission.navigation.keep_out[0].name, "zones.kmz park");
 }
 
 TEST_F(TargetFiles, HostileArchivesAreRefused) {

@@ -80,7 +80,7 @@ TEST(TourAirspace, NamesWhatIsInTheWay) {
   builder.box("town hall", {-5, -5, 0}, {5, 5, 30});
   Navigation navigation;
   navigation.altitude = Navigation::Altitude{2, 60};
-  navigation.keep_out = {{{20, -5, 0}, {30, 5, 100}}};
+  navigation.keep_out = {Box{{20, -5, 0}, {30, 5, 100}}};
   const auto airspace = make_airspace(PreparedScene(builder.scene()), 3, navigation);
   EXPECT_EQ(airspace->obstacle({{-50, 0, 10}, {15, 0, 10}}, 0), "town hall");
   EXPECT_EQ(airspace->obstacle({{15, 0, 10}, {50, 0, 10}}, 0), "keep_out 0");

@@ -75,15 +75,15 @@ Example plate_example(const Vec3& shift = Vec3::Zero()) {
   example.scene.object_of = {0, 0, 1, 1};
   example.scene.objects = named({"plate", "ground"});
   example.target.parts[0] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  example.navigation.keep_in = {{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
+  example.navigation.keep_in = {Box{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
   const Mesh hidden = make_frustum({x0, y0, plate}, {x1, y1, plate}, {x0 + s * (x0 - 1), y0 + s * (y0 - 1), top},
                                    {x1 + s * (x1 + 1), y1 + s * (y1 + 1), top});
   example.truth = box_with_pit(make_box_mesh({-10, -10, 1}, {10, 10, 10}), hidden);
   for (Vec3& vertex : example.scene.mesh.vertices) vertex += shift;
   for (Vec3& vertex : example.target.parts[0]) vertex += shift;
   for (Vec3& vertex : example.truth.vertices) vertex += shift;
-  example.navigation.keep_in[0].min += shift;
-  example.navigation.keep_in[0].max += shift;
+  const Box kept = example.navigation.keep_in[0].box();
+  example.navigation.keep_in[0] = Box{kept.min + shift, kept.max + shift};
   return example;
 }
 
@@ -272,7 +272,7 @@ TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
   both.parts.push_back({{-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}});
   both.front = Vec3(0, -1, 1);
   Navigation low;
-  low.keep_in = {{Vec3(-10, -10, 1), Vec3(10, 10, 4)}};  // under the plate nothing is hidden
+  low.keep_in = {Box{Vec3(-10, -10, 1), Vec3(10, 10, 4)}};  // under the plate nothing is hidden
   expect_right(verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 1, 4})));
   const VerifyReport north =
       verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 10, 4}));

@@ -272,8 +272,8 @@ TEST(VerifyTarget, RefusesWhatIsNoConvexPolygon) {
 TEST(VerifyLimits, NamesTheFirstBroken) {
   Navigation navigation;
   navigation.altitude = Navigation::Altitude{0, 10};
-  navigation.keep_in = {{Vec3(-5, -5, -50), Vec3(0, 5, 50)}, {Vec3(0, -5, -50), Vec3(5, 5, 50)}};
-  navigation.keep_out = {{Vec3(1, 1, 1), Vec3(2, 2, 2)}};
+  navigation.keep_in = {Box{Vec3(-5, -5, -50), Vec3(0, 5, 50)}, Box{Vec3(0, -5, -50), Vec3(5, 5, 50)}};
+  navigation.keep_out = {Box{Vec3(1, 1, 1), Vec3(2, 2, 2)}};
   navigation.meshes = {{make_box_mesh({-4, -4, -4}, {4, 4, 40}), "airspace"}};
   const Vec3 origin(100, 0, 0);
   const Limits limits(navigation, origin);

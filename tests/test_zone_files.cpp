@@ -266,10 +266,10 @@ TEST(ZoneFiles, BecomeZonesOfTheMission) {
                                          feature("{\"type\": \"Point\", \"coordinates\": [11, 48]}")));
   const Mission resolved =
       mission.resolve("keep_in: [{file: zones.json}]\n  keep_out: [{file: zones.json}]", ", sea_level: -520");
-  ASSERT_EQ(resolved.navigation.keep_in_zones.size(), 2u);
-  const Zone& kept = resolved.navigation.keep_in_zones[0];
+  ASSERT_EQ(resolved.navigation.keep_in.size(), 2u);
+  const Zone& kept = resolved.navigation.keep_in[0];
   EXPECT_EQ(kept.name, "zones.json A");
-  EXPECT_EQ(resolved.navigation.keep_in_zones[1].name, "zones.json A (2)");
+  EXPECT_EQ(resolved.navigation.keep_in[1].name, "zones.json A (2)");
   EXPECT_EQ(kept.min_z_m, -20);
   EXPECT_EQ(kept.max_z_m, 120);
   const geo::LocalFrame frame({11, 48});
@@ -277,11 +277,11 @@ TEST(ZoneFiles, BecomeZonesOfTheMission) {
   double nearest = 1e9;
   for (const Eigen::Vector2d& p : kept.outer) nearest = std::min(nearest, (p - far).norm());
   EXPECT_LT(nearest, 0.01);
-  EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 2u);
+  EXPECT_EQ(resolved.navigation.keep_out.size(), 2u);
   ASSERT_EQ(resolved.notes.size(), 2u);
   EXPECT_EQ(resolved.notes[0].code, WarningCode::zones_left_out);
   expect_wording({resolved.notes[0].text, resolved.notes[1].text});
-  EXPECT_EQ(resolved.as_written.navigation.keep_in_zones.size(), 0u);
+  EXPECT_EQ(resolved.as_written.navigation.keep_in.size(), 0u);
 }
 
 // Between corners that are lifted from the ground, KML does not say how high a zone is.
@@ -290,8 +290,8 @@ TEST(ZoneFiles, HeightsRelativeToTheGroundMustBeGiven) {
   mission.write("park.kml", kml(placemark("<extrude>1</extrude><altitudeMode>relativeToGround</altitudeMode>", ",50")));
   expect_error([&] { mission.resolve("keep_out: [{file: park.kml}]"); }, ErrorCode::missing_key, "park.kml");
   const Mission resolved = mission.resolve("keep_out: [{file: park.kml, agl: [0, 50]}]");
-  ASSERT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
-  EXPECT_EQ(resolved.navigation.keep_out_zones[0].above_ground->max_m, 50);
+  ASSERT_EQ(resolved.navigation.keep_out.size(), 1u);
+  EXPECT_EQ(resolved.navigation.keep_out[0].above_ground->max_m, 50);
 }
 
 TEST(ZoneFiles, FencesGoWhereTheyBelong) {
@@ -302,15 +302,15 @@ TEST(ZoneFiles, FencesGoWhereTheyBelong) {
                      "{\"inclusion\": false, \"circle\": {\"center\": [48, 11], \"radius\": 20}}"));
   const Mission kept = mission.resolve("keep_in: [{file: fence.plan}]"),
                 out = mission.resolve("keep_out: [{file: fence.plan}]");
-  ASSERT_EQ(kept.navigation.keep_in_zones.size(), 1u);
-  EXPECT_EQ(kept.navigation.keep_in_zones[0].max_z_m, INFINITY);
+  ASSERT_EQ(kept.navigation.keep_in.size(), 1u);
+  EXPECT_EQ(kept.navigation.keep_in[0].max_z_m, INFINITY);
   const std::string name = "fence.plan polygon 0", narrowed = "keep_in: [{file: fence.plan, z: [5, 50]}]";
-  EXPECT_EQ(kept.navigation.keep_in_zones[0].name, name);
-  EXPECT_EQ(out.navigation.keep_out_zones.size(), 2u);
+  EXPECT_EQ(kept.navigation.keep_in[0].name, name);
+  EXPECT_EQ(out.navigation.keep_out.size(), 2u);
   expect_wording({kept.notes.at(0).text, out.notes.at(0).text});
   const std::string both = "keep_in: [{file: fence.plan}]\n  keep_out: [{file: fence.plan}]";
   EXPECT_TRUE(mission.resolve(both).notes.empty());  // all of it is taken
-  EXPECT_EQ(mission.resolve(narrowed).navigation.keep_in_zones[0].min_z_m, 5);
+  EXPECT_EQ(mission.resolve(narrowed).navigation.keep_in[0].min_z_m, 5);
 }
 
 TEST(ZoneFiles, CirclesAreInscribedToStayInAndCircumscribedToStayOutOf) {
@@ -334,11 +334,11 @@ TEST(ZoneFiles, CirclesAreInscribedToStayInAndCircumscribedToStayOutOf) {
       }
     };
     const double off = std::max(0.06, 1.1e-5 * radius);
-    for_each_point(resolved.navigation.keep_in_zones.at(0), [&](double d) {
+    for_each_point(resolved.navigation.keep_in.at(0), [&](double d) {
       EXPECT_LE(d, radius);
       EXPECT_GE(d, radius - off);
     });
-    for_each_point(resolved.navigation.keep_out_zones.at(0), [&](double d) {
+    for_each_point(resolved.navigation.keep_out.at(0), [&](double d) {
       EXPECT_GE(d, radius);
       EXPECT_LE(d, radius + off);
     });
@@ -349,7 +349,7 @@ TEST(ZoneFiles, HeightsAboveTheGroundAreMeasuredFromTheScenes) {
   const ZoneMission mission;
   mission.write("zones.json", polygon(", \"layer\": {\"upper\": 640, \"upperReference\": \"AGL\", \"uom\": \"m\"}"));
   const Mission resolved = mission.resolve("keep_in: [{file: zones.json}]");
-  const Zone& zone = resolved.navigation.keep_in_zones.at(0);
+  const Zone& zone = resolved.navigation.keep_in.at(0);
   ASSERT_TRUE(zone.above_ground);
   EXPECT_EQ(zone.above_ground->max_m, 640);
   EXPECT_TRUE(std::isinf(zone.above_ground->min_m));
@@ -398,8 +398,8 @@ TEST(ZoneFiles, ZonesOutOfReachAreLeftOut) {
       "{\"type\": \"Polygon\", \"coordinates\": [[[2.3, 48.8], [2.4, 48.8], [2.4, 48.9], [2.3, 48.8]]]}";
   mission.write("zones.json", collection(feature(paris) + ", " + feature(polygon())));
   const Mission resolved = mission.resolve("keep_out: [{file: zones.json, heights: any}]");
-  EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
-  EXPECT_EQ(resolved.navigation.keep_out_zones[0].name, "zones.json 1");
+  EXPECT_EQ(resolved.navigation.keep_out.size(), 1u);
+  EXPECT_EQ(resolved.navigation.keep_out[0].name, "zones.json 1");
   ASSERT_EQ(resolved.notes.size(), 1u);
   expect_wording(resolved.notes[0].text);
 }
@@ -417,7 +417,7 @@ TEST(ZoneFiles, SayWhenLongitudeAndLatitudeSeemSwapped) {
     EXPECT_EQ(says(expect_error(resolve, ErrorCode::too_far_away).problem()), zone == swapped);
     mission.write("zones.json", collection(feature(zone) + ", " + feature(polygon())));
     const Mission resolved = resolve();
-    EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
+    EXPECT_EQ(resolved.navigation.keep_out.size(), 1u);
     ASSERT_EQ(resolved.notes.size(), 1u);
     EXPECT_EQ(says(resolved.notes[0].text), zone == swapped) << resolved.notes[0].text;
   }
@@ -443,7 +443,7 @@ TEST(ZoneFiles, TooManyZonesAreRefused) {
   mission.write("zones.json", collection(zones(Navigation::kMostZones + 1, 48)));
   expect_error([&] { mission.resolve(limits); }, ErrorCode::value_out_of_range, "zones.json");
   mission.write("zones.json", collection(zones(Navigation::kMostZones + 1, 52) + ", " + feature(polygon())));
-  EXPECT_EQ(mission.resolve(limits).navigation.keep_out_zones.size(), 1u);
+  EXPECT_EQ(mission.resolve(limits).navigation.keep_out.size(), 1u);
 }
 
 // A side along a parallel leaves the chord between its corners by 48 km.
@@ -461,7 +461,7 @@ TEST(ZoneFiles, LongSidesThatCurveTowardsTheSceneCount) {
   ASSERT_GT(frame.to_local({1, 48.6}).y(), 100e3);
   ASSERT_LT(frame.to_local({11, 48.6}).y(), 70e3);
   const std::string limits = "keep_out: [{file: zones.json, heights: any}]";
-  EXPECT_EQ(mission.resolve(limits).navigation.keep_out_zones.size(), 1u);
+  EXPECT_EQ(mission.resolve(limits).navigation.keep_out.size(), 1u);
 }
 
 TEST(ZoneFiles, ReadingThemCanBeStopped) {
@@ -495,7 +495,7 @@ TEST(ZoneFiles, PointsFarAwayAreWithinReachToo) {
                       targets + "]\nnavigation: {keep_out: [{file: zones.json, heights: any}]}\n");
     return resolve_mission(read_mission(mission.folder() / "mission.yaml"));
   };
-  EXPECT_EQ(resolve(near).navigation.keep_out_zones.size(), 1u);
+  EXPECT_EQ(resolve(near).navigation.keep_out.size(), 1u);
   expect_code([&] { resolve(near + ", " + far); }, ErrorCode::too_far_away, "zones.json");
 }
 
@@ -544,7 +544,7 @@ Mission resolved_in(const std::string& crs, const Eigen::Vector2d& middle, doubl
 
 TEST(ZoneFiles, HeightsNeedAZeroThatIsKnown) {
   const Eigen::Vector2d delft(85000, 447000), degrees(4.36, 52.0);
-  const auto top = [](const Mission& mission) { return mission.navigation.keep_out_zones.at(0).max_z_m; };
+  const auto top = [](const Mission& mission) { return mission.navigation.keep_out.at(0).max_z_m; };
   EXPECT_EQ(top(resolved_in("EPSG:7415", delft, 1, "AMSL")), 100);  // with heights above NAP
   EXPECT_EQ(top(resolved_in("EPSG:4979", degrees, 1e-5, "WGS84")), 100);
   const auto refuse = [&](const std::string& crs, const Eigen::Vector2d& middle, double unit, const std::string& from) {

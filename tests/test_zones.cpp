@@ -59,7 +59,7 @@ TEST(Zones, CutToAPolygonThatIsNotConvex) {
       Navigation navigation;
       Zone zone = zone_of(l_shape(shift), shift.z() + 5, shift.z() + 15, "park");
       if (is_turned) std::reverse(zone.outer.begin(), zone.outer.end());
-      navigation.keep_in_zones = {zone};
+      navigation.keep_in = {zone};
       const Volume cut = cut_to_navigation(make_hemisphere(shift, 100, 32, 8), navigation);
       expect_closed(cut);
       const MeshMeasures measures = measure(cut.mesh);
@@ -76,7 +76,7 @@ TEST(Zones, HolesAreNotOfTheZone) {
   Navigation navigation;
   Zone zone = zone_of({{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}, 5, 15);
   zone.holes = {{{-10, -10}, {-5, -10}, {-5, -5}, {-10, -5}}, {{5, 5}, {5, 15}, {15, 5}}};
-  navigation.keep_in_zones = {zone};
+  navigation.keep_in = {zone};
   const Volume dome = make_hemisphere(Vec3::Zero(), 100, 32, 8);
   const Volume kept = cut_to_navigation(dome, navigation);
   expect_closed(kept);
@@ -84,7 +84,7 @@ TEST(Zones, HolesAreNotOfTheZone) {
   EXPECT_EQ(measure(kept.mesh).euler, -2);  // two holes through it
 
   navigation = {};
-  navigation.keep_out_zones = {zone};
+  navigation.keep_out = {zone};
   const Volume rest = cut_to_navigation(dome, navigation);
   expect_closed(rest);
   EXPECT_NEAR(measure(rest.mesh).volume_m3, measure(dome.mesh).volume_m3 - (1600 - 25 - 50) * 10, 1e-6);
@@ -94,8 +94,7 @@ TEST(Zones, HolesAreNotOfTheZone) {
 
 TEST(Zones, BoxesAndZonesToStayInAreOneUnion) {
   Navigation navigation;
-  navigation.keep_in = {{Vec3(-10, -10, 5), Vec3(0, 0, 15)}};
-  navigation.keep_in_zones = {zone_of({{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, 5, 15)};
+  navigation.keep_in = {Box{Vec3(-10, -10, 5), Vec3(0, 0, 15)}, zone_of({{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, 5, 15)};
   const Volume cut = cut_to_navigation(make_hemisphere(Vec3::Zero(), 100, 32, 8), navigation);
   expect_closed(cut);
   EXPECT_NEAR(measure(cut.mesh).volume_m3, (100 + 100 - 25) * 10, 1e-6);
@@ -104,7 +103,7 @@ TEST(Zones, BoxesAndZonesToStayInAreOneUnion) {
 TEST(Zones, WithoutBoundsTheyReachAsFarAsTheVolume) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 100, 32, 8);
   Navigation navigation;
-  navigation.keep_out_zones = {zone_of({{0, -200}, {200, -200}, {200, 200}, {0, 200}}, -kInfinity, kInfinity)};
+  navigation.keep_out = {zone_of({{0, -200}, {200, -200}, {200, 200}, {0, 200}}, -kInfinity, kInfinity)};
   const Volume half = cut_to_navigation(dome, navigation);
   expect_closed(half);
   EXPECT_NEAR(measure(half.mesh).volume_m3, measure(dome.mesh).volume_m3 / 2, 1e-6);
@@ -116,7 +115,7 @@ TEST(Zones, MayReachFarBeyondTheVolume) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 100, 32, 8);
   const double whole = measure(dome.mesh).volume_m3;
   Navigation navigation;
-  navigation.keep_in_zones = {zone_of({{-3e5, -2e5}, {4e5, -1e5}, {0, 5e5}}, 0, 1e4)};
+  navigation.keep_in = {zone_of({{-3e5, -2e5}, {4e5, -1e5}, {0, 5e5}}, 0, 1e4)};
   EXPECT_NEAR(measure(cut_to_navigation(dome, navigation).mesh).volume_m3, whole, 1e-6);
 
   // A comb whose teeth pass beside the volume, and one through it.
@@ -124,11 +123,11 @@ TEST(Zones, MayReachFarBeyondTheVolume) {
       zone_of({{-3e5, -1e5}, {3e5, -1e5}, {3e5, 1e5}, {10, 1e5}, {10, -9e4}, {-10, -9e4}, {-10, 1e5}, {-3e5, 1e5}},
               -kInfinity, kInfinity);
   comb.holes = {{{20, -9e4}, {30, -9e4}, {30, 9e4}, {20, 9e4}}};
-  navigation.keep_in_zones = {comb};
+  navigation.keep_in = {comb};
   const Volume beside = cut_to_navigation(dome, navigation);
   expect_closed(beside);
-  navigation.keep_in_zones.clear();
-  navigation.keep_out_zones = {comb};
+  navigation.keep_in.clear();
+  navigation.keep_out = {comb};
   const Volume within = cut_to_navigation(dome, navigation);
   expect_closed(within);
   EXPECT_NEAR(measure(beside.mesh).volume_m3 + measure(within.mesh).volume_m3, whole, 1e-6);
@@ -191,21 +190,21 @@ TEST(Zones, CutAnswerAndDefinitionAgreeAtEveryScale) {
       for (int draw = 0; draw < 12; ++draw) {
         Navigation navigation;
         const bool kept = random.chance(0.7);
-        if (kept) navigation.keep_in_zones = {drawn_zone(random, shift, scale), drawn_zone(random, shift, scale)};
-        if (!kept || random.chance(0.5)) navigation.keep_out_zones = {drawn_zone(random, shift, 0.7 * scale)};
+        if (kept) navigation.keep_in = {drawn_zone(random, shift, scale), drawn_zone(random, shift, scale)};
+        if (!kept || random.chance(0.5)) navigation.keep_out = {drawn_zone(random, shift, 0.7 * scale)};
         const Volume cut = cut_to_navigation(dome, navigation);
         if (cut.outcome == Outcome::computed) expect_closed(cut);
         const Mesh after = moved(cut.mesh, shift);
         const core::TriangleTree rest(after);
         for (int i = 0; i < 150; ++i) {
           const Vec3 p = shift + scale * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.001, 1));
-          bool expected = whole.winding_number(p - shift) == 1, in_any = navigation.keep_in_zones.empty(), known = true;
-          for (const Zone& zone : navigation.keep_in_zones) {
+          bool expected = whole.winding_number(p - shift) == 1, in_any = navigation.keep_in.empty(), known = true;
+          for (const Zone& zone : navigation.keep_in) {
             const auto held = holds(zone, p, near);
             known = known && held;
             in_any = in_any || held.value_or(false);
           }
-          for (const Zone& zone : navigation.keep_out_zones) {
+          for (const Zone& zone : navigation.keep_out) {
             const auto held = holds(zone, p, near);
             known = known && held;
             expected = expected && !held.value_or(false);
@@ -229,14 +228,14 @@ TEST(Zones, NothingIsPushedOutward) {
     const double rounding = 5 * std::numeric_limits<double>::epsilon() * (shift.norm() + 100);
     for (int draw = 0; draw < 20; ++draw) {
       Navigation navigation;
-      navigation.keep_in_zones = {drawn_zone(random, shift, 80)};
-      navigation.keep_out_zones = {drawn_zone(random, shift, 50)};
+      navigation.keep_in = {drawn_zone(random, shift, 80)};
+      navigation.keep_out = {drawn_zone(random, shift, 50)};
       const Volume cut = cut_to_navigation(make_hemisphere(shift, 100, 24, 8), navigation);
       for (const Vec3& v : cut.mesh.vertices) {
-        EXPECT_NE(holds(navigation.keep_in_zones[0], v, rounding + 1e-9), std::optional(false));
-        EXPECT_NE(holds(navigation.keep_out_zones[0], v, rounding + 1e-9), std::optional(true));
-        EXPECT_GE(v.z(), navigation.keep_in_zones[0].min_z_m);
-        EXPECT_LE(v.z(), navigation.keep_in_zones[0].max_z_m);
+        EXPECT_NE(holds(navigation.keep_in[0], v, rounding + 1e-9), std::optional(false));
+        EXPECT_NE(holds(navigation.keep_out[0], v, rounding + 1e-9), std::optional(true));
+        EXPECT_GE(v.z(), navigation.keep_in[0].min_z_m);
+        EXPECT_LE(v.z(), navigation.keep_in[0].max_z_m);
       }
     }
   }
@@ -250,12 +249,12 @@ TEST(Zones, SaysWhichLeavesNothing) {
     EXPECT_EQ(cut.outcome, Outcome::outside_limits);
     testing::expect_wording({cut.reason, cut.hint});
   };
-  navigation.keep_in_zones = {zone_of({{500, 0}, {600, 0}, {600, 50}}, 0, 10, "park")};
+  navigation.keep_in = {zone_of({{500, 0}, {600, 0}, {600, 50}}, 0, 10, "park")};
   expect_nothing();
-  navigation.keep_in = {{Vec3(700, 0, 0), Vec3(710, 10, 10)}};
+  navigation.keep_in.push_back(Box{Vec3(700, 0, 0), Vec3(710, 10, 10)});
   expect_nothing();
   navigation = {};
-  navigation.keep_out_zones = {zone_of({{-500, -500}, {500, -500}, {500, 500}, {-500, 500}}, -1, kInfinity, "city")};
+  navigation.keep_out = {zone_of({{-500, -500}, {500, -500}, {500, 500}, {-500, 500}}, -1, kInfinity, "city")};
   expect_nothing();
 }
 
@@ -280,8 +279,8 @@ TEST(Zones, PointsOnTheBorderAreAllowed) {
   Navigation navigation;
   Zone kept = zone_of({{-20, -20}, {20, -20}, {20, 20}, {0, 40}, {-20, 20}}, 5, 30, "kept");
   kept.holes = {{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}};
-  navigation.keep_in_zones = {kept};
-  navigation.keep_out_zones = {zone_of({{4, 0}, {8, -4}, {8, 4}}, 8, 12, "out")};
+  navigation.keep_in = {kept};
+  navigation.keep_out = {zone_of({{4, 0}, {8, -4}, {8, 4}}, 8, 12, "out")};
   const std::vector<Vec3> points = {
       {0, 0, 10},   {2, 0, 10}, {3, 0, 10},  {20, 20, 10}, {10, 30, 10},    {0, 40, 30},
       {10, 31, 10}, {6, 0, 10}, {4, 0, 10},  {6, 2, 10},   {8, 3, 10},      {6, 0, 12},
@@ -311,8 +310,8 @@ TEST(Zones, RectanglesAnswerAsBoxes) {
   Navigation boxes, zones;
   boxes.keep_in = {in};
   boxes.keep_out = {out};
-  zones.keep_in_zones = {rectangle(in)};
-  zones.keep_out_zones = {rectangle(out)};
+  zones.keep_in = {rectangle(in)};
+  zones.keep_out = {rectangle(out)};
   std::vector<Vec3> points;
   for (int i = 0; i < 3000; ++i) {
     Vec3 p = random.in_box({Vec3(-40, -40, 0), Vec3(40, 40, 60)});
@@ -340,8 +339,8 @@ TEST(Zones, AVolumeInZonesPassesTheCheckAndAnUncutOneFails) {
   Navigation navigation;
   Zone kept = zone_of({{-40, -30}, {30, -40}, {10, 0}, {45, 30}, {-20, 40}}, 2, 50, "kept");
   kept.holes = {{{-10, -10}, {-3, -9}, {-5, 4}}};
-  navigation.keep_in_zones = {kept};
-  navigation.keep_out_zones = {zone_of({{0, 5}, {20, 12}, {5, 30}}, -kInfinity, 20, "out")};
+  navigation.keep_in = {kept};
+  navigation.keep_out = {zone_of({{0, 5}, {20, 12}, {5, 30}}, -kInfinity, 20, "out")};
   const PreparedTarget target(scene, square(), {60});
   const Volume volume = compute_volume(target, navigation), uncut = compute_volume(target);
   const VerifyReport right = verify_volume(town, square(), {60}, navigation, volume.mesh);
@@ -351,16 +350,16 @@ TEST(Zones, AVolumeInZonesPassesTheCheckAndAnUncutOneFails) {
   const VerifyReport wrong = verify_volume(town, square(), {60}, navigation, uncut.mesh);
   EXPECT_GT(wrong.over_claimed, 1000u);
   EXPECT_EQ(wrong.worst_over_cause, "keep_in");
-  navigation.keep_in_zones.clear();
+  navigation.keep_in.clear();
   const std::string out = "keep_out zone out";
   EXPECT_EQ(verify_volume(town, square(), {60}, navigation, uncut.mesh).worst_over_cause, out);
   // The hole filled: a quarter of a percent of the volume.
   Navigation filled;
   kept.holes.clear();
-  filled.keep_in_zones = {kept};
+  filled.keep_in = {kept};
   navigation = {};
-  navigation.keep_in_zones = {kept};
-  navigation.keep_in_zones[0].holes = {{{-10, -10}, {-3, -9}, {-5, 4}}};
+  navigation.keep_in = {kept};
+  navigation.keep_in[0].holes = {{{-10, -10}, {-3, -9}, {-5, 4}}};
   EXPECT_GT(verify_volume(town, square(), {60}, navigation, compute_volume(target, filled).mesh).over_claimed, 10u);
 }
 
@@ -369,19 +368,19 @@ TEST(Zones, TheCheckRefusesWhatIsNoZone) {
   const Mesh volume = make_hemisphere(Vec3::Zero(), 10, 8, 4).mesh;
   Navigation navigation;
   const auto check = [&] { verify_volume(town, square(), {60}, navigation, volume); };
-  navigation.keep_in_zones = {zone_of({{0, 0}, {1, 0}, {0, 1}}, 5, 4)};
-  expect_error(check, ErrorCode::limits_reversed, "navigation.keep_in_zones[0]");
-  navigation.keep_in_zones = {zone_of({{0, 0}, {1, 0}}, 4, 5)};
-  expect_error(check, ErrorCode::zone_not_simple, "navigation.keep_in_zones[0]");
+  navigation.keep_in = {zone_of({{0, 0}, {1, 0}, {0, 1}}, 5, 4)};
+  expect_error(check, ErrorCode::limits_reversed, "navigation.keep_in[0]");
+  navigation.keep_in = {zone_of({{0, 0}, {1, 0}}, 4, 5)};
+  expect_error(check, ErrorCode::zone_not_simple, "navigation.keep_in[0]");
 }
 
 TEST(Zones, RefusesWhatIsNoPolygon) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 10, 8, 4);
   const auto refuse = [&](const Zone::Ring& outer, const std::vector<Zone::Ring>& holes, ErrorCode code) {
     Navigation navigation;
-    navigation.keep_out_zones = {zone_of(outer, 0, 5)};
-    navigation.keep_out_zones[0].holes = holes;
-    expect_error([&] { cut_to_navigation(dome, navigation); }, code, "navigation.keep_out_zones[0]");
+    navigation.keep_out = {zone_of(outer, 0, 5)};
+    navigation.keep_out[0].holes = holes;
+    expect_error([&] { cut_to_navigation(dome, navigation); }, code, "navigation.keep_out[0]");
   };
   const Zone::Ring sound = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
   refuse({{0, 0}, {10, 10}, {10, 0}, {0, 10}}, {}, ErrorCode::zone_not_simple);                  // a bow tie
@@ -408,8 +407,8 @@ TEST(Zones, RefusesHeightsThatHoldNothing) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 10, 8, 4);
   const auto refuse = [&](double low, double high, ErrorCode code) {
     Navigation navigation;
-    navigation.keep_in_zones = {zone_of({{0, 0}, {10, 0}, {10, 10}}, low, high)};
-    expect_error([&] { cut_to_navigation(dome, navigation); }, code, "navigation.keep_in_zones[0]");
+    navigation.keep_in = {zone_of({{0, 0}, {10, 0}, {10, 10}}, low, high)};
+    expect_error([&] { cut_to_navigation(dome, navigation); }, code, "navigation.keep_in[0]");
   };
   refuse(5, 4, ErrorCode::limits_reversed);
   refuse(5, 5, ErrorCode::limits_empty);

@@ -3,8 +3,6 @@
 
 namespace example {
 
-double way_back_m() {
-  return vantage::shortest_dubins({0, 0, 0}, {0, 0, 3.14159}, 40).length_m();
-}
+double way_back_m() { return vantage::shortest_dubins({0, 0, 0}, {0, 0, 3.14159}, 40).length_m(); }
 
 }  // namespace example

@@ -43,9 +43,19 @@ struct KeepInMesh {
   std::string name;  ///< for messages and for causes in reports
 };
 
-/// What lies straight above and below a polygon, between two heights.
+/// What lies straight above and below a polygon, between two heights; or a box along the axes.
 struct Zone {
   using Ring = std::vector<Eigen::Vector2d>;
+
+  Zone() = default;
+  Zone(const Box& box)  // NOLINT(google-explicit-constructor): a box is a zone
+      : outer({{box.min.x(), box.min.y()},
+               {box.max.x(), box.min.y()},
+               {box.max.x(), box.max.y()},
+               {box.min.x(), box.max.y()}}),
+        min_z_m(box.min.z()),
+        max_z_m(box.max.z()),
+        is_box(true) {}
 
   /// Scene frame, x and y, metres: 3 corners or more, either turn, the first one not repeated. No side may cross or
   /// touch another one, of the same ring or of another; the sides of `holes` lie inside `outer`, and in no other hole.
@@ -54,7 +64,10 @@ struct Zone {
   std::vector<Ring> holes;
   double min_z_m = -std::numeric_limits<double>::infinity();  ///< scene z; infinite: without bound
   double max_z_m = std::numeric_limits<double>::infinity();   ///< likewise; above min_z_m
-  std::string name;                                           ///< for messages and for causes in reports
+  /// For messages and for causes in reports: "2" is "zone 2" there. Empty: the index in its list.
+  std::string name;
+  /// Made of a Box: `outer` are its corners in the order above, heights are finite, and there is nothing else.
+  bool is_box = false;
 
   /// Besides the bounds of z; may be infinite. Where there is no ground, a zone to stay in holds nothing, and one to
   /// stay out of all between the bounds of z. Where pieces of ground lie over each other, a zone to stay out of begins
@@ -62,7 +75,15 @@ struct Zone {
   std::optional<AboveGround> above_ground = {};
 
   static constexpr std::size_t kMostCorners = 20'000;
+
+  /// Of one that is a box.
+  Box box() const { return {{outer[0].x(), outer[0].y(), min_z_m}, {outer[2].x(), outer[2].y(), max_z_m}}; }
 };
+
+/// As reports call a zone of a list: "zone 2", "zone park.kml NFZ6547".
+inline std::string zone_name(const std::vector<Zone>& zones, std::size_t index) {
+  return "zone " + (zones[index].name.empty() ? std::to_string(index) : zones[index].name);
+}
 
 /// Where the vehicle may fly: the intersection of all that is given. Empty: everywhere. The borders of limits belong to
 /// what is allowed.
@@ -71,19 +92,16 @@ struct Navigation {
     double min_m = 0.0, max_m = 0.0;  ///< scene z, min < max
   };
   std::optional<Altitude> altitude;
-  std::vector<Box> keep_in;          ///< the volume is cut to their union, with that of `keep_in_zones`
-  std::vector<Zone> keep_in_zones;   ///< likewise
-  std::vector<Box> keep_out;         ///< each is taken away
-  std::vector<Zone> keep_out_zones;  ///< likewise
-  std::vector<KeepInMesh> meshes;    ///< the volume is cut to each
+  std::vector<Zone> keep_in;       ///< the volume is cut to their union
+  std::vector<Zone> keep_out;      ///< each is taken away
+  std::vector<KeepInMesh> meshes;  ///< the volume is cut to each
   std::optional<AboveGround> above_ground = {};
   std::optional<Clearance> clearance = {};
 
   static constexpr std::size_t kMostZones = 10'000;  ///< to stay in and out of, together: 100,000 would take minutes
 
   bool empty() const {
-    return !altitude && keep_in.empty() && keep_in_zones.empty() && keep_out.empty() && keep_out_zones.empty() &&
-           meshes.empty() && !above_ground && !clearance;
+    return !altitude && keep_in.empty() && keep_out.empty() && meshes.empty() && !above_ground && !clearance;
   }
 };
 

@@ -306,7 +306,7 @@ VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken
 ///   part of the leg, for which no single orientation is found counts as broken.
 ///
 /// A tube breaks "keep_in" and "boxes" where no single one of these holds all of it, also where two that touch do so
-/// together. Of a zone of `keep_out_zones` with heights above ground it counts as in it where it comes near enough to
+/// together. Of a zone of `keep_out` with heights above ground it counts as in it where it comes near enough to
 /// its plan, to its heights and to where there is ground, each by itself: more than exact, never less.
 ///
 /// `worst`: for the middle of the tube, plus what the radius adds. Metres: how far it is past the limit (of zones,

@@ -64,7 +64,7 @@ void find_ground(Mission& mission) {
   Navigation& navigation = mission.navigation;
   std::vector<AboveGround*> limits;
   if (navigation.above_ground) limits.push_back(&*navigation.above_ground);
-  for (std::vector<Zone>* zones : {&navigation.keep_in_zones, &navigation.keep_out_zones}) {
+  for (std::vector<Zone>* zones : {&navigation.keep_in, &navigation.keep_out}) {
     for (Zone& zone : *zones) {
       if (zone.above_ground) limits.push_back(&*zone.above_ground);
     }

@@ -148,13 +148,27 @@ void check_near(const Box& box, const Box& given, const std::string& name, const
               where, converter.order_advice());
 }
 
+/// One to stay in is the largest inside, one to stay out of the smallest around.
+Box placed_box(const Box& given, ZoneUse use, const std::string& name, const CrsConverter& converter) {
+  const Box around = converter.around(given);
+  check_near(around, given, name, converter, "");
+  if (use == ZoneUse::keep_out) return around;
+  const Box inside = converter.inside(given);
+  if ((inside.min.array() < inside.max.array()).all()) return inside;
+  throw Error(ErrorCode::limits_empty, name + " is too small or too askew to hold a box of the scene frame", "",
+              "make it larger, or give it in the scene frame");
+}
+
 void convert_zones(std::vector<Zone>& zones, ZoneUse use, const CrsConverter& converter,
                    const std::vector<std::string>& places) {
   for (std::size_t i = 0; i < zones.size(); ++i) {
-    const std::string name = std::string(use == ZoneUse::keep_in ? "keep_in" : "keep_out") + " zone " + zones[i].name;
+    const std::string name = std::string(use == ZoneUse::keep_in ? "keep_in " : "keep_out ") + zone_name(zones, i);
     core::with_place(i < places.size() ? places[i] : "", [&] {
       try {
-        zones[i] = converter.placed(zones[i], use);
+        Zone placed =
+            zones[i].is_box ? Zone(placed_box(zones[i].box(), use, name, converter)) : converter.placed(zones[i], use);
+        placed.name = zones[i].name;
+        zones[i] = std::move(placed);
       } catch (const Error& error) {
         throw error.with_where(error.where().empty() ? name : name + ", " + error.where());
       }
@@ -166,27 +180,9 @@ void convert_zones(std::vector<Zone>& zones, ZoneUse use, const CrsConverter& co
 // All members are named: a limit that is added does not compile here before it is converted. An
 // altitude is one of the scene frame, the ground is the scene's, and meshes say themselves where they lie.
 void convert_limits(Navigation& navigation, const CrsConverter& converter, const MissionFile& file) {
-  auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = navigation;
-  const std::string where = file.file.string();
-  convert_zones(keep_in_zones, ZoneUse::keep_in, converter, file.places.keep_in_zones);
-  convert_zones(keep_out_zones, ZoneUse::keep_out, converter, file.places.keep_out_zones);
-  for (std::size_t i = 0; i < keep_in.size(); ++i) {
-    check_near(converter.around(keep_in[i]), keep_in[i], "box " + std::to_string(i) + " of navigation.keep_in",
-               converter, where);
-    Box& box = keep_in[i];
-    box = converter.inside(box);
-    if ((box.min.array() >= box.max.array()).any()) {
-      throw Error(ErrorCode::limits_empty,
-                  "box " + std::to_string(i) +
-                      " of navigation.keep_in is too small or too askew to hold a box of the scene frame",
-                  where, "make it larger, or give it in the scene frame");
-    }
-  }
-  for (std::size_t i = 0; i < keep_out.size(); ++i) {
-    const Box given = keep_out[i];
-    keep_out[i] = converter.around(given);
-    check_near(keep_out[i], given, "box " + std::to_string(i) + " of navigation.keep_out", converter, where);
-  }
+  auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
+  convert_zones(keep_in, ZoneUse::keep_in, converter, file.places.keep_in_zones);
+  convert_zones(keep_out, ZoneUse::keep_out, converter, file.places.keep_out_zones);
 }
 
 /// A limit that is hardly a centimetre across keeps nothing out: its corners are most likely meant in degrees.
@@ -201,20 +197,16 @@ void check_not_in_degrees(const Eigen::AlignedBox2d& limit, const std::string& n
 }
 
 void check_limits_not_in_degrees(const Navigation& navigation, const MissionFile& file) {
-  const auto check = [&](const std::vector<Box>& boxes, const std::vector<Zone>& zones,
-                         const std::vector<std::string>& places, const std::string& list) {
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const Eigen::AlignedBox2d limit(Vec2(boxes[i].min.head<2>()), Vec2(boxes[i].max.head<2>()));
-      check_not_in_degrees(limit, "box " + std::to_string(i) + " of navigation." + list, file.file.string());
-    }
+  const auto check = [&](const std::vector<Zone>& zones, const std::vector<std::string>& places,
+                         const std::string& list) {
     for (std::size_t i = 0; i < zones.size(); ++i) {
       Eigen::AlignedBox2d limit;
       for (const Vec2& corner : zones[i].outer) limit.extend(corner);
-      check_not_in_degrees(limit, list + " zone " + zones[i].name, i < places.size() ? places[i] : file.file.string());
+      check_not_in_degrees(limit, list + " " + zone_name(zones, i), i < places.size() ? places[i] : file.file.string());
     }
   };
-  check(navigation.keep_in, navigation.keep_in_zones, file.places.keep_in_zones, "keep_in");
-  check(navigation.keep_out, navigation.keep_out_zones, file.places.keep_out_zones, "keep_out");
+  check(navigation.keep_in, file.places.keep_in_zones, "keep_in");
+  check(navigation.keep_out, file.places.keep_out_zones, "keep_out");
 }
 
 void place_sun(Mission& mission) {

@@ -28,9 +28,12 @@ struct NumberText {
 
 SortedJson sorted_json_of(const Vec3& v) { return {number_text(v.x()), number_text(v.y()), number_text(v.z())}; }
 
-SortedJson sorted_json_of(const std::vector<Box>& boxes) {
+/// Of zones that are boxes.
+SortedJson boxes_json(const std::vector<Zone>& zones) {
   SortedJson list = SortedJson::array();
-  for (const Box& box : boxes) list.push_back({sorted_json_of(box.min), sorted_json_of(box.max)});
+  for (const Zone& zone : zones) {
+    if (zone.is_box) list.push_back({sorted_json_of(zone.box().min), sorted_json_of(zone.box().max)});
+  }
   return list;
 }
 
@@ -48,9 +51,11 @@ SortedJson sorted_json_of(const AboveGround& limit) {
           {"ground", ground.surface ? SortedJson(volume_hash(*ground.surface)) : number_text(ground.plane_z_m)}};
 }
 
-SortedJson sorted_json_of(const std::vector<Zone>& zones) {
+/// Of the others.
+SortedJson polygons_json(const std::vector<Zone>& zones) {
   SortedJson list = SortedJson::array();
   for (const Zone& zone : zones) {
+    if (zone.is_box) continue;
     SortedJson rings = SortedJson::array();
     rings.push_back(sorted_json_of(zone.outer));
     for (const Zone::Ring& hole : zone.holes) rings.push_back(sorted_json_of(hole));
@@ -60,11 +65,11 @@ SortedJson sorted_json_of(const std::vector<Zone>& zones) {
   return list;
 }
 
-// All members are named: a limit that is added does not compile here before it is hashed. Zones are left out where
+// All members are named: a limit that is added does not compile here before it is hashed. Polygons are left out where
 // there are none, so that missions without them keep their hash.
 SortedJson sorted_json_of(const Navigation& limits) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = limits;
-  SortedJson json = {{"boxes", sorted_json_of(keep_in)}, {"keep_out", sorted_json_of(keep_out)}};
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = limits;
+  SortedJson json = {{"boxes", boxes_json(keep_in)}, {"keep_out", boxes_json(keep_out)}};
   json["altitude"] = altitude ? SortedJson{number_text(altitude->min_m), number_text(altitude->max_m)} : SortedJson();
   json["meshes"] = SortedJson::array();
   for (const KeepInMesh& mesh : meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
@@ -73,8 +78,8 @@ SortedJson sorted_json_of(const Navigation& limits) {
     json["clearance"] = {{"distance_m", number_text(clearance->distance_m)},
                          {"obstacles", volume_hash(*clearance->obstacles)}};
   }
-  if (!keep_in_zones.empty()) json["keep_in_zones"] = sorted_json_of(keep_in_zones);
-  if (!keep_out_zones.empty()) json["keep_out_zones"] = sorted_json_of(keep_out_zones);
+  if (SortedJson zones = polygons_json(keep_in); !zones.empty()) json["keep_in_zones"] = std::move(zones);
+  if (SortedJson zones = polygons_json(keep_out); !zones.empty()) json["keep_out_zones"] = std::move(zones);
   return json;
 }
 

@@ -256,13 +256,14 @@ class Writer {
   /// No height can be beyond this, nor can a file say so.
   static double bound(double z) { return std::clamp(z, -internal::app::kMaxLength, internal::app::kMaxLength); }
 
-  std::string zones(const std::vector<Box>& boxes, const std::vector<Zone>& zones,
-                    const std::vector<ZoneFile>& files) const {
+  std::string zones(const std::vector<Zone>& zones, const std::vector<ZoneFile>& files) const {
     std::string text;
-    for (const Box& box : boxes) {
-      text += (text.empty() ? "" : ", ") + ("{min: " + list_of(box.min) + ", max: " + list_of(box.max)) + "}";
-    }
     for (const Zone& zone : zones) {
+      if (zone.is_box) {
+        const Box box = zone.box();
+        text += (text.empty() ? "" : ", ") + ("{min: " + list_of(box.min) + ", max: " + list_of(box.max)) + "}";
+        continue;
+      }
       std::string holes;
       for (const Zone::Ring& hole : zone.holes) holes += (holes.empty() ? "" : ", ") + polygon(hole);
       text += (text.empty() ? "" : ", ") + ("{polygon: " + polygon(zone.outer));
@@ -284,8 +285,7 @@ class Writer {
 
   // All members are named: a limit that is added does not compile here before it is written.
   std::string navigation() const {
-    const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, resolved_meshes, above_ground, clearance] =
-        mission_.navigation;
+    const auto& [altitude, keep_in, keep_out, resolved_meshes, above_ground, clearance] = mission_.navigation;
     Section section("navigation");
     const std::string z = altitude ? list_of(std::array{altitude->min_m, altitude->max_m}) : "";
     if (above_ground) {
@@ -298,8 +298,8 @@ class Writer {
       section.add("ground", ground->plane_z_m ? shortest(*ground->plane_z_m) : quoted(ground->object));
     }
     if (clearance) section.add("clearance", shortest(clearance->distance_m));
-    const std::string kept = zones(keep_in, keep_in_zones, mission_.keep_in_files);
-    const std::string out = zones(keep_out, keep_out_zones, mission_.keep_out_files);
+    const std::string kept = zones(keep_in, mission_.keep_in_files);
+    const std::string out = zones(keep_out, mission_.keep_out_files);
     if (kept != "[]") section.add("keep_in", kept);
     if (out != "[]") section.add("keep_out", out);
     std::string meshes;

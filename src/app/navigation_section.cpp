@@ -32,9 +32,8 @@ class NavigationParser {
   NavigationSection parse(const YamlNode& node);
 
  private:
-  /// A list of zones of all kinds: boxes and others go to lists of their own.
+  /// A list of zones of all kinds: those of files go to a list of their own.
   struct ZoneLists {
-    std::vector<Box>& boxes;
     std::vector<Zone>& zones;
     std::vector<ZoneFile>& files;
     std::vector<std::string>&zone_places, &file_places;
@@ -47,7 +46,7 @@ class NavigationParser {
   void add_zones(const YamlNode& node, const std::string& what, const ZoneLists& lists) const;
   Box box(const YamlNode& node, const std::string& what) const;
   void refuse(const std::optional<core::LimitFault>& fault, const YamlNode& node, const std::string& what) const;
-  Zone polygon(const YamlNode& node, const std::string& what, std::size_t index) const;
+  Zone polygon(const YamlNode& node, const std::string& what) const;
   ZoneFile file(const YamlNode& node, const YamlNode& named, const std::string& what) const;
   /// Nothing where the node does not say.
   struct Heights {
@@ -74,8 +73,7 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
   if (const YamlNode* keep_in = kept(node)) {
     const std::string what = keep_in == find(node, "boxes") ? "navigation.boxes" : "navigation.keep_in";
     add_zones(*keep_in, what,
-              {navigation.keep_in, navigation.keep_in_zones, result_.keep_in_files, result_.places.keep_in_zones,
-               result_.places.keep_in_files});
+              {navigation.keep_in, result_.keep_in_files, result_.places.keep_in_zones, result_.places.keep_in_files});
     // "Cut to the union of no zones" would leave nothing, and "no limit" is not what the key says either.
     if (keep_in->items.empty()) {
       reader_.fail(ErrorCode::nothing_given, *keep_in, what + " is an empty list",
@@ -83,9 +81,9 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
     }
   }
   if (const YamlNode* keep_out = find(node, "keep_out")) {
-    add_zones(*keep_out, "navigation.keep_out",
-              {navigation.keep_out, navigation.keep_out_zones, result_.keep_out_files, result_.places.keep_out_zones,
-               result_.places.keep_out_files});
+    add_zones(
+        *keep_out, "navigation.keep_out",
+        {navigation.keep_out, result_.keep_out_files, result_.places.keep_out_zones, result_.places.keep_out_files});
   }
   if (const YamlNode* clearance = find(node, "clearance")) {
     navigation.clearance = {reader_.length(*clearance, "navigation.clearance"), {}};
@@ -153,8 +151,8 @@ bool NavigationParser::measures_from_ground() const {
   const Navigation& navigation = result_.navigation;
   const auto has_agl = [](const Zone& zone) { return zone.above_ground.has_value(); };
   return navigation.above_ground || !result_.keep_in_files.empty() || !result_.keep_out_files.empty() ||
-         std::any_of(navigation.keep_in_zones.begin(), navigation.keep_in_zones.end(), has_agl) ||
-         std::any_of(navigation.keep_out_zones.begin(), navigation.keep_out_zones.end(), has_agl);
+         std::any_of(navigation.keep_in.begin(), navigation.keep_in.end(), has_agl) ||
+         std::any_of(navigation.keep_out.begin(), navigation.keep_out.end(), has_agl);
 }
 
 void NavigationParser::parse_ground(const YamlNode& node) {
@@ -203,11 +201,8 @@ void NavigationParser::add_zones(const YamlNode& node, const std::string& what, 
       lists.file_places.push_back(place_in(reader_.file(), named->place));
       continue;
     }
-    if (find(item, "polygon") == nullptr) {
-      lists.boxes.push_back(box(item, name));
-      continue;
-    }
-    lists.zones.push_back(polygon(item, name, i));
+    lists.zones.push_back(find(item, "polygon") != nullptr ? polygon(item, name) : Zone(box(item, name)));
+    lists.zones.back().name = std::to_string(i);
     lists.zone_places.push_back(place_in(reader_.file(), item.place));
   }
 }
@@ -234,10 +229,9 @@ Box NavigationParser::box(const YamlNode& node, const std::string& what) const {
   return result;
 }
 
-Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, std::size_t index) const {
+Zone NavigationParser::polygon(const YamlNode& node, const std::string& what) const {
   refuse_beside(node, "polygon", {"min", "max"});
   Zone zone;
-  zone.name = std::to_string(index);
   zone.outer = reader_.ring(*find(node, "polygon"), what + ".polygon");
   if (const YamlNode* holes = find(node, "holes")) {
     const std::string name = what + ".holes";

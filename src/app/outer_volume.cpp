@@ -190,21 +190,20 @@ Navigation widened(const Navigation& given, double margin_m, std::vector<std::st
     wide.above_ground->min_m -= margin_m;
     wide.above_ground->max_m += margin_m;
   }
-  if (given.keep_in_zones.empty()) {
-    for (Box box : given.keep_in) {
-      box.min.array() -= margin_m;
-      box.max.array() += margin_m;
-      wide.keep_in.push_back(box);
+  const auto is_box = [](const Zone& zone) { return zone.is_box; };
+  if (std::all_of(given.keep_in.begin(), given.keep_in.end(), is_box)) {
+    for (const Zone& zone : given.keep_in) {
+      wide.keep_in.push_back(Box{zone.box().min.array() - margin_m, zone.box().max.array() + margin_m});
     }
   } else {
     ignored.emplace_back("keep_in");
   }
-  for (Box box : given.keep_out) {
-    box.min.array() += margin_m;
-    box.max.array() -= margin_m;
+  for (const Zone& zone : given.keep_out) {
+    if (!zone.is_box) continue;
+    const Box box{zone.box().min.array() + margin_m, zone.box().max.array() - margin_m};
     if ((box.min.array() < box.max.array()).all()) wide.keep_out.push_back(box);
   }
-  if (!given.keep_out_zones.empty()) ignored.emplace_back("keep_out");
+  if (!std::all_of(given.keep_out.begin(), given.keep_out.end(), is_box)) ignored.emplace_back("keep_out");
   if (!given.meshes.empty()) ignored.emplace_back("meshes");
   if (given.clearance) ignored.emplace_back("clearance");
   return wide;

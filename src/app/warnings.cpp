@@ -37,14 +37,10 @@ Box flying_area(const Navigation& navigation) {
     area.max = area.max.cwiseMin(box.max);
   };
   Box boxes;
-  for (const Box& box : navigation.keep_in) {
-    boxes.extend(box.min);
-    boxes.extend(box.max);
-  }
-  for (const Zone& zone : navigation.keep_in_zones) {
+  for (const Zone& zone : navigation.keep_in) {
     for (const Vec2& corner : zone.outer) boxes.extend(Vec3(corner.x(), corner.y(), 0));
   }
-  if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) cut(boxes);
+  if (!navigation.keep_in.empty()) cut(boxes);
   for (const KeepInMesh& mesh : navigation.meshes) cut(bounding_box(mesh.mesh));
   return area;
 }

@@ -286,7 +286,7 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
     if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
     zones.push_back(std::move(zone));
     const Navigation& all = mission_.navigation;
-    if (const auto fault = core::fault_of_count(all.keep_in_zones.size() + all.keep_out_zones.size())) {
+    if (const auto fault = core::fault_of_count(all.keep_in.size() + all.keep_out.size())) {
       fail(fault->code, "", fault->problem, fault->fix);
     }
     ++taken;
@@ -334,8 +334,8 @@ void add_file_zones(Mission& mission, const Progress& callback) {
       });
     }
   };
-  add(file.keep_in_files, file.places.keep_in_files, ZoneUse::keep_in, mission.navigation.keep_in_zones);
-  add(file.keep_out_files, file.places.keep_out_files, ZoneUse::keep_out, mission.navigation.keep_out_zones);
+  add(file.keep_in_files, file.places.keep_in_files, ZoneUse::keep_in, mission.navigation.keep_in);
+  add(file.keep_out_files, file.places.keep_out_files, ZoneUse::keep_out, mission.navigation.keep_out);
   progress.finish();
 }
 

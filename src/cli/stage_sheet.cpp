@@ -58,7 +58,7 @@ class SheetMaker {
   /// An altitude band is drawn as the box that it cuts out of the result's surroundings.
   Navigation limits_to_draw() const {
     Navigation limits = mission_.navigation;
-    if (!limits.keep_in.empty() || !limits.keep_in_zones.empty() || !limits.altitude) return limits;
+    if (!limits.keep_in.empty() || !limits.altitude) return limits;
     Box box;
     for (const Vec3& point : frame_) box.extend(point);
     box.min.z() = limits.altitude->min_m;

@@ -53,15 +53,9 @@ void check_ground(const Ground& ground, const std::string& where) {
   }
 }
 
-void check_boxes(const std::vector<Box>& boxes, const char* key) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    refuse(fault_of(boxes[i]), member(key, i), member(key, i));
-  }
-}
-
 void check_zones(const std::vector<Zone>& zones, const char* key) {
   for (std::size_t i = 0; i < zones.size(); ++i) {
-    refuse(fault_of(zones[i]), "zone " + zones[i].name, member(key, i));
+    refuse(fault_of(zones[i]), member(key, i), member(key, i));
     if (zones[i].above_ground) check_ground(zones[i].above_ground->ground, member(key, i));
   }
 }
@@ -80,8 +74,7 @@ void check_clearance(const Clearance& clearance) {
 
 // All members are named: a limit that is added does not compile here before it is checked.
 std::vector<Mesh> checked_navigation(const Navigation& navigation, const ProgressReporter& progress) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   if (altitude) refuse(fault_of_band(altitude->min_m, altitude->max_m), member("altitude"), member("altitude"));
   if (above_ground) {
     const std::string name = member("altitude.agl");
@@ -89,12 +82,9 @@ std::vector<Mesh> checked_navigation(const Navigation& navigation, const Progres
     check_ground(above_ground->ground, name);
   }
   if (clearance) check_clearance(*clearance);
-  check_boxes(keep_in, "keep_in");
-  check_boxes(keep_out, "keep_out");
-  refuse(fault_of_count(keep_in_zones.size() + keep_out_zones.size()), "navigation",
-         "navigation");  // before their work
-  check_zones(keep_in_zones, "keep_in_zones");
-  check_zones(keep_out_zones, "keep_out_zones");
+  refuse(fault_of_count(keep_in.size() + keep_out.size()), "navigation", "navigation");  // before their work
+  check_zones(keep_in, "keep_in");
+  check_zones(keep_out, "keep_out");
   std::vector<Mesh> checked;
   const auto count = static_cast<double>(meshes.size());
   for (std::size_t i = 0; i < meshes.size(); ++i) {

@@ -159,6 +159,16 @@ std::optional<LimitFault> fault_of_nesting(const Zone& zone) {
   return std::nullopt;
 }
 
+/// Of a zone that says that it is a box.
+std::optional<LimitFault> fault_of_box(const Zone& zone) {
+  const LimitFault other{ErrorCode::value_out_of_range, "it says that it is a box, and it is none",
+                         "make it of a Box, or leave 'is_box' out"};
+  if (zone.outer.size() != 4) return other;
+  if (auto fault = fault_of(zone.box())) return fault;
+  const bool is_one = zone.outer == Zone(zone.box()).outer && zone.holes.empty() && !zone.above_ground;
+  return is_one ? std::nullopt : std::optional(other);
+}
+
 }  // namespace
 
 std::optional<LimitFault> fault_of_count(std::size_t zones) {
@@ -170,6 +180,7 @@ std::optional<LimitFault> fault_of_count(std::size_t zones) {
 }
 
 std::optional<LimitFault> fault_of(const Zone& zone) {
+  if (zone.is_box) return fault_of_box(zone);
   if (auto fault = fault_of_heights(zone)) return fault;
   if (auto fault = fault_of_ring(zone.outer, 0)) return fault;
   std::size_t corners = zone.outer.size();

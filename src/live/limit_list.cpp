@@ -45,6 +45,7 @@ std::string text_of(const Box& box) {
 }
 
 std::string text_of(const Zone& zone) {
+  if (zone.is_box) return text_of(zone.box());
   std::string text = std::to_string(zone.outer.size()) + " corners";
   if (!zone.holes.empty()) text += ", " + std::to_string(zone.holes.size()) + " holes";
   return text + ", " + heights_of(zone);
@@ -101,22 +102,19 @@ void add_sensor(const Sensor& sensor, const MissionFile& file, Lines& lines) {
 }
 
 void add_navigation(const Navigation& navigation, Lines& lines) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   if (altitude) lines.push_back({"Altitude", "z " + band(altitude->min_m, altitude->max_m)});
   if (above_ground) lines.push_back({"Above ground", band(above_ground->min_m, above_ground->max_m)});
   if (clearance) lines.push_back({"Clearance", metres(clearance->distance_m) + " from all that is not ground"});
   for (std::size_t i = 0; i < keep_in.size(); ++i) {
-    lines.push_back({"Keep in, box " + std::to_string(i), text_of(keep_in[i])});
+    lines.push_back({"Keep in, " + zone_name(keep_in, i), text_of(keep_in[i])});
   }
-  for (const Zone& zone : keep_in_zones) lines.push_back({"Keep in, zone " + zone.name, text_of(zone)});
   for (const KeepInMesh& mesh : meshes) {
     lines.push_back({"Keep in, mesh", mesh.name + ", " + text_of(bounding_box(mesh.mesh))});
   }
   for (std::size_t i = 0; i < keep_out.size(); ++i) {
-    lines.push_back({"Keep out, box " + std::to_string(i), text_of(keep_out[i])});
+    lines.push_back({"Keep out, " + zone_name(keep_out, i), text_of(keep_out[i])});
   }
-  for (const Zone& zone : keep_out_zones) lines.push_back({"Keep out, zone " + zone.name, text_of(zone)});
 }
 
 /// z of the ground, from its lowest to its highest point.
@@ -138,8 +136,8 @@ std::pair<double, double> room_of(const Mission& mission) {
   return {scene.min.z(), std::max(scene.max.z(), target + beyond)};
 }
 
-DrawnZone drawn(const Zone& zone, bool is_kept_out, const std::pair<double, double>& room) {
-  DrawnZone result{is_kept_out, zone.name, {zone.outer}, zone.min_z_m, zone.max_z_m};
+DrawnZone drawn(const Zone& zone, std::string name, bool is_kept_out, const std::pair<double, double>& room) {
+  DrawnZone result{is_kept_out, std::move(name), {zone.outer}, zone.min_z_m, zone.max_z_m};
   result.rings.insert(result.rings.end(), zone.holes.begin(), zone.holes.end());
   if (zone.above_ground) {
     const auto [low, high] = extent_of(zone.above_ground->ground);
@@ -165,15 +163,12 @@ std::vector<DrawnZone> drawn_zones(const Mission& mission) {
   const Navigation& navigation = mission.navigation;
   std::vector<DrawnZone> zones;
   for (std::size_t i = 0; i < navigation.keep_in.size(); ++i) {
-    const auto& [min, max] = navigation.keep_in[i];
-    zones.push_back({false,
-                     "box " + std::to_string(i),
-                     {{{min.x(), min.y()}, {max.x(), min.y()}, {max.x(), max.y()}, {min.x(), max.y()}}},
-                     min.z(),
-                     max.z()});
+    zones.push_back(drawn(navigation.keep_in[i], zone_name(navigation.keep_in, i), false, room));
   }
-  for (const Zone& zone : navigation.keep_in_zones) zones.push_back(drawn(zone, false, room));
-  for (const Zone& zone : navigation.keep_out_zones) zones.push_back(drawn(zone, true, room));
+  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
+    const Zone& zone = navigation.keep_out[i];  // the page draws boxes itself: they can be moved
+    if (!zone.is_box) zones.push_back(drawn(zone, zone_name(navigation.keep_out, i), true, room));
+  }
   return zones;
 }
 

@@ -112,7 +112,9 @@ Json limits_of(const Mission& mission) {
   const auto& altitude = mission.navigation.altitude;
   const auto& above_ground = mission.navigation.above_ground;
   Json boxes = Json::array();
-  for (const Box& box : mission.navigation.keep_out) boxes.push_back(json(box));
+  for (const Zone& zone : mission.navigation.keep_out) {
+    if (zone.is_box) boxes.push_back(json(zone.box()));
+  }
   Json lines = Json::array(), zones = Json::array();
   for (const LimitLine& line : limit_lines(mission)) lines.push_back({{"name", line.name}, {"text", line.text}});
   for (const DrawnZone& zone : drawn_zones(mission)) zones.push_back(json(zone));

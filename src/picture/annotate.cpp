@@ -261,14 +261,14 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
     legend.push_back({Mark::film, kSolids[0], request.solids.size() > 1 ? "volumes" : "volume", ""});
   }
   const Navigation& limits = request.navigation;
-  if (!limits.keep_in.empty() || !limits.keep_in_zones.empty()) {
-    const bool is_one = limits.keep_in.size() + limits.keep_in_zones.size() == 1;
-    const char* const several = limits.keep_in_zones.empty() ? "navigable boxes" : "navigable zones";
-    const char* const one = limits.keep_in_zones.empty() ? "navigable box" : "navigable zone";
-    legend.push_back({Mark::line, kBox, is_one ? one : several, ""});
+  if (!limits.keep_in.empty()) {
+    const bool are_boxes =
+        std::all_of(limits.keep_in.begin(), limits.keep_in.end(), [](const Zone& zone) { return zone.is_box; });
+    const char* const several = are_boxes ? "navigable boxes" : "navigable zones";
+    const char* const one = are_boxes ? "navigable box" : "navigable zone";
+    legend.push_back({Mark::line, kBox, limits.keep_in.size() == 1 ? one : several, ""});
   }
-  if (!limits.keep_out.empty() || !limits.keep_out_zones.empty())
-    legend.push_back({Mark::line, kKeepOut, "keep out", ""});
+  if (!limits.keep_out.empty()) legend.push_back({Mark::line, kKeepOut, "keep out", ""});
   return legend;
 }
 

@@ -96,17 +96,14 @@ std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& reques
   }
   Box bounds;
   for (const Vec3& point : points) bounds.extend(point);
-  for (const Box& box : request.navigation.keep_in) {
-    const double size = bounds.empty() ? 0 : (bounds.max - bounds.min).norm();
-    if (size > 0 && (box.max - box.min).norm() > kLargestBox * size) continue;
-    for (const Vec3& corner : corners_of(box)) points.push_back(corner);
-  }
-  for (const Zone& zone : request.navigation.keep_in_zones) {
+  const double size = bounds.empty() ? 0 : (bounds.max - bounds.min).norm();
+  for (const Zone& zone : request.navigation.keep_in) {
     Box box;
     for (const Eigen::Vector2d& p : zone.outer) box.extend(Vec3(p.x(), p.y(), 0));
     box.min.z() = std::isfinite(zone.min_z_m) ? zone.min_z_m : bounds.empty() ? 0 : bounds.min.z();
     box.max.z() = std::isfinite(zone.max_z_m) ? zone.max_z_m : bounds.empty() ? 0 : bounds.max.z();
-    if (bounds.empty() || (box.max - box.min).norm() > kLargestBox * (bounds.max - bounds.min).norm()) continue;
+    const bool is_too_large = (box.max - box.min).norm() > kLargestBox * size;
+    if (size > 0 ? is_too_large : !zone.is_box) continue;
     for (const Vec3& corner : corners_of(box)) points.push_back(corner);
   }
   if (points.empty()) {
@@ -238,10 +235,8 @@ class Builder {
     for (std::size_t i = 0; i < request_.solids.size(); ++i) solid(*request_.solids[i], kSolids[i % kSolids.size()]);
     target();
     for (const PicturePath& one : request_.paths) path(one);
-    for (const Box& box : request_.navigation.keep_in) wire(box, kBox);
-    for (const Box& box : request_.navigation.keep_out) wire(box, kKeepOut);
-    for (const Zone& zone : request_.navigation.keep_in_zones) wire(zone, kBox);
-    for (const Zone& zone : request_.navigation.keep_out_zones) wire(zone, kKeepOut);
+    for (const Zone& zone : request_.navigation.keep_in) wire(zone, kBox);
+    for (const Zone& zone : request_.navigation.keep_out) wire(zone, kKeepOut);
     return std::move(list_);
   }
 
@@ -484,6 +479,7 @@ class Builder {
   /// A zone without a lower or an upper bound is drawn from the lowest or to the highest of what the picture is about.
   /// Corners that hardly turn, as those of circles, have no upright line.
   void wire(const Zone& zone, Colour colour) {
+    if (zone.is_box) return wire(zone.box(), colour);
     if (!is_near(zone)) return;
     const double low = std::isfinite(zone.min_z_m) ? zone.min_z_m : std::min(extent_.framed.min.z(), zone.max_z_m);
     const double high = std::isfinite(zone.max_z_m) ? zone.max_z_m : std::max(extent_.framed.max.z(), zone.min_z_m);

@@ -33,8 +33,7 @@ ClaimProof prove_within_box(const std::string& name, const LimitedVolume& volume
 std::vector<ClaimProof> prove_limits(const LimitedVolume& volume, const LimitedVolume& seen,
                                      const std::vector<View>& parts, const Sensor& sensor, const Navigation& navigation,
                                      const core::ProgressReporter& progress) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   check_limits(navigation);
   std::vector<ClaimProof> claims;
   if (altitude) {
@@ -42,12 +41,12 @@ std::vector<ClaimProof> prove_limits(const LimitedVolume& volume, const LimitedV
     claims.push_back(
         prove_within_box("altitude", volume, {{-all, -all, altitude->min_m}, {all, all, altitude->max_m}}));
   }
-  if (keep_in.size() == 1 && keep_in_zones.empty()) {
-    claims.push_back(prove_within_box("keep_in", volume, keep_in[0]));
-  } else if (!keep_in.empty() || !keep_in_zones.empty()) {
+  if (keep_in.size() == 1 && keep_in[0].is_box) {
+    claims.push_back(prove_within_box("keep_in", volume, keep_in[0].box()));
+  } else if (!keep_in.empty()) {
     claims.push_back(prove_keep_in(volume, navigation, progress.part(0, 0.2)));
   }
-  if (!keep_out.empty() || !keep_out_zones.empty()) {
+  if (!keep_out.empty()) {
     claims.push_back(prove_keep_out(volume, navigation, progress.part(0.2, 0.4)));
   }
   if (!meshes.empty()) claims.push_back(prove_meshes(volume, meshes));

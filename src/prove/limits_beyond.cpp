@@ -53,8 +53,9 @@ class LimitCollector {
       if (is_given) found_.without_argument.emplace_back(name);
     };
     leave(navigation_.above_ground && navigation_.above_ground->ground.surface, "agl");
-    leave(!navigation_.keep_in_zones.empty(), "keep_in");
-    leave(!navigation_.keep_out_zones.empty(), "keep_out zones");
+    const auto is_other = [](const Zone& zone) { return !zone.is_box; };
+    leave(std::any_of(navigation_.keep_in.begin(), navigation_.keep_in.end(), is_other), "keep_in");
+    leave(std::any_of(navigation_.keep_out.begin(), navigation_.keep_out.end(), is_other), "keep_out zones");
     leave(!navigation_.meshes.empty(), "meshes");
     leave(navigation_.clearance.has_value(), "clearance");
     leave(sensor_.camera.has_value(), "frame");
@@ -93,17 +94,20 @@ class LimitCollector {
   }
   void add_boxes() {
     std::vector<Box> kept;
-    for (const Box& box : navigation_.keep_in) kept.push_back(grown_by(about_origin(box), -rounding_m(box)));
-    if (!kept.empty() && navigation_.keep_in_zones.empty()) {
+    for (const Zone& zone : navigation_.keep_in) {
+      if (zone.is_box) kept.push_back(grown_by(about_origin(zone.box()), -rounding_m(zone.box())));
+    }
+    if (!kept.empty() && kept.size() == navigation_.keep_in.size()) {
       const bool holds_origin = (kept[0].min.array() <= 0 && kept[0].max.array() >= 0).all();
       add(WitnessKind::navigation, "keep_in", kept.size() == 1 && holds_origin, 0, [kept](const MovedPiece& piece) {
         return std::all_of(kept.begin(), kept.end(), [&](const Box& box) { return is_apart(piece, box); });
       });
     }
     for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {
-      const Box& out = navigation_.keep_out[i];
+      if (!navigation_.keep_out[i].is_box) continue;
+      const Box out = navigation_.keep_out[i].box();
       const Box box = grown_by(about_origin(out), rounding_m(out));
-      add(WitnessKind::navigation, "keep_out " + std::to_string(i), false, 0,
+      add(WitnessKind::navigation, "keep_out " + zone_name(navigation_.keep_out, i), false, 0,
           [box](const MovedPiece& piece) { return is_inside(piece, box); });
     }
   }

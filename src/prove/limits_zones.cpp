@@ -115,10 +115,9 @@ ClaimProof prove_covered(const LimitedVolume& volume, const Kept& kept, const co
 ClaimProof prove_keep_in(const LimitedVolume& volume, const Navigation& navigation,
                          const core::ProgressReporter& progress) {
   Kept kept;
-  for (const Box& box : navigation.keep_in) kept.prisms.emplace_back(box, volume.origin());
-  const bool is_one = navigation.keep_in.size() + navigation.keep_in_zones.size() == 1;
+  const bool is_one = navigation.keep_in.size() == 1;
   std::optional<ClaimProof> heights;
-  for (const Zone& zone : navigation.keep_in_zones) {
+  for (const Zone& zone : navigation.keep_in) {
     kept.prisms.emplace_back(zone, volume.origin());
     if (!has_terrain(zone)) continue;
     if (!is_one) return not_proved("keep_in", "one of several pieces is bounded by heights above terrain");
@@ -133,10 +132,8 @@ ClaimProof prove_keep_out(const LimitedVolume& volume, const Navigation& navigat
   std::optional<ClaimProof> all;
   const auto add = [&](const ClaimProof& one) { all = all ? worse(*all, one) : one; };
   for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
-    add(prove_clear_of(volume, Prism(navigation.keep_out[i], volume.origin()), "box " + std::to_string(i), progress));
-  }
-  for (const Zone& zone : navigation.keep_out_zones) {
-    const std::string what = "zone " + zone.name;
+    const Zone& zone = navigation.keep_out[i];
+    const std::string what = zone_name(navigation.keep_out, i);
     if (!has_terrain(zone)) {
       add(prove_clear_of(volume, Prism(zone, volume.origin()), what, progress));
       continue;

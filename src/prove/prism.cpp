@@ -41,13 +41,6 @@ HalfSpace upright(const Plan& outward, const Plan& through) {
 
 }  // namespace
 
-Prism::Prism(const Box& box, const Vec3& origin) : low_(box.min.z() - origin.z()), high_(box.max.z() - origin.z()) {
-  add_ring(
-      {{box.min.x(), box.min.y()}, {box.max.x(), box.min.y()}, {box.max.x(), box.max.y()}, {box.min.x(), box.max.y()}},
-      origin);
-  finish();
-}
-
 Prism::Prism(const Zone& zone, const Vec3& origin) : low_(zone.min_z_m - origin.z()), high_(zone.max_z_m - origin.z()) {
   add_ring(zone.outer, origin);
   for (const Zone::Ring& hole : zone.holes) add_ring(hole, origin);

@@ -12,7 +12,6 @@ namespace vantage::internal::prove {
 /// Positions are relative to an origin. Its heights may be infinite.
 class Prism {
  public:
-  Prism(const Box& box, const Vec3& origin);
   /// Of a zone, but for its heights above ground that is no plane.
   Prism(const Zone& zone, const Vec3& origin);
 

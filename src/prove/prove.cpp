@@ -529,8 +529,8 @@ std::vector<CertifiedBox> certified_boxes(const Navigation& navigation, const st
   for (const ClaimProof& claim : claims) {
     if (claim.verdict != ProofVerdict::proved) continue;
     if (claim.name == "altitude") boxes.push_back({claim.name, box_of(*navigation.altitude)});
-    if (claim.name == "keep_in" && navigation.keep_in.size() == 1 && navigation.keep_in_zones.empty()) {
-      boxes.push_back({claim.name, navigation.keep_in[0]});
+    if (claim.name == "keep_in" && navigation.keep_in.size() == 1 && navigation.keep_in[0].is_box) {
+      boxes.push_back({claim.name, navigation.keep_in[0].box()});
     }
   }
   return boxes;

@@ -89,39 +89,14 @@ LegIntervals above_height(const Tube& tube, double z) {
   return query::where_positive(tube.leg.from.z() - z + tube.radius, tube.leg.to.z() - z + tube.radius);
 }
 
-LegIntervals kept_in_box(const Box& box, const Tube& tube) {
-  LegIntervals kept{{0, 1}};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double from = tube.leg.from[axis], to = tube.leg.to[axis], r = tube.radius;
-    kept = query::without(kept, query::where_positive(box.min[axis] - from + r, box.min[axis] - to + r));
-    kept = query::without(kept, query::where_positive(from - box.max[axis] + r, to - box.max[axis] + r));
-  }
-  return kept;
-}
-
-LegIntervals broken_by_box(const Box& box, const Tube& tube) {
-  if (tube.radius > 0) {
-    const auto distance = [&](double share) { return std::max(0.0, query::outside_box(box, tube.at(share))); };
-    const auto part = query::below_level(distance, tube.radius);
-    return part ? LegIntervals{*part} : LegIntervals{};
-  }
-  LegIntervals broken{{0, 1}};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double from = tube.leg.from[axis], to = tube.leg.to[axis];
-    broken = query::common(broken, query::where_positive(from - box.min[axis], to - box.min[axis]));
-    broken = query::common(broken, query::where_positive(box.max[axis] - from, box.max[axis] - to));
-  }
-  return broken;
-}
-
 }  // namespace
 
 struct LegLimits::Data {
   Data(const Navigation& given, std::optional<internal::sensor::SensorLimits> sensor_limits)
       : navigation(given), sensor(std::move(sensor_limits)) {
     if (navigation.above_ground) ground = ground_for(navigation.above_ground->ground);
-    for (const Zone& zone : navigation.keep_in_zones) keep_in.emplace_back(zone, ground_of_zone(zone));
-    for (const Zone& zone : navigation.keep_out_zones) keep_out.emplace_back(zone, ground_of_zone(zone));
+    for (const Zone& zone : navigation.keep_in) keep_in.emplace_back(zone, ground_of_zone(zone));
+    for (const Zone& zone : navigation.keep_out) keep_out.emplace_back(zone, ground_of_zone(zone));
     for (const KeepInMesh& mesh : navigation.meshes) meshes.push_back(std::make_unique<query::LegMesh>(mesh));
     if (navigation.clearance) obstacles.emplace(*navigation.clearance->obstacles);
   }
@@ -138,8 +113,7 @@ struct LegLimits::Data {
 
   // All members of Navigation are named: a limit that is added does not compile before it is answered.
   std::vector<LegBreak> broken(const Tube& tube) const {
-    const auto& [altitude, keep_in_boxes, keep_in_zones, keep_out_boxes, keep_out_zones, keep_in_meshes, above_ground,
-                 clearance] = navigation;
+    const auto& [altitude, keep_in_zones, keep_out_zones, keep_in_meshes, above_ground, clearance] = navigation;
     std::vector<LegBreak> breaks;
     if (altitude) {
       const double low = altitude->min_m, high = altitude->max_m;
@@ -149,15 +123,10 @@ struct LegLimits::Data {
                 [&](double share) { return tube.at(share).z() - high + tube.radius; });
     }
     if (above_ground) add_above_ground(tube, breaks);
-    if (!keep_in_boxes.empty() || !keep_in_zones.empty()) add_keep_in(tube, breaks);
-    for (std::size_t i = 0; i < keep_out_boxes.size(); ++i) {
-      const Box& box = keep_out_boxes[i];
-      add_break(breaks, "keep_out " + std::to_string(i), Unit::metres, broken_by_box(box, tube),
-                [&](double share) { return tube.radius - query::outside_box(box, tube.at(share)); });
-    }
-    for (const LegZone& zone : keep_out) {
-      add_break(breaks, "keep_out zone " + zone.zone().name, Unit::metres, zone.broken(tube),
-                [&](double share) { return tube.radius - outside_zone(zone, tube.at(share), false); });
+    if (!keep_in_zones.empty()) add_keep_in(tube, breaks);
+    for (std::size_t i = 0; i < keep_out.size(); ++i) {
+      add_break(breaks, "keep_out " + zone_name(keep_out_zones, i), Unit::metres, keep_out[i].broken(tube),
+                [&](double share) { return tube.radius - outside_zone(keep_out[i], tube.at(share), false); });
     }
     for (std::size_t i = 0; i < keep_in_meshes.size(); ++i) {
       add_break(breaks, "mesh " + keep_in_meshes[i].name, Unit::metres, meshes[i]->broken(tube),
@@ -190,17 +159,15 @@ struct LegLimits::Data {
   void add_keep_in(const Tube& tube, std::vector<LegBreak>& breaks) const {
     LegIntervals kept;
     const auto add = [&](const LegIntervals& more) { kept.insert(kept.end(), more.begin(), more.end()); };
-    for (const Box& box : navigation.keep_in) add(kept_in_box(box, tube));
     for (const LegZone& zone : keep_in) add(zone.kept(tube));
     LegIntervals outside = query::rest_of(query::joined(std::move(kept)));
-    add_break(breaks, keep_in.empty() ? "boxes" : "keep_in", Unit::metres, std::move(outside),
+    add_break(breaks, "keep_in", Unit::metres, std::move(outside),
               [&](double share) { return outside_all(tube.at(share)) + tube.radius; });
   }
 
   /// How far a place is from what it may be in.
   double outside_all(const Vec3& place) const {
     double least = INFINITY;
-    for (const Box& box : navigation.keep_in) least = std::min(least, query::outside_box(box, place));
     for (const LegZone& zone : keep_in) least = std::min(least, outside_zone(zone, place, true));
     return least;
   }

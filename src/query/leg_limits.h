@@ -132,7 +132,4 @@ void add_sensor_breaks(const sensor::SensorLimits& limits, const Tube& tube, std
 /// The same of "frame" and "gimbal".
 void add_aim_breaks(const sensor::SensorLimits& limits, const Tube& tube, std::vector<LegBreak>& breaks);
 
-/// Distance from a box; inside: how far from leaving it, negative.
-double outside_box(const Box& box, const Vec3& place);
-
 }  // namespace vantage::internal::query

@@ -23,13 +23,39 @@ bool boxes_meet(const Box& a, const Box& b) {
   return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
-}  // namespace
-
+/// Distance from a box; inside: how far from leaving it, negative.
 double outside_box(const Box& box, const Vec3& place) {
   const Vec3 beyond = (box.min - place).cwiseMax(place - box.max);
   const double farthest = beyond.maxCoeff();
   return farthest <= 0 ? farthest : beyond.cwiseMax(0).norm();
 }
+
+LegIntervals kept_in_box(const Box& box, const Tube& tube) {
+  LegIntervals kept{{0, 1}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = tube.leg.from[axis], to = tube.leg.to[axis], r = tube.radius;
+    kept = without(kept, where_positive(box.min[axis] - from + r, box.min[axis] - to + r));
+    kept = without(kept, where_positive(from - box.max[axis] + r, to - box.max[axis] + r));
+  }
+  return kept;
+}
+
+LegIntervals broken_by_box(const Box& box, const Tube& tube) {
+  if (tube.radius > 0) {
+    const auto distance = [&](double share) { return std::max(0.0, outside_box(box, tube.at(share))); };
+    const auto part = below_level(distance, tube.radius);
+    return part ? LegIntervals{*part} : LegIntervals{};
+  }
+  LegIntervals broken{{0, 1}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = tube.leg.from[axis], to = tube.leg.to[axis];
+    broken = common(broken, where_positive(from - box.min[axis], to - box.min[axis]));
+    broken = common(broken, where_positive(box.max[axis] - from, box.max[axis] - to));
+  }
+  return broken;
+}
+
+}  // namespace
 
 LegZone::LegZone(const Zone& zone, std::shared_ptr<const LegGround> ground)
     : zone_(zone), box_(box_of(zone)), ground_(std::move(ground)) {}
@@ -87,6 +113,7 @@ LegIntervals LegZone::near_sides(const Tube& tube, bool within_heights) const {
 }
 
 LegIntervals LegZone::kept(const Tube& tube) const {
+  if (zone_.is_box) return kept_in_box(box_, tube);
   if (!boxes_meet(box_, tube.box())) return {};
   const double from = tube.leg.from.z(), to = tube.leg.to.z(), radius = tube.radius;
   LegIntervals parts = in_plan(tube, true);
@@ -101,6 +128,7 @@ LegIntervals LegZone::kept(const Tube& tube) const {
 }
 
 LegIntervals LegZone::broken(const Tube& tube) const {
+  if (zone_.is_box) return broken_by_box(box_, tube);
   if (!boxes_meet(box_, tube.box())) return {};
   const double from = tube.leg.from.z(), to = tube.leg.to.z(), radius = tube.radius;
   LegIntervals parts = in_plan(tube, false);
@@ -121,6 +149,7 @@ LegIntervals LegZone::broken(const Tube& tube) const {
 }
 
 double LegZone::outside(const Vec3& place) const {
+  if (zone_.is_box) return outside_box(box_, place);
   double aside = INFINITY;
   for_each_side(
       zone_, [&](const Plan& a, const Plan& b) { aside = std::min(aside, distance_to_side(place.head<2>(), a, b)); });

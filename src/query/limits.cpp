@@ -62,10 +62,10 @@ void add_mesh_crossings(const Mesh& mesh, const ViewRay& line, std::vector<doubl
 }
 
 bool strictly_inside(const Zone& zone, const Box& box, const Vec3& p) {
-  return strictly_inside(box, p) && place_in(zone, p.head<2>()) == ZonePlace::inside;
+  return strictly_inside(box, p) && (zone.is_box || place_in(zone, p.head<2>()) == ZonePlace::inside);
 }
 bool inside(const Zone& zone, const Box& box, const Vec3& p) {
-  return inside(box, p) && place_in(zone, p.head<2>()) != ZonePlace::outside;
+  return inside(box, p) && (zone.is_box || place_in(zone, p.head<2>()) != ZonePlace::outside);
 }
 
 /// Where the line passes a side or a height, or nearly, as for meshes.
@@ -100,14 +100,14 @@ Limits::Limits(Navigation navigation, sensor::SensorLimits sensor)
     : navigation_(std::move(navigation)), sensor_(std::move(sensor)) {
   for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
   if (navigation_.above_ground) add_ground(navigation_.above_ground->ground);
-  for (const std::vector<Zone>* zones : {&navigation_.keep_in_zones, &navigation_.keep_out_zones}) {
+  for (const std::vector<Zone>* zones : {&navigation_.keep_in, &navigation_.keep_out}) {
     for (const Zone& zone : *zones) {
       if (zone.above_ground) add_ground(zone.above_ground->ground);
     }
   }
   if (navigation_.clearance) obstacles_.emplace(*navigation_.clearance);
-  for (const Zone& zone : navigation_.keep_in_zones) keep_in_boxes_.push_back(box_of(zone));
-  for (const Zone& zone : navigation_.keep_out_zones) keep_out_boxes_.push_back(box_of(zone));
+  for (const Zone& zone : navigation_.keep_in) keep_in_boxes_.push_back(box_of(zone));
+  for (const Zone& zone : navigation_.keep_out) keep_out_boxes_.push_back(box_of(zone));
 }
 
 void Limits::add_ground(const Ground& ground) {
@@ -134,8 +134,7 @@ void Limits::add_above_ground_crossings(const AboveGround& limit, const ViewRay&
 
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
 std::vector<double> Limits::cut_line(const ViewRay& line) const {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation_;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation_;
   std::vector<double> cuts;
   if (altitude) {
     Box band;
@@ -143,20 +142,22 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
     band.max = {INFINITY, INFINITY, altitude->max_m};
     add_box_crossings(band, line, cuts);
   }
-  for (const Box& box : keep_in) add_box_crossings(box, line, cuts);
-  for (const Box& box : keep_out) add_box_crossings(box, line, cuts);
   Box within_reach;
   within_reach.extend(line.origin);
   within_reach.extend(line.at(line.reach));
   const auto add_zones = [&](const std::vector<Zone>& zones, const std::vector<Box>& boxes) {
     for (std::size_t i = 0; i < zones.size(); ++i) {
+      if (zones[i].is_box) {
+        add_box_crossings(boxes[i], line, cuts);
+        continue;
+      }
       if (!meet(boxes[i], within_reach)) continue;
       add_zone_crossings(zones[i], line, cuts);
       if (zones[i].above_ground) add_above_ground_crossings(*zones[i].above_ground, line, cuts);
     }
   };
-  add_zones(keep_in_zones, keep_in_boxes_);
-  add_zones(keep_out_zones, keep_out_boxes_);
+  add_zones(keep_in, keep_in_boxes_);
+  add_zones(keep_out, keep_out_boxes_);
   for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
   if (above_ground) add_above_ground_crossings(*above_ground, line, cuts);
   if (clearance) obstacles_->add_crossings(line.origin, line.direction, line.reach, cuts);
@@ -218,26 +219,21 @@ bool Limits::is_clear_of_heights(const Zone& zone, const Vec3& point) const {
 }
 
 std::vector<std::string> Limits::broken(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation_;
-  const auto holds = [&](const Box& box) { return inside(box, point); };
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation_;
   std::vector<std::string> broken;
   if (altitude) {
     if (point.z() < altitude->min_m) broken.push_back("altitude min");
     if (point.z() > altitude->max_m) broken.push_back("altitude max");
   }
   if (above_ground) add_broken_above_ground(point, broken);
-  bool is_kept = (keep_in.empty() && keep_in_zones.empty()) || std::any_of(keep_in.begin(), keep_in.end(), holds);
-  for (std::size_t i = 0; i < keep_in_zones.size() && !is_kept; ++i) {
-    is_kept = inside(keep_in_zones[i], keep_in_boxes_[i], point) && is_at_height(keep_in_zones[i], point);
+  bool is_kept = keep_in.empty();
+  for (std::size_t i = 0; i < keep_in.size() && !is_kept; ++i) {
+    is_kept = inside(keep_in[i], keep_in_boxes_[i], point) && is_at_height(keep_in[i], point);
   }
-  if (!is_kept) broken.push_back(keep_in_zones.empty() ? "boxes" : "keep_in");
-  for (std::size_t i = 0; i < keep_out.size(); ++i)
-    if (strictly_inside(keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
-  for (std::size_t i = 0; i < keep_out_zones.size(); ++i) {
-    const Zone& zone = keep_out_zones[i];
-    if (strictly_inside(zone, keep_out_boxes_[i], point) && !is_clear_of_heights(zone, point))
-      broken.push_back("keep_out zone " + zone.name);
+  if (!is_kept) broken.push_back("keep_in");
+  for (std::size_t i = 0; i < keep_out.size(); ++i) {
+    if (strictly_inside(keep_out[i], keep_out_boxes_[i], point) && !is_clear_of_heights(keep_out[i], point))
+      broken.push_back("keep_out " + zone_name(keep_out, i));
   }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     // Also because the winding number overflows far away.

@@ -26,7 +26,7 @@ class Limits {
   Limits(Navigation navigation, sensor::SensorLimits sensor);
 
   /// Names as in reports: "altitude min", "altitude max", "agl min", "agl max", "ground edge" (no ground above or below
-  /// the point), "boxes" or "keep_in" (the point is in none of them), "keep_out 2", "keep_out zone NAME", "mesh NAME",
+  /// the point), "keep_in" (the point is in none of these zones), "keep_out zone 2", "keep_out zone NAME", "mesh NAME",
   /// "clearance", then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the
   /// corners of zones and in the triangles of navigation meshes whose boxes hold the point.
   std::vector<std::string> broken(const Vec3& point) const;

@@ -48,13 +48,11 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
                   left_name + span_text(left, origin),
               region.solid.empty() ? "enlarge the scene, or give the ground's z: 'navigation.ground: 0'"
                                    : "widen the band"};
-    case RegionKind::box:
+    case RegionKind::zone:
       return {region.name + " does not meet " + left_name + span_text(left, origin),
               "move or enlarge it so that it overlaps this"};
-    case RegionKind::boxes:
-      return {"no box meets " + left_name + span_text(left, origin), "move or enlarge a box so that it overlaps this"};
     case RegionKind::zones:
-      return {"neither a zone nor a box to stay in meets " + left_name + span_text(left, origin),
+      return {"no zone to stay in meets " + left_name + span_text(left, origin),
               "move or enlarge one so that it overlaps this"};
     case RegionKind::mesh:
       return {region.name + " does not meet " + left_name + span_text(left, origin),

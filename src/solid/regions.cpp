@@ -35,8 +35,6 @@ bool insides_meet(const Box& a, const Box& b) {
   return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
 }
 
-std::string zone_name(const Zone& zone) { return std::string("zone ").append(zone.name); }
-
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Causes of a box's six sides: at min x, y, z, then at max x, y, z.
@@ -56,10 +54,9 @@ class Builder {
 
   void add_altitude(const Navigation::Altitude& altitude);
   void add_above_ground(const AboveGround& limit);
-  void add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& zones);
+  void add_kept(const std::vector<Zone>& zones);
   void add_mesh(const Mesh& mesh, const std::string& name);
-  void add_keep_out(const Box& box, std::size_t index);
-  void add_keep_out(const Zone& zone);
+  void add_keep_out(const Zone& zone, const std::string& zone_name);
 
   Regions take() { return std::move(result_); }
 
@@ -186,28 +183,28 @@ Solid Builder::make_heights(const AboveGround& heights, std::uint32_t cause) {
   return make_side_labelled_box(band, causes);
 }
 
-void Builder::add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& zones) {
-  if (boxes.empty() && zones.empty()) return;
-  for (const Box& box : boxes) {
-    if (contains(box, bounds_)) return;
+void Builder::add_kept(const std::vector<Zone>& zones) {
+  if (zones.empty()) return;
+  for (const Zone& zone : zones) {
+    if (zone.is_box && contains(zone.box(), bounds_)) return;
   }
   std::vector<Solid> solids;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (insides_meet(boxes[i], bounds_)) {
-      solids.push_back(make_box_of_one_cause(boxes[i], std::string("box ").append(std::to_string(i))));
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    const Zone& zone = zones[i];
+    const std::string name = zone_name(zones, i);
+    if (zone.is_box) {
+      if (insides_meet(zone.box(), bounds_)) solids.push_back(make_box_of_one_cause(zone.box(), name));
+      continue;
     }
-  }
-  for (const Zone& zone : zones) {
-    const std::uint32_t cause = add_cause(zone_name(zone));
+    const std::uint32_t cause = add_cause(name);
     Solid solid = make_zone(zone, cause);
     if (zone.above_ground && !solid.empty())
       solid = intersect(solid, make_heights(*zone.above_ground, cause), progress_);
     solids.push_back(std::move(solid));
   }
-  const bool is_one = boxes.size() + zones.size() == 1;
-  const RegionKind kind = is_one ? RegionKind::box : zones.empty() ? RegionKind::boxes : RegionKind::zones;
-  const std::string name = !is_one ? "boxes" : zones.empty() ? "box 0" : zone_name(zones[0]);
-  result_.kept.push_back({kind, name, unite(solids, progress_)});
+  const bool is_one = zones.size() == 1;
+  result_.kept.push_back({is_one ? RegionKind::zone : RegionKind::zones, is_one ? zone_name(zones, 0) : "keep_in",
+                          unite(solids, progress_)});
 }
 
 void Builder::add_mesh(const Mesh& mesh, const std::string& name) {
@@ -218,14 +215,13 @@ void Builder::add_mesh(const Mesh& mesh, const std::string& name) {
                           Solid(moved_to_origin(mesh, std::move(labels), result_.origin), name)});
 }
 
-void Builder::add_keep_out(const Box& box, std::size_t index) {
-  if (!insides_meet(box, bounds_)) return;
-  const std::string name = std::string("keep_out ").append(std::to_string(index));
-  result_.forbidden.push_back({RegionKind::keep_out, name, make_box_of_one_cause(box, name)});
-}
-
-void Builder::add_keep_out(const Zone& zone) {
-  const std::string name = std::string("keep_out ").append(zone_name(zone));
+void Builder::add_keep_out(const Zone& zone, const std::string& zone_name) {
+  const std::string name = std::string("keep_out ").append(zone_name);
+  if (zone.is_box) {
+    if (!insides_meet(zone.box(), bounds_)) return;
+    result_.forbidden.push_back({RegionKind::keep_out, name, make_box_of_one_cause(zone.box(), name)});
+    return;
+  }
   const std::uint32_t cause = add_cause(name);
   Solid solid = make_zone(zone, cause);
   if (zone.above_ground && !solid.empty()) {
@@ -276,15 +272,13 @@ void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, st
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes,
                      const core::ProgressReporter& progress) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, keep_in_meshes, above_ground, clearance] =
-      navigation;
+  const auto& [altitude, keep_in, keep_out, keep_in_meshes, above_ground, clearance] = navigation;
   Builder builder(volume_causes, volume_sources, bounds, progress.part(0, 0));
   if (altitude) builder.add_altitude(*altitude);
   if (above_ground) builder.add_above_ground(*above_ground);
-  builder.add_kept(keep_in, keep_in_zones);
+  builder.add_kept(keep_in);
   for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], keep_in_meshes[i].name);
-  for (std::size_t i = 0; i < keep_out.size(); ++i) builder.add_keep_out(keep_out[i], i);
-  for (const Zone& zone : keep_out_zones) builder.add_keep_out(zone);
+  for (std::size_t i = 0; i < keep_out.size(); ++i) builder.add_keep_out(keep_out[i], zone_name(keep_out, i));
   static_cast<void>(clearance);  // add_clearance_region
   return builder.take();
 }

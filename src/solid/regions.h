@@ -39,13 +39,13 @@ class FacetSourceList {
 void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
               Volume& volume);
 
-enum class RegionKind { altitude, above_ground, box, boxes, zones, mesh, keep_out, clearance, sensor };
+enum class RegionKind { altitude, above_ground, zone, zones, mesh, keep_out, clearance, sensor };
 
-/// Space to stay in or out of. All boxes and zones to stay in are one region, since the volume is cut to their union.
+/// Space to stay in or out of. All zones to stay in are one region, since the volume is cut to their union.
 struct Region {
   RegionKind kind;
-  std::string name;              ///< "the altitude band 20 to 120 m", "box 0", "the mesh airspace.ply", "keep_out 1",
-                                 ///< "zone park"
+  std::string name;              ///< "the altitude band 20 to 120 m", "zone 0", "the mesh airspace.ply",
+                                 ///< "keep_out zone park"
   Solid solid;                   ///< about Regions::origin; empty when it misses the volume's bounds
   Box box = {};                  ///< of the altitude band, scene frame: z alone is meant
   std::string explanation = {};  ///< of a sensor's limit: what it asks, as a clause; may be empty

@@ -74,10 +74,10 @@ bool contains(const Zone& zone, const Box& bounds, const Vec3& point, bool on_bo
 
 Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(navigation), origin_(origin) {
   if (navigation_.above_ground) ground_.emplace(*navigation_.above_ground);
-  keep_in_bounds_ = bounds_of(navigation_.keep_in_zones);
-  keep_out_bounds_ = bounds_of(navigation_.keep_out_zones);
-  keep_in_heights_ = heights_of(navigation_.keep_in_zones);
-  keep_out_heights_ = heights_of(navigation_.keep_out_zones);
+  keep_in_bounds_ = bounds_of(navigation_.keep_in);
+  keep_out_bounds_ = bounds_of(navigation_.keep_out);
+  keep_in_heights_ = heights_of(navigation_.keep_in);
+  keep_out_heights_ = heights_of(navigation_.keep_out);
   if (navigation_.clearance) obstacles_.emplace(*navigation_.clearance);
   for (const KeepInMesh& keep_in : navigation_.meshes) {
     meshes_.emplace_back(keep_in.mesh, origin, "keep-in mesh '" + keep_in.name + "'");
@@ -86,8 +86,7 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
 
 // All members are named: a limit that is added does not compile here before it is checked.
 std::optional<std::string> Limits::broken_by(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation_;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation_;
   const Vec3 scene_point = point + origin_;
   if (altitude) {
     if (scene_point.z() < altitude->min_m) return "altitude min";
@@ -96,20 +95,16 @@ std::optional<std::string> Limits::broken_by(const Vec3& point) const {
   if (ground_) {
     if (const auto limit = ground_->broken_by(scene_point)) return *limit;
   }
-  const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
-  bool is_kept = (keep_in.empty() && keep_in_zones.empty()) || std::any_of(keep_in.begin(), keep_in.end(), holds);
-  for (std::size_t i = 0; i < keep_in_zones.size() && !is_kept; ++i) {
-    is_kept = contains(keep_in_zones[i], keep_in_bounds_[i], scene_point, true) &&
+  bool is_kept = keep_in.empty();
+  for (std::size_t i = 0; i < keep_in.size() && !is_kept; ++i) {
+    is_kept = contains(keep_in[i], keep_in_bounds_[i], scene_point, true) &&
               !(keep_in_heights_[i] && keep_in_heights_[i]->broken_by(scene_point));
   }
-  if (!is_kept) return keep_in_zones.empty() ? "box" : "keep_in";
+  if (!is_kept) return "keep_in";
   for (std::size_t i = 0; i < keep_out.size(); ++i) {
-    if (strictly_within(keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
-  }
-  for (std::size_t i = 0; i < keep_out_zones.size(); ++i) {
-    if (contains(keep_out_zones[i], keep_out_bounds_[i], scene_point, false) &&
+    if (contains(keep_out[i], keep_out_bounds_[i], scene_point, false) &&
         !(keep_out_heights_[i] && keep_out_heights_[i]->is_outside_band(scene_point))) {
-      return "keep_out zone " + keep_out_zones[i].name;
+      return "keep_out " + zone_name(keep_out, i);
     }
   }
   for (std::size_t i = 0; i < meshes_.size(); ++i) {

@@ -231,8 +231,8 @@ void draw_limits(Random& random, const Pose& pose, Case& c) {
   }
   if (random.chance(0.4)) c.navigation.keep_in = {draw_box(random, pose, c.range), draw_box(random, pose, c.range)};
   if (random.chance(0.4)) c.navigation.keep_out = {draw_box(random, pose, 0.5 * c.range)};
-  if (random.chance(0.3)) c.navigation.keep_in_zones = {draw_zone(random, pose, c.range)};
-  if (random.chance(0.3)) c.navigation.keep_out_zones = {draw_zone(random, pose, 0.5 * c.range)};
+  if (random.chance(0.3)) c.navigation.keep_in.push_back(draw_zone(random, pose, c.range));
+  if (random.chance(0.3)) c.navigation.keep_out.push_back(draw_zone(random, pose, 0.5 * c.range));
 }
 
 /// An antenna in the target's place, or somewhat above it. Its zone is up to a thirtieth of the range wide. Not in

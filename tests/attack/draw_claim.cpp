@@ -233,13 +233,13 @@ void limit_one_box(Random& random, MeshCase& c) {
 
 void limit_boxes(Random& random, MeshCase& c) {
   for (int count = random.integer(2, 4); count > 0; --count) {
-    const Vec3 middle =
-        c.navigation.keep_in.empty() || random.chance(0.3)
-            ? draw_place(c, random)
-            : Vec3((c.navigation.keep_in.back().min + c.navigation.keep_in.back().max) / 2 + random.point(-9, 9));
+    const Vec3 middle = c.navigation.keep_in.empty() || random.chance(0.3)
+                            ? draw_place(c, random)
+                            : Vec3((c.navigation.keep_in.back().box().min + c.navigation.keep_in.back().box().max) / 2 +
+                                   random.point(-9, 9));
     c.navigation.keep_in.push_back(box_about(random, middle, 3, 15));
   }
-  if (random.chance(0.5)) c.navigation.keep_in_zones = {zone_about(random, c, draw_place(c, random), 15)};
+  if (random.chance(0.5)) c.navigation.keep_in.push_back(zone_about(random, c, draw_place(c, random), 15));
 }
 
 void limit_out_boxes(Random& random, MeshCase& c) {
@@ -249,13 +249,13 @@ void limit_out_boxes(Random& random, MeshCase& c) {
 }
 
 void limit_zone(Random& random, MeshCase& c) {
-  c.navigation.keep_in_zones = {zone_about(random, c, draw_place(c, random), random.uniform(8, 40))};
+  c.navigation.keep_in = {zone_about(random, c, draw_place(c, random), random.uniform(8, 40))};
 }
 
 void limit_out_zones(Random& random, MeshCase& c) {
   for (int count = random.integer(1, 2); count > 0; --count) {
-    c.navigation.keep_out_zones.push_back(zone_about(random, c, draw_place(c, random), random.uniform(2, 15)));
-    c.navigation.keep_out_zones.back().name += std::to_string(count);
+    c.navigation.keep_out.push_back(zone_about(random, c, draw_place(c, random), random.uniform(2, 15)));
+    c.navigation.keep_out.back().name += std::to_string(count);
   }
 }
 
@@ -386,16 +386,21 @@ void move(MeshCase& c, const Placement& pose) {
   c.sensor.max_range_m *= pose.unit;
   c.sensor.min_range_m *= pose.unit;
   if (c.sensor.pixel) c.sensor.pixel->size_m *= pose.unit;
-  auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = c.navigation;
+  auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = c.navigation;
   if (altitude) {
     pose.move(altitude->min_m);
     pose.move(altitude->max_m);
   }
-  for (auto* boxes : {&keep_in, &keep_out}) {
-    for (Box& box : *boxes) pose.move(box);
-  }
-  for (auto* zones : {&keep_in_zones, &keep_out_zones}) {
-    for (Zone& zone : *zones) pose.move(zone);
+  for (auto* zones : {&keep_in, &keep_out}) {
+    for (Zone& zone : *zones) {
+      if (!zone.is_box) {
+        pose.move(zone);
+        continue;
+      }
+      Box box = zone.box();
+      pose.move(box);
+      zone = box;
+    }
   }
   for (vantage::KeepInMesh& mesh : meshes) {
     for (Vec3& v : mesh.mesh.vertices) pose.move(v);

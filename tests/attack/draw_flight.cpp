@@ -134,16 +134,15 @@ class FlightDrawing {
                              (k & 4 ? box.max : box.min).z());
       }
     };
-    for (const vantage::Box& box : navigation.keep_in) add_box(box);
-    for (const vantage::Box& box : navigation.keep_out) add_box(box);
     const auto add_zone = [&](const vantage::Zone& zone) {
+      if (zone.is_box) return add_box(zone.box());
       for (const Eigen::Vector2d& p : zone.outer) {
         for (const double z : {zone.min_z_m, zone.max_z_m})
           limits_.emplace_back(p.x(), p.y(), std::isfinite(z) ? z : middle_.z());
       }
     };
-    for (const vantage::Zone& zone : navigation.keep_in_zones) add_zone(zone);
-    for (const vantage::Zone& zone : navigation.keep_out_zones) add_zone(zone);
+    for (const vantage::Zone& zone : navigation.keep_in) add_zone(zone);
+    for (const vantage::Zone& zone : navigation.keep_out) add_zone(zone);
     for (const vantage::KeepInMesh& mesh : navigation.meshes) {
       limits_.insert(limits_.end(), mesh.mesh.vertices.begin(), mesh.mesh.vertices.end());
     }

@@ -143,11 +143,13 @@ class MeshDrawing {
         about(centre_ - away * sun->direction.normalized(), 0.3 * away);
       }
     }
-    for (const auto* boxes : {&c_.navigation.keep_in, &c_.navigation.keep_out}) {
-      for (const vantage::Box& box : *boxes) about((box.min + box.max) / 2, (box.max - box.min).norm());
-    }
-    for (const auto* zones : {&c_.navigation.keep_in_zones, &c_.navigation.keep_out_zones}) {
+    for (const auto* zones : {&c_.navigation.keep_in, &c_.navigation.keep_out}) {
       for (const vantage::Zone& zone : *zones) {
+        if (zone.is_box) {
+          const vantage::Box box = zone.box();
+          about((box.min + box.max) / 2, (box.max - box.min).norm());
+          continue;
+        }
         Eigen::Vector2d middle = Eigen::Vector2d::Zero();
         for (const auto& corner : zone.outer) middle += corner / static_cast<double>(zone.outer.size());
         const double z = std::isfinite(zone.min_z_m) ? (zone.min_z_m + zone.max_z_m) / 2 : centre_.z();

@@ -150,11 +150,11 @@ class TourDrawing {
       }
       if (random_.chance(0.5)) zone.max_z_m = random_.uniform(15, 60);
       zone.name = "zone " + std::to_string(i);
-      navigation.keep_out_zones.push_back(zone);
+      navigation.keep_out.push_back(zone);
     }
     if (random_.chance(0.3)) {
       const double far = size_ * random_.uniform(1, 1.6);
-      navigation.keep_in.push_back({Vec3(-far, -far, -1), Vec3(far, far, random_.uniform(40, 120))});
+      navigation.keep_in.push_back(vantage::Box{Vec3(-far, -far, -1), Vec3(far, far, random_.uniform(40, 120))});
     }
   }
 

@@ -69,8 +69,7 @@ void write_zone(std::ostream& out, const Zone& zone) {
 // The attack draws no meshes to stay in, and of ground a plane alone.
 void write_navigation(const Navigation& navigation, std::ostream& out) {
   if (navigation.empty()) return;
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
-      navigation;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   out << "navigation:\n";
   if (altitude || above_ground) {
     out << "  altitude: {";
@@ -81,12 +80,13 @@ void write_navigation(const Navigation& navigation, std::ostream& out) {
   }
   if (clearance) out << "  clearance: " << number(clearance->distance_m) << "\n";
   if (above_ground) out << "  ground: " << number(above_ground->ground.plane_z_m) << "\n";
-  if (!keep_in.empty() || !keep_in_zones.empty()) out << "  keep_in:\n";
-  for (const Box& box : keep_in) write_box(out, box);
-  for (const Zone& zone : keep_in_zones) write_zone(out, zone);
-  if (!keep_out.empty() || !keep_out_zones.empty()) out << "  keep_out:\n";
-  for (const Box& box : keep_out) write_box(out, box);
-  for (const Zone& zone : keep_out_zones) write_zone(out, zone);
+  const auto write = [&](const std::vector<Zone>& zones) {
+    for (const Zone& zone : zones) zone.is_box ? write_box(out, zone.box()) : write_zone(out, zone);
+  };
+  if (!keep_in.empty()) out << "  keep_in:\n";
+  write(keep_in);
+  if (!keep_out.empty()) out << "  keep_out:\n";
+  write(keep_out);
 }
 
 // The attack draws no cameras.

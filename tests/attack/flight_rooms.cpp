@@ -178,26 +178,23 @@ std::vector<Room> NavigationRooms::at(const Vec3& p) const {
     add_between("agl max",
                 [&, high = high](const Pieces& g) { return g.is_there() ? g.lowest + high - p.z() : kInfinity; });
   }
-  if (!navigation_.keep_in.empty() || !navigation_.keep_in_zones.empty()) {
+  const auto room_in = [&](const vantage::Zone& zone, bool is_kept_out) {
+    if (!zone.is_box) return room_in_zone(zone, p, is_kept_out);
+    const double room = room_in_box(zone.box(), p);
+    return Room{"", room, room};
+  };
+  if (!navigation_.keep_in.empty()) {
     double low = -kInfinity, high = -kInfinity;
-    for (const vantage::Box& box : navigation_.keep_in) {
-      low = std::max(low, room_in_box(box, p));
-      high = std::max(high, room_in_box(box, p));
-    }
-    for (const vantage::Zone& zone : navigation_.keep_in_zones) {
-      const Room room = room_in_zone(zone, p, false);
+    for (const vantage::Zone& zone : navigation_.keep_in) {
+      const Room room = room_in(zone, false);
       low = std::max(low, room.low);
       high = std::max(high, room.high);
     }
-    add(rooms, navigation_.keep_in_zones.empty() ? "boxes" : "keep_in", low, high);
+    add(rooms, "keep_in", low, high);
   }
   for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {
-    const double room = -room_in_box(navigation_.keep_out[i], p);
-    add(rooms, "keep_out " + std::to_string(i), room, room);
-  }
-  for (const vantage::Zone& zone : navigation_.keep_out_zones) {
-    const Room room = room_in_zone(zone, p, true);
-    add(rooms, "keep_out zone " + zone.name, -room.high, -room.low);
+    const Room room = room_in(navigation_.keep_out[i], true);
+    add(rooms, "keep_out " + vantage::zone_name(navigation_.keep_out, i), -room.high, -room.low);
   }
   for (const ClosedLimit& limit : meshes_) {
     const Vec3 local = p - limit.origin;

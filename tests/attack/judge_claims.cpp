@@ -183,14 +183,12 @@ class Claims {
       const double above = p.z() - limits.above_ground->ground.plane_z_m;
       if (above < limits.above_ground->min_m || above > limits.above_ground->max_m) return "agl";
     }
-    const bool anywhere = limits.keep_in.empty() && limits.keep_in_zones.empty();
-    const auto zone_holds = [&p](const vantage::Zone& zone) { return is_in_zone(zone, p); };
-    if (!anywhere && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), holds) &&
-        std::none_of(limits.keep_in_zones.begin(), limits.keep_in_zones.end(), zone_holds)) {
-      return "keep_in";
-    }
-    if (std::any_of(limits.keep_out.begin(), limits.keep_out.end(), holds_inside)) return "keep_out";
-    if (std::any_of(limits.keep_out_zones.begin(), limits.keep_out_zones.end(), zone_holds)) return "keep_out zone";
+    const auto keeps = [&](const vantage::Zone& zone) { return zone.is_box ? holds(zone.box()) : is_in_zone(zone, p); };
+    const auto forbids = [&](const vantage::Zone& zone) {
+      return zone.is_box ? holds_inside(zone.box()) : is_in_zone(zone, p);
+    };
+    if (!limits.keep_in.empty() && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), keeps)) return "keep_in";
+    if (std::any_of(limits.keep_out.begin(), limits.keep_out.end(), forbids)) return "keep_out";
     return {};
   }
 

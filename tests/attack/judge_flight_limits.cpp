@@ -64,8 +64,7 @@ bool FlightJudge::has_agl(const std::string& limit) const {
                        [](const vantage::Zone& zone) { return zone.above_ground.has_value(); });
   };
   const vantage::Navigation& navigation = drawn_.mission.navigation;
-  return limit.starts_with("keep_out zone") ? has(navigation.keep_out_zones)
-                                            : limit == "keep_in" && has(navigation.keep_in_zones);
+  return limit.starts_with("keep_out zone") ? has(navigation.keep_out) : limit == "keep_in" && has(navigation.keep_in);
 }
 
 void FlightJudge::judge_worst(const vantage::BrokenLimit& limit, const RoomsAt& rooms, bool is_measured) {

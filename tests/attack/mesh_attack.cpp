@@ -102,9 +102,7 @@ class MeshMinimiser {
     };
     without([](MeshCase& c) { c.navigation.altitude.reset(); });
     without([](MeshCase& c) { c.navigation.keep_in.clear(); });
-    without([](MeshCase& c) { c.navigation.keep_in_zones.clear(); });
     without([](MeshCase& c) { c.navigation.keep_out.clear(); });
-    without([](MeshCase& c) { c.navigation.keep_out_zones.clear(); });
     without([](MeshCase& c) { c.navigation.meshes.clear(); });
     without([](MeshCase& c) { c.navigation.above_ground.reset(); });
     without([](MeshCase& c) { c.navigation.clearance.reset(); });

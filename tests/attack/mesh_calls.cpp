@@ -22,7 +22,7 @@ std::string claim_of(const std::string& name, const Sensor& sensor) {
   if (starts("altitude")) return "altitude";
   if (starts("agl") || starts("ground edge")) return "agl";
   if (starts("keep_out")) return "keep_out";
-  if (starts("boxes") || starts("keep_in")) return "keep_in";
+  if (starts("keep_in")) return "keep_in";
   if (starts("mesh ")) return "meshes";
   if (starts("gimbal")) return "frame";
   if (starts("pixel") && sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::perpendicular) return "range";
@@ -196,7 +196,7 @@ void write_mesh_case(const MeshCase& c, const std::filesystem::path& folder) {
   }
   std::optional<Ground> ground;
   if (c.navigation.above_ground) ground = c.navigation.above_ground->ground;
-  for (const auto* zones : {&c.navigation.keep_in_zones, &c.navigation.keep_out_zones}) {
+  for (const auto* zones : {&c.navigation.keep_in, &c.navigation.keep_out}) {
     for (const Zone& zone : *zones) {
       if (zone.above_ground) ground = zone.above_ground->ground;
     }

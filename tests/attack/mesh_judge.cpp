@@ -101,7 +101,7 @@ class MeshJudge {
     if (claim == "sight") return std::max(4 * margin_, 1e-7 * away) + rounding;
     if (claim == "range" || claim == "front") return 4 * margin_ + 1e-9 * away + rounding;
     if (claim == "altitude") return rounding;
-    if (claim == "keep_in" && limits.keep_in.size() == 1 && limits.keep_in_zones.empty()) return rounding;
+    if (claim == "keep_in" && limits.keep_in.size() == 1 && limits.keep_in[0].is_box) return rounding;
     if (claim == "agl" && !limits.above_ground->ground.surface) return rounding;
     return 2.5 * tolerance_ + rounding;
   }

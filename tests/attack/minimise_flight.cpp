@@ -81,7 +81,7 @@ class FlightMinimiser {
     try_without([](DrawnFlight& d) { d.mission.sensor.incidence_deg.reset(); });
     try_without([](DrawnFlight& d) { d.mission.sensor.min_range_m = 0; });
     try_without([](DrawnFlight& d) { d.mission.views.clear(); });
-    for (auto list : {&vantage::Navigation::keep_in_zones, &vantage::Navigation::keep_out_zones}) {
+    for (auto list : {&vantage::Navigation::keep_in, &vantage::Navigation::keep_out}) {
       for (std::size_t i = (drawn_.mission.navigation.*list).size(); i-- > 0;) {
         try_without([&](DrawnFlight& d) {
           auto& zones = d.mission.navigation.*list;
@@ -89,8 +89,6 @@ class FlightMinimiser {
         });
       }
     }
-    try_without([](DrawnFlight& d) { d.mission.navigation.keep_in.clear(); });
-    try_without([](DrawnFlight& d) { d.mission.navigation.keep_out.clear(); });
     try_without([](DrawnFlight& d) { d.mission.navigation.meshes.clear(); });
     try_without([](DrawnFlight& d) { d.mission.navigation.altitude.reset(); });
     try_without([](DrawnFlight& d) { d.mission.navigation.above_ground.reset(); });
@@ -161,7 +159,7 @@ void write_flight(const DrawnFlight& drawn, const std::string& wrong, const std:
     if (link.radio) note << ", radio " << link.radio->frequency_ghz << ", " << link.radio->clear;
     note << "\n";
   }
-  for (const auto* zones : {&drawn.mission.navigation.keep_in_zones, &drawn.mission.navigation.keep_out_zones}) {
+  for (const auto* zones : {&drawn.mission.navigation.keep_in, &drawn.mission.navigation.keep_out}) {
     for (const vantage::Zone& zone : *zones) {
       note << "zone:";
       for (const auto& p : zone.outer) note << " [" << p.x() << ", " << p.y() << "]";

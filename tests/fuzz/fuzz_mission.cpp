@@ -39,10 +39,8 @@ void check_accepted(const vantage::MissionFile& mission) {
   require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);
   require(mission.scene.mesh.scale > 0);
   if (mission.navigation.altitude) require(mission.navigation.altitude->min_m < mission.navigation.altitude->max_m);
-  for (const vantage::Box& box : mission.navigation.keep_in) require((box.min.array() < box.max.array()).all());
-  for (const vantage::Box& box : mission.navigation.keep_out) require((box.min.array() < box.max.array()).all());
-  for (const vantage::Zone& zone : mission.navigation.keep_in_zones) require(!vantage::internal::core::fault_of(zone));
-  for (const vantage::Zone& zone : mission.navigation.keep_out_zones) require(!vantage::internal::core::fault_of(zone));
+  for (const vantage::Zone& zone : mission.navigation.keep_in) require(!vantage::internal::core::fault_of(zone));
+  for (const vantage::Zone& zone : mission.navigation.keep_out) require(!vantage::internal::core::fault_of(zone));
 }
 
 }  // namespace

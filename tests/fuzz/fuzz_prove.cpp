@@ -52,7 +52,7 @@ struct Drawn {
     if (bytes.below(4) == 0) navigation.altitude = Navigation::Altitude{0, 1.0 + bytes.below(16)};
     if (bytes.below(4) == 0) {
       const Vec3 low = bytes.point();
-      navigation.keep_out = {{low, low + Vec3(1, 1, 1) * (1 + bytes.below(4))}};
+      navigation.keep_out = {vantage::Box{low, low + Vec3(1, 1, 1) * (1 + bytes.below(4))}};
     }
     volume = draw_solid(bytes);
     if (bytes.below(8) == 0) options.shrink = bytes.number();

@@ -98,13 +98,8 @@ double least_width_m(const Navigation& navigation) {
   const auto take = [&](const PlanPoints& points) {
     if (!points.empty() && is_finite(points)) width = std::min(width, width_in_plan(points));
   };
-  PlanPoints allowed;  // one of the boxes and zones is enough
-  for (const Box& box : navigation.keep_in) {
-    for (const double x : {box.min.x(), box.max.x()}) {
-      for (const double y : {box.min.y(), box.max.y()}) allowed.emplace_back(x, y);
-    }
-  }
-  for (const Zone& zone : navigation.keep_in_zones) allowed.insert(allowed.end(), zone.outer.begin(), zone.outer.end());
+  PlanPoints allowed;  // one of the zones is enough
+  for (const Zone& zone : navigation.keep_in) allowed.insert(allowed.end(), zone.outer.begin(), zone.outer.end());
   take(allowed);
   for (const KeepInMesh& mesh : navigation.meshes) {
     PlanPoints points;
@@ -172,7 +167,6 @@ std::optional<double> lowest_allowed_m(const Vec3& home, const Airspace& airspac
 std::string kept_out_on(const Leg& leg, const Navigation& navigation) {
   Navigation zones;
   zones.keep_out = navigation.keep_out;
-  zones.keep_out_zones = navigation.keep_out_zones;
   const std::vector<LegBreak> broken = zones.empty() ? std::vector<LegBreak>() : LegLimits(zones).broken(leg, 0);
   return broken.empty() ? std::string() : broken.front().limit;
 }

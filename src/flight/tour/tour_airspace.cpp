@@ -40,10 +40,9 @@ std::unique_ptr<LegDistances> ground_distances(const PreparedScene& scene) {
 Box bounds_of(const Navigation& navigation) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box bounds = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
-  if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) {
+  if (!navigation.keep_in.empty()) {
     Box allowed;
-    for (const Box& box : navigation.keep_in) allowed.extend(box);
-    for (const Zone& zone : navigation.keep_in_zones) {
+    for (const Zone& zone : navigation.keep_in) {
       for (const Eigen::Vector2d& corner : zone.outer) {
         allowed.extend(Vec3(corner.x(), corner.y(), zone.min_z_m));
         allowed.extend(Vec3(corner.x(), corner.y(), zone.max_z_m));
