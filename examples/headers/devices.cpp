@@ -4,7 +4,8 @@
 namespace example {
 
 std::string device_name() {
-  return vantage::choose_device(vantage::render_devices(), {.kind = vantage::DeviceChoice::Kind::automatic}).device.name;
+  return vantage::choose_device(vantage::render_devices(), {.kind = vantage::DeviceChoice::Kind::automatic})
+      .device.name;
 }
 
 }  // namespace example

@@ -3,7 +3,9 @@
 
 namespace example {
 
-double common_m3(const vantage::Mesh& a, const vantage::Mesh& b) { return vantage::compare_volumes(a, b).intersection_m3; }
+double common_m3(const vantage::Mesh& a, const vantage::Mesh& b) {
+  return vantage::compare_volumes(a, b).intersection_m3;
+}
 
 double level_m2(const vantage::Mesh& volume) {
   double area = 0;
