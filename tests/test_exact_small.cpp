@@ -19,11 +19,11 @@
 namespace vantage {
 namespace {
 
-using testing::Comparison;
 using testing::make_box_mesh;
 using testing::Random;
 using testing::SceneBuilder;
 using testing::target_of;
+using testing::UnionComparison;
 
 void expect_one_closed_piece(const Volume& volume) {
   ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
@@ -38,14 +38,14 @@ void expect_one_closed_piece(const Volume& volume) {
 }
 
 /// Computes with a range that holds a box of the given reach and height about the target, and compares inside the box.
-Comparison expect_union(const Scene& scene, const Target& target, double reach = 40, double height = 40) {
+UnionComparison expect_union(const Scene& scene, const Target& target, double reach = 40, double height = 40) {
   const TargetFrame frame = make_target_frame(target);
   const double across = 2 * frame.enclosing_radius_m + reach;
   const Sensor sensor{std::sqrt(2 * across * across + height * height) + 1};
   const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, sensor), {0.2, 0});
   expect_one_closed_piece(volume);
   if (volume.mesh.empty()) return {};
-  const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, reach, height));
+  const UnionComparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, reach, height));
   EXPECT_GT(c.volume, 0);
   EXPECT_LT(c.error(), 1e-6) << c.missing << " m3 missing, " << c.excessive << " m3 too much of " << c.volume << ", "
                              << c.blockers << " blockers";
@@ -107,7 +107,7 @@ TEST(ExactSmall, AWallOnTheTargetsOutline) {
 
 TEST(ExactSmall, APoleBetweenTwoVertices) {
   const Scene scene = SceneBuilder().ground("ground", 60).box("pole", {-0.1, 5, 0}, {0.1, 5.2, 12});
-  const Comparison c = expect_union(scene, square(4));
+  const UnionComparison c = expect_union(scene, square(4));
   EXPECT_GT(c.blockers, 0u);
   expect_union(SceneBuilder().box("thin pole", {-0.005, 4, 0}, {0.005, 4.01, 12}), square(4));
 }
@@ -160,7 +160,7 @@ Scene room() {
 }
 
 TEST(ExactSmall, ARoomWithAWindow) {
-  const Comparison c = expect_union(room(), square(1, {0, 0, 0}));
+  const UnionComparison c = expect_union(room(), square(1, {0, 0, 0}));
   EXPECT_GT(c.volume, 12 * 12 * 5);  // the room, and something outside the window
   expect_union(room(), square(1, {3, 1, 0.5}));
 }
@@ -281,7 +281,7 @@ TEST(ExactSmall, SurfacesThatCreepAboveTheTargetsPlane) {
     Target target = square(0.5);
     const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, {100}), {0.2, 0});
     expect_one_closed_piece(volume);
-    const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, 40, 40));
+    const UnionComparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, 40, 40));
     EXPECT_LT(c.excessive, 1e-6 * c.volume);
     EXPECT_LT(c.missing, 1e-6 * c.volume);
   }
@@ -415,7 +415,7 @@ TEST(ExactSmall, RandomBlocksOnACoarseGrid) {
     if (random.chance(0.3))
       for (Vec3& v : target.parts[0]) v = Vec3(v.x(), 0, v.y() + 3);  // upright
     try {
-      const Comparison c = expect_union(builder, target, 15, 15);
+      const UnionComparison c = expect_union(builder, target, 15, 15);
       worst = std::max(worst, c.error());
       ++compared;
     } catch (const Error& error) {

@@ -75,7 +75,7 @@ TEST(HeavyCharlotte, EqualsThePlainUnionOfBlockers) {
     region.frame = volume.frame;
     for (Vec3& v : region.mesh.vertices) v = volume.frame.origin + 0.998 * (v - volume.frame.origin);
     const core::Stopwatch stopwatch;
-    const testing::Comparison c = testing::compare_with_union(scene, volume, testing::local_solid(region));
+    const testing::UnionComparison c = testing::compare_with_union(scene, volume, testing::local_solid(region));
     const double seconds = stopwatch.seconds();
     EXPECT_LT(c.error(), 1e-6) << target.name;
     EXPECT_GT(c.blockers, 100u);

@@ -424,7 +424,7 @@ TEST(JoinedAnswers, OfAnyAndOfAll) {
   EXPECT_EQ(all.margin_m, -9);
   EXPECT_TRUE(all.out_of_range);
   EXPECT_EQ(all.outside_of, (std::vector<std::string>{"altitude min", "incidence"}));
-  testing::expect_error([] { any_of({}); }, ErrorCode::nothing_given);
+  testing::expect_error([] { any_of(std::vector<PointAnswer>{}); }, ErrorCode::nothing_given);
 }
 
 TEST(VolumeFiles, HaveNamesOfTheirOwn) {

@@ -123,7 +123,7 @@ solid::Solid local_box(const TargetFrame& frame, double reach, double height) {
   return solid::make_box(box, {});
 }
 
-Comparison compare_with_union(const Scene& scene, const Volume& volume, const solid::Solid& region) {
+UnionComparison compare_with_union(const Scene& scene, const Volume& volume, const solid::Solid& region) {
   const TargetFrame& frame = volume.frame;
   const Box box = box_of(region, frame);
   std::vector<solid::Solid> blockers;

@@ -23,7 +23,7 @@ solid::Solid local_solid(const Volume& volume);
 /// The box that holds everything within `reach` of the target, in its frame.
 solid::Solid local_box(const TargetFrame& frame, double reach, double height);
 
-struct Comparison {
+struct UnionComparison {
   double volume = 0;     ///< of the region minus all blockers
   double missing = 0;    ///< of that, what the engine's volume lacks
   double excessive = 0;  ///< what the engine's volume has in the region beyond that
@@ -34,6 +34,6 @@ struct Comparison {
 
 /// Compares a computed volume with region minus union of blockers, inside `region` (in the target's frame, z >= 0, all
 /// of it within range by more than the volume's tolerance).
-Comparison compare_with_union(const Scene& scene, const Volume& volume, const solid::Solid& region);
+UnionComparison compare_with_union(const Scene& scene, const Volume& volume, const solid::Solid& region);
 
 }  // namespace vantage::testing

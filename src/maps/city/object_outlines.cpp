@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "maps/city/footprint.h"
 #include "maps/city/region.h"
 #include "maps/osm/extract.h"
 
