@@ -163,7 +163,7 @@ TEST(Navigation, BoxCornersAreExact) {
     EXPECT_EQ(measures.bounds.min, navigation.keep_in[0].box().min);
     EXPECT_EQ(measures.bounds.max, navigation.keep_in[0].box().max);
     ASSERT_EQ(cut.causes.size(), 1u);
-    EXPECT_EQ(cut.causes[0].name, "box 0");
+    EXPECT_EQ(cut.causes[0].name, "zone 0");
     EXPECT_NEAR(measures.volume_m3, 21.6 * 16 * 16.2, 1e-5);
   }
 }
@@ -191,9 +191,9 @@ TEST(Navigation, KeepOutTakesAway) {
   EXPECT_NEAR(measure(cut.mesh).volume_m3, before - 24 - 12, 1e-6);
   EXPECT_EQ(measure(cut.mesh).pieces, 2u);  // the first is a cavity
   const std::map<std::string, double> areas = areas_of(cut);
-  EXPECT_NEAR(areas.at("keep_out 0"), 2 * (6 + 8 + 12), 1e-9);
-  EXPECT_NEAR(areas.at("keep_out 2"), 4 * 2 * 3 + 4, 1e-9);
-  EXPECT_EQ(areas.count("keep_out 1"), 0u);
+  EXPECT_NEAR(areas.at("keep_out zone 0"), 2 * (6 + 8 + 12), 1e-9);
+  EXPECT_NEAR(areas.at("keep_out zone 2"), 4 * 2 * 3 + 4, 1e-9);
+  EXPECT_EQ(areas.count("keep_out zone 1"), 0u);
 }
 
 TEST(Navigation, KeepOutMayCutTheVolumeInTwo) {

@@ -316,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(
                   [](MaximalCity& city) {
                     city.navigation.keep_in = {Box{{-9, -30, 2}, {20, 40, 50}}, Box{{10, 0, 5}, {50, 50, 60}}};
                   }},
-        LimitCase{"keep_out", "keep_out 1",
+        LimitCase{"keep_out", "keep_out zone 1",
                   [](MaximalCity& city) {
                     city.navigation.keep_out = {Box{{-9, -30, 30}, {20, 40, 50}}, Box{{-3, -3, 5}, {7, 5, 9}}};
                   }},

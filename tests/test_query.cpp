@@ -63,9 +63,9 @@ TEST(Query, NamesTheLimitsThatArePassed) {
   const auto answers = query_points(PreparedTarget(scene, square(), {50}), navigation,
                                     {{0, 0, 10}, {0, 0, 20}, {0, 0, 35}, {0, 12, 20}, {0, 3, 2}});
   EXPECT_TRUE(answers[0].inside);
-  EXPECT_EQ(answers[1].outside_of, std::vector<std::string>{"keep_out 0"});
+  EXPECT_EQ(answers[1].outside_of, std::vector<std::string>{"keep_out zone 0"});
   EXPECT_EQ(answers[2].outside_of, std::vector<std::string>{"altitude max"});
-  EXPECT_EQ(answers[3].outside_of, std::vector<std::string>{"boxes"});
+  EXPECT_EQ(answers[3].outside_of, std::vector<std::string>{"keep_in"});
   EXPECT_EQ(answers[4].outside_of, std::vector<std::string>{"altitude min"});
 }
 

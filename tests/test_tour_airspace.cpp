@@ -83,7 +83,7 @@ TEST(TourAirspace, NamesWhatIsInTheWay) {
   navigation.keep_out = {Box{{20, -5, 0}, {30, 5, 100}}};
   const auto airspace = make_airspace(PreparedScene(builder.scene()), 3, navigation);
   EXPECT_EQ(airspace->obstacle({{-50, 0, 10}, {15, 0, 10}}, 0), "town hall");
-  EXPECT_EQ(airspace->obstacle({{15, 0, 10}, {50, 0, 10}}, 0), "keep_out 0");
+  EXPECT_EQ(airspace->obstacle({{15, 0, 10}, {50, 0, 10}}, 0), "keep_out zone 0");
   EXPECT_EQ(airspace->obstacle({{-50, 0, 1}, {-40, 0, 1}}, 0), "altitude min");
   EXPECT_EQ(airspace->obstacle({{-50, 0, 10}, {-40, 0, 10}}, 0), "");
   EXPECT_FALSE(airspace->allows({{-50, 0, 10}, {-40, 0, 10}}, 3));  // more than it can be sure of

@@ -281,8 +281,8 @@ TEST(VerifyLimits, NamesTheFirstBroken) {
   EXPECT_EQ(broken({0, 0, 5}), std::nullopt);  // on the border of both boxes
   EXPECT_EQ(broken({0, 0, -1}), "altitude min");
   EXPECT_EQ(broken({0, 0, 11}), "altitude max");
-  EXPECT_EQ(broken({6, 0, 5}), "box");
-  EXPECT_EQ(broken({1.5, 1.5, 1.5}), "keep_out 0");
+  EXPECT_EQ(broken({6, 0, 5}), "keep_in");
+  EXPECT_EQ(broken({1.5, 1.5, 1.5}), "keep_out zone 0");
   EXPECT_EQ(broken({1.5, 1.5, 2}), std::nullopt);
   EXPECT_EQ(broken({4.5, 0, 5}), "mesh airspace");
 }

@@ -31,9 +31,9 @@ struct PointAnswer {
                                         ///< seen
   bool out_of_range = false;
   bool behind_target = false;  ///< never for a point that is seen from all sides
-  /// Limits that the point breaks: "altitude min", "agl max", "ground edge", "boxes" (it is in none of them; "keep_in"
-  /// where there are zones too), "keep_out 0", "keep_out zone NAME", "mesh NAME", "clearance"; of the sensor
-  /// "min_range", "incidence", "pixel", "frame", "gimbal", "sun".
+  /// Limits that the point breaks: "altitude min", "agl max", "ground edge", "keep_in" (it is in none of these
+  /// zones), "keep_out zone 1", "keep_out zone NAME", "mesh NAME", "clearance"; of the sensor "min_range", "incidence",
+  /// "pixel", "frame", "gimbal", "sun".
   std::vector<std::string> outside_of;
 };
 
@@ -295,7 +295,7 @@ VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken
 /// Borders are allowed, as everywhere, where rounding can tell: heights and boxes are compared as they are. Else what
 /// is within a few roundings of a border may be taken for either side.
 ///
-/// - "altitude min", "altitude max", "boxes", "keep_out 2", zones, "mesh NAME", "agl min", "agl max", "ground edge" (in
+/// - "altitude min", "altitude max", "keep_in", "keep_out zone 2", "mesh NAME", "agl min", "agl max", "ground edge" (in
 ///   plan) and "clearance" are exact: intervals of linear functions, and of distances from convex pieces, which are
 ///   convex along the leg. So are "min_range", "incidence", "pixel" and "sun", and the "frame" and "gimbal" of a fixed
 ///   camera. Ends are right to rounding.
@@ -305,7 +305,7 @@ VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken
 ///   orientation; cubes in the tube are divided down to an eighth of its radius, and the leg as finely. A cube, and a
 ///   part of the leg, for which no single orientation is found counts as broken.
 ///
-/// A tube breaks "keep_in" and "boxes" where no single one of these holds all of it, also where two that touch do so
+/// A tube breaks "keep_in" where no single one of these zones holds all of it, also where two that touch do so
 /// together. Of a zone of `keep_out` with heights above ground it counts as in it where it comes near enough to
 /// its plan, to its heights and to where there is ground, each by itself: more than exact, never less.
 ///

@@ -32,7 +32,7 @@ VANTAGE_API const char* name_of(CauseKind kind);
 struct Cause {
   CauseKind kind = CauseKind::scene;
   std::string
-      name;  ///< display_name of the object; "max_range"; "target plane"; "altitude min", "agl max", "box 0", ...
+      name;  ///< display_name of the object; "max_range"; "target plane"; "altitude min", "agl max", "zone 0", ...
   double area_m2 = 0;  ///< of the facets that it causes
 
   // Of kind scene, where the method tells objects apart (the method of spheres does not).

@@ -94,7 +94,7 @@ test("every limit is listed, and zones are drawn, whatever the page has controls
   await opened(page, `max_range: 100, ${camera}, gimbal: {pitch: [-80, 10]}`,
     "{clearance: 2.5, keep_in: [{min: [-90, -90, 0], max: [90, 90, 80]}], keep_out: [{polygon: [[30, 30], [50, 30], [50, 50]], heights: any}]}");
   const lines = await page.locator("#limit-lines").textContent();
-  for (const words of ["100 m", "-80\u00b0 to 10\u00b0", "2.5 m from all that is not ground", "Keep in, box 0", "Keep out, zone 0", "any height"]) {
+  for (const words of ["100 m", "-80\u00b0 to 10\u00b0", "2.5 m from all that is not ground", "Keep in, zone 0", "Keep out, zone 0", "any height"]) {
     expect(lines).toContain(words);
   }
   expect(await page.evaluate(() => (window as any).vantage.zones.count as number)).toBe(2);
