@@ -245,7 +245,7 @@ def _mover(of_table: Any, scene: Scene | None, crs: str | None, name: str) -> Ca
             is_one = np.ndim(target.outline[0]) == 1  # type: ignore[index]
             target.outline = moved(target.outline) if is_one else [moved(ring) for ring in target.outline]  # type: ignore[union-attr]
         if target.holes is not None:
-            target.holes = [moved(ring) for ring in target.holes]
+            target.holes = [moved(ring) for ring in target.holes]  # type: ignore[union-attr]
         return target
 
     return move
