@@ -12,9 +12,9 @@ from . import _arrays, _core
 from ._checks import path as checked_path, thread_count
 from ._errors import make, not_pickled
 from ._flight import AnyFlight, AnyMission, Flight, Numbers, flight_of, line_of, mission_of, table_of
+from ._folders import replace_file, write_text
 from ._progress import Progress
 from ._requests import Path
-from ._slice import _replace, _write
 
 if TYPE_CHECKING:
     from ._result import Mission
@@ -227,7 +227,7 @@ class FlightCheck:
             raise make("output", "output-format-unknown", "a check is written as .json or .csv", file,
                        "give a name that ends so", None)
         told = self._core.json() if file.endswith(".json") else self._core.csv()
-        _replace(file, lambda draft: _write(draft, told))
+        replace_file(file, lambda draft: write_text(draft, told))
 
     def to_geodataframe(self) -> Any:
         """A row for each stretch, for geopandas: lines with z in the scene's frame (points where it hovers), its CRS where its

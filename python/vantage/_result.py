@@ -403,7 +403,7 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
         text.add("combine", combine)
     is_sensed = any(one.volume is None for one in targets)  # what is only flown through needs no sensor
     if is_sensed or sensor is not None or max_range is not None:
-        limits = _sensor(sensor, max_range)
+        limits = sensor_keys(sensor, max_range)
         if isinstance(limits.get("camera"), str):
             limits["camera"] = {"model": limits["camera"]}
         text.add("sensor", limits)
@@ -430,7 +430,7 @@ def _with_true_path(keys: dict[str, Any], name: str) -> dict[str, Any]:
     return {**keys, **paths}
 
 
-def _sensor(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:
+def sensor_keys(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:
     if sensor is not None and max_range is not None:
         raise input_error("conflicting-keys", "both max_range and sensor are given", "max_range",
                           "write sensor=vt.Sensor(max_range=...)")

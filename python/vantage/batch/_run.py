@@ -14,7 +14,7 @@ from .._core import version
 from .._errors import Error, make
 from .._extras import require
 from .._requests import Navigation, Path, Sensor
-from .._result import _sensor
+from .._result import sensor_keys
 from .._progress import Listener, Progress, listener
 from .._scene import Scene
 from . import _geometry, _manifest, _parquet, _rows, _scenes, _seals, _table, _work
@@ -119,7 +119,7 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
     started, heard = time.perf_counter(), listener(progress)
     _check_choices(volumes, workers, shard_rows, attempts)
     table = _table.read(targets, crs=crs, options=storage_options)
-    asked = {"sensor": _sensor(sensor, max_range), "navigation": navigation, "method": method, "tolerance": tolerance,
+    asked = {"sensor": sensor_keys(sensor, max_range), "navigation": navigation, "method": method, "tolerance": tolerance,
              "spheres": spheres}
     if work_limit is not None:  # without one a folder of an older version is gone on with
         asked["work_limit"] = work_limit
