@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -14,10 +14,10 @@ from ._errors import make, not_pickled
 from ._flight import AnyFlight, AnyMission, Flight, Numbers, flight_of, line_of, mission_of, table_of
 from ._folders import replace_file, write_text
 from ._progress import Progress
+from ._render import html, plot
 from ._requests import Path
-
-if TYPE_CHECKING:
-    from ._result import Mission
+from ._result import Mission
+from ._text import NAME
 
 
 class Span(NamedTuple):
@@ -264,8 +264,6 @@ class FlightCheck:
         Returns:
             the matplotlib.figure.Figure.
         """
-        from ._profile import plot
-
         return plot(self, path, size=size)
 
     def __reduce__(self) -> Any:
@@ -278,9 +276,7 @@ class FlightCheck:
         return f"<vantage.FlightCheck: {self.length_m:,.1f} m, {seen} of {len(self.targets)} targets {reached}, {text}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_check
-
-        return of_check(self)
+        return html(self)
 
 
 def _spans(rows: Any) -> list[Span]:
@@ -360,7 +356,4 @@ def check(mission: AnyMission, plan: AnyFlight, *, tube_m: float = 0.0, speed_m_
 
 def for_flights(mission: Mission, progress: Progress = None) -> Mission:
     """The mission with each of its targets by itself."""
-    from ._result import Mission
-    from ._text import NAME
-
     return Mission(mission._told(lambda: _core.for_flights(mission._core, None, NAME, progress)), mission._scene, mission._text)

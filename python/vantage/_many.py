@@ -13,6 +13,7 @@ from . import _core
 from ._checks import choice, thread_count
 from ._errors import Error, make
 from ._progress import Listener, Progress, listener
+from ._render import html
 from ._requests import Navigation, Sensor, Target, keys_of
 from ._result import Mission, Result, asked, resolved
 from ._scene import Scene, checked_scene
@@ -54,9 +55,7 @@ class Results(list[Union[Result, Error]]):
         return f"<vantage.Results: {text}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_results
-
-        return of_results(self)
+        return html(self)
 
 
 @overload

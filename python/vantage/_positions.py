@@ -19,6 +19,7 @@ from ._extras import require
 from ._flight import table_of
 from ._position_search import PositionSearch, Region, Told
 from ._progress import Progress, listener
+from ._render import html
 from ._result import Mission, Result
 from ._views import View, described, names_of_view
 from ._volume import Volume
@@ -100,9 +101,7 @@ class Positions:
         return len(self.positions)
 
     def _repr_html_(self) -> str:
-        from ._html import of_positions
-
-        return of_positions(self)
+        return html(self)
 
     def __repr__(self) -> str:
         return f"<vantage.Positions: {self}>"

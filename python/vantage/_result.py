@@ -16,6 +16,7 @@ from ._checks import (choice, flag, instance, not_called, path as checked_path, 
 from ._errors import Error, input_error, not_pickled
 from ._mesh import Note, Solid
 from ._progress import Progress
+from ._render import html, plot
 from ._requests import Navigation, Path, Sensor, Target, TourSettings, given, keys_of
 from ._scene import Scene, checked_scene
 from ._shapes import AnyTarget, is_several, targets_of
@@ -46,9 +47,7 @@ class Answers(NamedTuple):
     """limits that the point breaks"""
 
     def _repr_html_(self) -> str:
-        from ._html import of_answers
-
-        return of_answers(self)
+        return html(self)
 
 
 class Mission:
@@ -202,9 +201,7 @@ class Mission:
         return work() if self._text is None else self._text.told(work)
 
     def _repr_html_(self) -> str:
-        from ._html import of_mission
-
-        return of_mission(self)
+        return html(self)
 
     def __reduce__(self) -> Any:
         raise not_pickled("a mission", "pickle the scene, and what was asked of `compute`")
@@ -282,8 +279,6 @@ class Result(Solid):
 
     def plot(self, path: Path | None = None, **options: Any) -> Any:
         """Scene, target and volume by pyvista: in a notebook to turn, or as a PNG at `path`."""
-        from ._plot import plot
-
         return plot(self, path, **options)
 
     def picture(self, path: Path | None = None, *, view: str | Sequence[float] = "oblique",
@@ -322,9 +317,7 @@ class Result(Solid):
         return f"<vantage.Result: {self.mission.target_name}, {repr(self.volume)[len('<vantage.Volume: '):]}"
 
     def _repr_html_(self) -> str:
-        from ._html import of_result
-
-        return of_result(self)
+        return html(self)
 
 
 def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,

@@ -16,6 +16,7 @@ from ._errors import make
 from ._extras import require
 from ._folders import replace_file, write_text
 from ._place import WGS84, Georeference, crs_text, no_place
+from ._render import html
 from ._requests import Path
 
 Ring = npt.NDArray[np.float64]
@@ -139,9 +140,7 @@ class Slice:
         return f"<vantage.Slice: {count} polygon{'' if count == 1 else 's'}, {self.area_m2:,.1f} m2 {height}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_slice
-
-        return of_slice(self)
+        return html(self)
 
 
 def _area(ring: Ring) -> float:

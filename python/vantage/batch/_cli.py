@@ -11,6 +11,10 @@ from typing import Any
 
 from .._errors import CancelledError, Error, input_error
 from .._requests import Navigation, Sensor
+from ._manifest import REPORT
+from ._run import run
+from ._scenes import request_of
+from ._store import Store
 
 _EXAMPLES = """\
 examples:
@@ -84,11 +88,6 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from ._manifest import REPORT
-    from ._run import run
-    from ._scenes import request_of
-    from ._store import Store
-
     keys: dict[str, Any] = {"center": options.center, "radius": options.radius, "bbox": options.bbox,
                             "terrain": options.terrain, **(options.scene_keys or {})}
     if options.without:
