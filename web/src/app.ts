@@ -6,8 +6,9 @@ import { Flights } from "./flights";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
 import { faultOf } from "./model/polygon";
-import { hasBadNews, metres, resay, say, unsay } from "./ui/page";
-import { seenFrom } from "./ui/results";
+import { metres } from "./model/quantity";
+import { emptyText, pointText, proofText } from "./model/volume";
+import { hasBadNews, resay, say, unsay } from "./ui/page";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView, ZonesView } from "./view/marks";
 import { Stage } from "./view/stage";
@@ -415,7 +416,7 @@ export class App {
     this.failure = "";
     this.showMission();
     void this.flights.follow();
-    if (volume.info.outcome !== "computed") say(`No position sees ${seenFrom(volume.info)}: ${volume.info.reason}. ${volume.info.hint}`, true);
+    if (volume.info.outcome !== "computed") say(`${emptyText(volume.info)} ${volume.info.hint}`, true);
     else if (hasBadNews()) say("");
   }
 
@@ -457,14 +458,7 @@ export class App {
     this.probe.inside = answer.inside;
     this.city.light(answer.blocked_by);
     if (!this.isEye()) this.probeView.show(at, this.volume.info.target.flat(), answer.inside);
-    const why = [
-      answer.blocked_by.length > 0 ? `hidden by ${answer.blocked_by.join(", ")}` : "",
-      answer.out_of_range ? "out of range" : "",
-      answer.behind_target ? "behind the target" : "",
-      answer.outside_of.length > 0 ? `outside of ${answer.outside_of.join(", ")}` : "",
-    ].filter((text) => text !== "");
-    const what = answer.inside ? `Inside: this position sees ${seenFrom(this.volume.info)}` : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
-    say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly; Esc, or Look, ends it" : ""}`);
+    say(`${pointText(this.volume.info, answer)} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly; Esc, or Look, ends it" : ""}`);
     this.stage.request();
     this.changed();
   }
@@ -485,9 +479,7 @@ export class App {
     let proof: Proof;
     try {
       proof = await this.late(this.engine.prove());
-      const { verdict } = proof;
-      text = verdict === "proved" ? `Proved: every position of this volume sees ${seenFrom(volume.info)}.`
-        : `The proof says: ${verdict.replaceAll("_", " ")}`;
+      text = proofText(volume.info, proof);
     } catch (error) {
       if (volume === this.volume) this.tellProof(toldBy(error), volume);
       return;

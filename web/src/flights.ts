@@ -4,7 +4,8 @@ import { toldBy } from "./engine/client";
 import type { ServedFlight } from "./engine/messages";
 import { boundsOf, flightFrom, momentAt, type Flight, type Moment } from "./model/flight";
 import { missionText } from "./model/mission";
-import { metres, say } from "./ui/page";
+import { metres } from "./model/quantity";
+import { say } from "./ui/page";
 import { FlightView } from "./view/flight";
 import { TargetVolumesView } from "./view/target_volumes";
 

@@ -2,8 +2,8 @@
 import type { App } from "../app";
 import type { Band } from "../model/heights";
 import type { Mission } from "../model/mission";
-import { quantity } from "../model/quantity";
-import { input, metres, say } from "./page";
+import { metres, quantity } from "../model/quantity";
+import { input, say } from "./page";
 
 /** null: no limit. */
 interface Limit {

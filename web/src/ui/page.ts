@@ -29,12 +29,6 @@ export function resay(text: string, ...texts: string[]): void {
 /** Whether what was said last is an error. */
 export const hasBadNews = () => element("hint").classList.contains("bad");
 
-/** With the digits that count: 12.3 m, 0.0123 m. */
-export function metres(value: number): string {
-  const digits = Math.abs(value) >= 10 ? Math.round(value * 10) / 10 : Number(value.toPrecision(3));
-  return `${digits} m`;
-}
-
 export function option(value: string, text: string): HTMLOptionElement {
   const made = document.createElement("option");
   made.value = value;
@@ -55,8 +49,3 @@ export function terms(rows: [string, string][]): HTMLElement[] {
 
 /** A colour, for a style. */
 export const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
-
-export function large(value: number): string {
-  if (value > 0 && value < 0.1) return String(Number(value.toPrecision(3)));
-  return value.toLocaleString("en", { maximumFractionDigits: value < 100 ? 2 : 0 });
-}
