@@ -349,11 +349,11 @@ def check(mission: AnyMission, plan: AnyFlight, *, tube_m: float = 0.0, speed_m_
         "height_m": height_m, "return_height_m": return_height_m, "loiter_radius_m": loiter_radius_m,
         "ground_legs": ground_legs}, progress)
     each = for_flights(of, progress=progress)
-    core = of._told(lambda: _core.check_flight(each._core, flight._core, tube, speed, dwell, clearance, rate, count,
+    core = of._call(lambda: _core.check_flight(each._core, flight._core, tube, speed, dwell, clearance, rate, count,
                                                progress))
     return FlightCheck(core, each, flight)
 
 
 def for_flights(mission: Mission, progress: Progress = None) -> Mission:
     """The mission with each of its targets by itself."""
-    return Mission(mission._told(lambda: _core.for_flights(mission._core, None, NAME, progress)), mission._scene, mission._text)
+    return Mission(mission._call(lambda: _core.for_flights(mission._core, None, NAME, progress)), mission._scene, mission._text)

@@ -86,7 +86,7 @@ class Flight:
         place = None if home is None else _arrays.numbers(home, "home")
         if place is not None and (place.shape != (2,) or not np.isfinite(place).all()):
             raise input_error("value-syntax", "home must be 2 numbers", "home", "pass (latitude, longitude)")
-        core = of._told(lambda: _core.read_plan(
+        core = of._call(lambda: _core.read_plan(
             of._core, checked_path(path), text(track, "track"), None if place is None else place.tolist(),
             _number(home_z_m, "home_z_m"), _number(undulation_m, "undulation_m"),
             None if heights is None else choice(heights, "heights", HEIGHTS), _number(height_m, "height_m"),

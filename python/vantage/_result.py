@@ -134,11 +134,11 @@ class Mission:
     def run_each(self, *, threads: int = 0, progress: Progress = None) -> list[Result]:
         """Computes all of its volumes, several at once: one, but with combine="each" one for each target."""
         count = thread_count(threads)
-        return [Result(core, self._scene) for core in self._told(lambda: self._core.run(count, progress))]
+        return [Result(core, self._scene) for core in self._call(lambda: self._core.run(count, progress))]
 
     def _try_each(self, threads: int, progress: Progress) -> list[Result | Error]:
         """The same, with an error in the place of the result of a target that is wrong."""
-        made = self._told(lambda: self._core.try_each(threads, progress))
+        made = self._call(lambda: self._core.try_each(threads, progress))
         rename = self._text.renamed if self._text is not None else (lambda error: error)
         return [rename(one) if isinstance(one, Error) else Result(one, self._scene) for one in made]
 
@@ -193,12 +193,12 @@ class Mission:
 
     def _asked(self, progress: Progress) -> _core.Query:
         if self._query is None:
-            self._query = self._told(lambda: _core.query(self._core, progress))
+            self._query = self._call(lambda: _core.query(self._core, progress))
         return self._query
 
-    def _told(self, work: Callable[[], T]) -> T:
-        """What `work` returns; errors in what was asked by arguments are told of them."""
-        return work() if self._text is None else self._text.told(work)
+    def _call(self, work: Callable[[], T]) -> T:
+        """What `work` returns. Errors in what was asked by arguments name these."""
+        return work() if self._text is None else self._text.call(work)
 
     def _repr_html_(self) -> str:
         return html(self)
@@ -369,7 +369,7 @@ def resolved(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, i
              **request: Any) -> Mission:
     """The mission of some targets. `names`: what errors call each of them."""
     text, meshes = asked(scene, targets, names, is_one=is_one, **request)
-    return Mission(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
+    return Mission(text.call(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
 
 
 def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_one: bool, max_range: float | None = None,

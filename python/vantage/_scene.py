@@ -214,7 +214,7 @@ class Scene(Triangles):
         text.add("scene", given, "scene")
         source = Source.of(text.text(), given["osm"]) if "osm" in given else None
         try:
-            core = text.told(lambda: _core.load_scene(text.text(), NAME, progress))
+            core = text.call(lambda: _core.load_scene(text.text(), NAME, progress))
         except Error as error:
             raise _with_reader(error, given) from None
         return cls(core, source)

@@ -241,5 +241,5 @@ def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None 
         each = _core.for_flights(of._core, given, NAME, progress)
         return each, _core.plan_tour(each, with_bound, views, count, progress)
 
-    each, core = of._told(work) if settings is None else text.told(work)
+    each, core = of._call(work) if settings is None else text.call(work)
     return Tour(core, Mission(each, of._scene, of._text))
