@@ -177,7 +177,7 @@ TEST(TourLimits, WaysAreAllowedAsTheyAreFlown) {
   testing::Random random(73);
   int found = 0;
   for (int i = 0; i < 200; ++i) {
-    internal::flight::tour::Draw draw(static_cast<std::uint64_t>(i + 1));
+    internal::flight::tour::SplitMix64 draw(static_cast<std::uint64_t>(i + 1));
     std::vector<Vec3> points = {Vec3(-50, random.uniform(-50, 50), 0), Vec3(50, random.uniform(-50, 50), 0)};
     const auto bends =
         internal::flight::tour::find_way(airspace, {points[0], points[1]}, draw, internal::core::ProgressReporter());

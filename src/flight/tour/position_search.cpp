@@ -115,7 +115,7 @@ const HoverCandidate* PositionSearch::known(const Group& group) const {
 // ---- candidates
 
 std::vector<Vec3> PositionSearch::random_points() const {
-  Draw draw(1);
+  SplitMix64 draw(1);
   std::vector<Vec3> points;
   for (const auto& region : regions_) {
     const Box& box = region->depth.bounds();

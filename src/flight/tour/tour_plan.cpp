@@ -155,7 +155,7 @@ class MultirotorPlan {
     const CourseLimits limits = {regions_, request_.airspace.get()};
     std::optional<FlownCourse> flown;
     try {
-      Draw draw(request_.seed);
+      SplitMix64 draw(request_.seed);
       const auto is_late = [this] { return is_over(); };
       flown = fly_clear(course, limits, draw, is_over() ? core::ProgressReporter() : progress_, is_late);
       draw_ways(flown->course, draw);
@@ -164,11 +164,11 @@ class MultirotorPlan {
       end_ = Tour::End::cancelled;
     }
     if (flown || !must) return flown;
-    Draw draw(request_.seed);
+    SplitMix64 draw(request_.seed);
     return fly_clear(course, limits, draw, {}, [] { return true; });
   }
 
-  void draw_ways(Course& course, Draw& draw) const {
+  void draw_ways(Course& course, SplitMix64& draw) const {
     if (!request_.airspace) return;
     const CourseLimits limits = {regions_, request_.airspace.get()};
     int idle = 0;

@@ -518,7 +518,7 @@ class WingPlan {
   core::Stopwatch watch_;
   Regions regions_;
   WingSpace space_;
-  Draw draw_;
+  SplitMix64 draw_;
   std::vector<std::vector<View>> choices_;  ///< of each target
   std::vector<TourProblem> no_place_;
   std::optional<Candidate> best_;
