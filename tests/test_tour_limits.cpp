@@ -144,7 +144,7 @@ TEST(TourLimits, AWingFliesRoundWhatStandsWhereATargetWasMovedFrom) {
 
 TEST(TourLimits, PointsThatDifferAreAtDifferentStations) {
   // The step is lost in a million metres.
-  const internal::flight::tour::Way way({{0, 0, 0}, {1e6, 0, 0}, {1e6, 1e-13, 0}, {1e6, 1e-13, 0}, {1e6, 5, 0}});
+  const internal::flight::tour::Polyline way({{0, 0, 0}, {1e6, 0, 0}, {1e6, 1e-13, 0}, {1e6, 1e-13, 0}, {1e6, 5, 0}});
   EXPECT_LT(way.station(1), way.station(2));
   EXPECT_EQ(way.station(2), way.station(3));
   EXPECT_EQ(way.at(way.station(1)), way.points()[1]);

@@ -232,7 +232,7 @@ class MultirotorPlan {
     }
     if (tour.order.empty()) return tour;
     if (flown.course.closed && points.size() > 1) points.push_back(points.front());
-    const Way way(points);
+    const Polyline way(points);
     std::vector<Viewing> viewings;
     for (std::size_t i = 0; i < stops.size(); ++i) {
       if (stops[i].region < 0) continue;

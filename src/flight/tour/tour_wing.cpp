@@ -384,7 +384,7 @@ class WingPlan {
   /// enough.
   std::optional<std::vector<TourVisit>> views_of(const WingCourse& course) const {
     const Layout layout = layout_of(course, space_);
-    const Way way(layout.points);
+    const Polyline way(layout.points);
     std::vector<TourVisit> visits;
     std::vector<Stretch> taken;
     const double dwell = request_.settings.dwell_s;
@@ -412,7 +412,7 @@ class WingPlan {
   }
 
   /// Whole chords in the region, as long as the dwell, while no other target is viewed.
-  std::optional<TourVisit> passing(int region, const Way& way, const std::vector<Stretch>& taken) const {
+  std::optional<TourVisit> passing(int region, const Polyline& way, const std::vector<Stretch>& taken) const {
     const auto target = static_cast<std::size_t>(region);
     for (const Stretch& stretch : stretches_in(*regions_[target], way)) {
       constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
