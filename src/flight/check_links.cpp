@@ -44,8 +44,8 @@ JudgedLink::JudgedLink(const FlightLink& link, const PreparedScene& scene, const
                        double radius_m, const std::string& place)
     : link_(link), views_(antenna(link, scene, legs, radius_m, place)) {}
 
-LinkCheck JudgedLink::check(const std::vector<LegView>& views, const std::vector<Leg>& legs, const Along& along,
-                            double radius_m) const {
+LinkCheck JudgedLink::check(const std::vector<LegView>& views, const std::vector<Leg>& legs,
+                            const FlightTimeline& along, double radius_m) const {
   LinkCheck check;
   check.name = link_.name;
   check.point = link_.point;

@@ -24,20 +24,20 @@ struct PitchRange {
 PitchRange pitch_range(const Leg& piece, const Vec3& to, double radius_m = 0);
 
 /// How a vehicle may be off a piece of its flight.
-struct OffPiece {
+struct Deviation {
   double reach_m = 0;  ///< so far beside it
   double aside = 0;    ///< and in another direction: unit vectors differ by at most so much, 0 to 2
 };
 /// `reach_m` beside a piece that stands for a curve, which lies at most `chord_error_m` from it.
-OffPiece off_chord(const Leg& piece, double reach_m, double chord_error_m);
+Deviation off_chord(const Leg& piece, double reach_m, double chord_error_m);
 
 /// The fastest turn of the line of sight of a vehicle that flies along a straight piece at this speed, and is off it by
 /// no more than that: never less. Infinite where it may pass through the point.
-double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, const OffPiece& off = {});
+double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, const Deviation& off = {});
 
 /// Where along the piece, flown at this speed and off it by no more than that, the line of sight turns no faster than
 /// `rate_deg_s`: sorted, apart; never too long.
 std::vector<LegInterval> slow_turns(const Leg& piece, const Vec3& to, double speed_m_s, double rate_deg_s,
-                                    const OffPiece& off = {});
+                                    const Deviation& off = {});
 
 }  // namespace vantage::internal::flight
