@@ -5,7 +5,7 @@ import { large, quantity } from "../model/quantity";
 import { boundaryShares, claimText, volumeNumbers } from "../model/volume";
 import { KIND_COLOURS } from "../view/stage";
 import { isAt, setEnds } from "./limits";
-import { button, element, hex, input, say, terms } from "./page";
+import { button, element, hex, input, showMessage, terms } from "./page";
 
 export class Results {
   /** the volume that the proof is of */
@@ -52,7 +52,7 @@ export class Results {
     const at = /^\s*(off|any)?\s*$/.test(text) ? null : quantity(text, "length");
     if (at === null) this.app.setCut(null);
     else if (typeof at === "number") this.app.setCut({ axis: this.axis(), at });
-    else say(`Cut: ${at}; or "off"`, true);
+    else showMessage(`Cut: ${at}; or "off"`, true);
     input("cut-number").blur();
     this.show();
   }
