@@ -1,7 +1,7 @@
 // What is said of a volume, without a page.
 import { expect, test } from "@playwright/test";
 import type { PointAnswer, VolumeInfo } from "../src/engine/messages";
-import { boundaryShares, claimText, emptyText, pointText, proofText, seenFrom, volumeNumbers } from "../src/model/volume";
+import { boundaryShares, causeText, claimText, emptyText, pointText, proofText, seenFrom, volumeNumbers } from "../src/model/volume";
 
 const info = (parts: Partial<VolumeInfo>) => ({
   outcome: "computed", reason: "", hint: "", volume_m3: 1234567.8, facets: 12, resolve_ms: 1, compute_ms: 0.5, ...parts,
@@ -31,6 +31,11 @@ test("shares of the surface begin with the largest", () => {
   const shares = boundaryShares(new Map([["range", 0.5], ["scene", 99.5]]));
   expect(shares.map(({ kind }) => kind)).toEqual(["scene", "range"]);
   expect(shares[1]!.text).toContain("< 1 %");
+});
+
+test("a facet is told its cause, by name where the name says more", () => {
+  expect(causeText({ kind: "scene", name: "town_hall" })).toBe("hidden by town hall");
+  expect(causeText({ kind: "range", name: "range" })).toBe("the range");
 });
 
 test("numbers of a volume that was read have no time", () => {

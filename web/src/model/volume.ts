@@ -7,6 +7,17 @@ const KIND_NAMES: Record<string, string> = {
   navigation: "flight limits and boxes", sensor: "the camera", unknown: "not told by the file of the volume",
 };
 
+const CAUSE_TEXTS: Record<string, string> = {
+  scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
+  unknown: "the file of the volume does not say what bounds it",
+};
+
+/** What bounds the volume at one facet: "hidden by the tower". */
+export function causeText({ kind, name }: { kind: string; name: string }): string {
+  const isNamed = kind === "scene" || kind === "navigation" || kind === "sensor";
+  return `${CAUSE_TEXTS[kind] ?? kind}${isNamed ? ` ${name.replaceAll("_", " ")}` : ""}`;
+}
+
 /** What each position of a volume sees: "all of the target". */
 export function seenFrom({ claim }: VolumeInfo): string {
   const visible = claim?.visible ?? 1;

@@ -4,6 +4,7 @@ import { errorText } from "../engine/client";
 import type { Point } from "../engine/messages";
 import type { Mission, Target } from "../model/mission";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
+import { causeText } from "../model/volume";
 import type { Hit } from "../view/city";
 import type { Pointer } from "../view/stage";
 import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
@@ -16,10 +17,6 @@ const HINTS: Record<Tool, string> = {
   draw: "Click the corners of the target on the ground, a roof or a wall; Enter, or a double click, ends it",
   pick: "Click a roof, a wall or a square: all of it becomes the target",
   probe: "Click a place: what does a position above it see? Page Up and Page Down change its height",
-};
-const LIMITS: Record<string, string> = {
-  scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
-  unknown: "the file of the volume does not say what bounds it",
 };
 const CLICK_PIXELS = 5;
 const LOWEST = 0.02; // of the scene's height
@@ -155,8 +152,7 @@ export class Tools {
     const cause = this.tool === "look" ? app.volumeView.causeAt(app.stage.ray(event)) : null;
     tip.hidden = !cause;
     if (!cause) return;
-    const isNamed = cause.kind === "scene" || cause.kind === "navigation" || cause.kind === "sensor";
-    tip.textContent = `${LIMITS[cause.kind] ?? cause.kind}${isNamed ? ` ${cause.name.replaceAll("_", " ")}` : ""}`;
+    tip.textContent = causeText(cause);
     const { x, y } = app.stage.onScreen(event);
     tip.style.left = `${x + 14}px`;
     tip.style.top = `${y + 10}px`;
