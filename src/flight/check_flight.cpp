@@ -30,7 +30,7 @@ namespace flight = internal::flight;
 
 using Intervals = std::vector<LegInterval>;
 
-/// Of one leg, why the target is not seen: by kind and name.
+/// Why the target is not seen on one leg: by kind and name.
 using Reasons = std::map<std::pair<NotSeen::Kind, std::string>, Intervals>;
 
 /// One target on one leg.
@@ -58,7 +58,7 @@ const Intervals& whole() {
 
 Intervals common(const Intervals& a, const Intervals& b) { return flight::without(a, flight::without(whole(), b)); }
 
-/// Of a volume to fly through, as a limit that is kept inside it. A little within its surface: more than what rounding
+/// A volume to fly through, as a limit that is kept inside it. A little within its surface: more than what rounding
 /// does to the ends of intervals.
 struct VolumeToFlyThrough {
   explicit VolumeToFlyThrough(const TargetVolume& volume) : limits(inside(volume.mesh)) {
@@ -373,7 +373,7 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
   return failures;
 }
 
-/// Of a flight that is one point, a leg without length.
+/// The legs of a flight. One point is a leg without length.
 std::vector<Leg> legs_of(const Flight& flight) {
   std::vector<Leg> legs;
   for (std::size_t i = 0; i < flight.leg_count(); ++i) legs.push_back(flight.leg(i));

@@ -14,7 +14,7 @@
 namespace vantage::internal::flight {
 namespace {
 
-/// Of positions within the radius of the leg: a distance is a convex function along it.
+/// The farthest of all positions within the radius of the leg: a distance is a convex function along it.
 double farthest_m(const Leg& leg, const Vec3& point, double radius_m) {
   return std::max((leg.from - point).norm(), (leg.to - point).norm()) + radius_m;
 }

@@ -15,12 +15,12 @@ struct Aim {
 };
 Aim aim_at(const Vec3& from, const Vec3& to);
 
-/// Of the pitch along a straight piece of a flight.
+/// The range of the pitch along a straight piece of a flight.
 struct PitchRange {
   double min_deg = 0, max_deg = 0;
 };
-/// Of all positions within `radius_m` of the piece. For 0 it is exact: the ends, and the one place where the pitch may
-/// turn. Else it is never less, and within -90 and 90.
+/// The range for all positions within `radius_m` of the piece. For 0 it is exact: the ends, and the one place where the
+/// pitch may turn. Else it is never less, and within -90 and 90.
 PitchRange pitch_range(const Leg& piece, const Vec3& to, double radius_m = 0);
 
 /// How a vehicle may be off a piece of its flight.

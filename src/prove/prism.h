@@ -13,7 +13,7 @@ namespace vantage::internal::prove {
 class Prism {
  public:
   Prism(const Box& box, const Vec3& origin);
-  /// Of a zone, but for its heights above ground that is no plane.
+  /// The prism of a zone, but for its heights above ground that is no plane.
   Prism(const Zone& zone, const Vec3& origin);
 
   double low() const { return low_; }

@@ -29,7 +29,7 @@ struct JudgedTour {
 /// A list of a certificate, of `count` entries where that is given. Throws Refusal for anything else.
 const Json& list_of(const Json& json, std::optional<std::size_t> count = std::nullopt);
 
-/// Of a finite number, at most 1e15, in units of 2^-bits. Throws Refusal for anything else, and for a finer one.
+/// A finite number, at most 1e15, in units of 2^-bits. Throws Refusal for anything else, and for a finer one.
 BigInteger whole_of(const Json& json, int bits);
 
 /// Throws Refusal unless it is a whole number of 0 to end - 1.

@@ -259,7 +259,7 @@ class PlanTable {
     if (!is_geographic && !(find(Column::x) && find(Column::y) && find(Column::z))) {
       fail_header("the table has no longitude and latitude, and no x, y and z: " + in_quotes(line), place);
     }
-    // Of several heights the first whose level is known.
+    // If there are several heights, the first whose level is known.
     for (const UsedColumn& use : uses_) {
       if (use.known.column != Column::height) continue;
       if (!height_ || (height_->known.datum == HeightDatum::unknown && use.known.datum != HeightDatum::unknown)) {

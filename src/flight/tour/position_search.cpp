@@ -248,7 +248,7 @@ std::vector<Group> PositionSearch::cover() const {
   return groups;
 }
 
-/// Of a group without a common position: what is left when all that can be is taken out. It becomes a conflict.
+/// What is left of a group without a common position when all that can be is taken out. It becomes a conflict.
 void PositionSearch::learn_conflict(const Group& group) {
   Group kept = group;
   for (const std::size_t member : group) {

@@ -58,7 +58,7 @@ Tour::End end_of(SearchEnd end) {
                                        : Tour::End::time_limit;
 }
 
-/// Of different lengths: the same flight may serve its targets in several orders.
+/// Courses of different lengths: the same flight may serve its targets in several orders.
 std::vector<Course> different(const std::vector<Course>& courses) {
   std::vector<Course> result;
   for (const Course& course : courses) {

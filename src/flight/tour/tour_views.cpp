@@ -42,7 +42,7 @@ ViewPlace place_of(const TourVisit& visit, const Flight& flight) {
   return place;
 }
 
-/// Of the camera's axis, of unit length.
+/// The direction of the camera's axis, of unit length.
 Vec3 camera_axis(const Aim& aim) {
   constexpr double kRadian = std::numbers::pi / 180;
   const double yaw = aim.yaw_deg * kRadian, pitch = aim.pitch_deg * kRadian;

@@ -213,7 +213,7 @@ class WingPlan {
     return candidate;
   }
 
-  /// Of two places between which there is no way, the later one that is not home.
+  /// Leaves out one of two places between which there is no way: the later one that is not home.
   void leave_out(std::vector<int>& order, std::size_t blocked, Candidate& candidate) const {
     const std::size_t first = request_.home ? 1 : 0;
     const auto region_at = [&](std::size_t place) -> std::optional<std::size_t> {
@@ -460,7 +460,7 @@ class WingPlan {
         if (is_asked && !is_told) problems.push_back(problem);
       };
       std::for_each(next.problems.begin(), next.problems.end(), add);
-      // Of these no view was drawn in the last attempt, or its time was over before it told why.
+      // For these no view was drawn in the last attempt, or its time was over before it told why.
       for (const int region : order) {
         const auto target = static_cast<std::size_t>(region);
         if (choices_[target].empty()) add({TourProblem::Kind::no_place, target, std::nullopt, ""});

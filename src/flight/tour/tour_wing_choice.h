@@ -20,7 +20,7 @@ struct WingCourse {
   std::size_t next(std::size_t i) const { return (i + 1) % views.size(); }
 };
 
-/// Of the paths and the views.
+/// The length of the paths and the views.
 double length_m(const WingCourse& course, const WingSpace& space);
 
 /// Views to choose from, for each place of the order.
