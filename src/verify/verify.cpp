@@ -68,7 +68,8 @@ struct Verdict {
   Vec3 hidden = Vec3::Zero();          ///< and a hidden point of it, in its frame
 };
 
-/// Of a target in parts: the first part's frame is the check's, and the scene is indexed for one part at a time.
+/// The check of a target in parts: the first part's frame is the check's, and the scene is indexed for one part at a
+/// time.
 class Check {
  public:
   Check(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor, const Navigation& navigation,
@@ -87,7 +88,7 @@ class Check {
 
   /// Chooses a viewpoint.
   Verdict draw(std::size_t number) const;
-  /// Of a viewpoint that another check has chosen: whether it is within the limits.
+  /// Judges whether a viewpoint that another check has chosen is within the limits.
   void judge(Verdict& verdict) const;
   /// What look() looks at from now on. Not while other threads look.
   void turn_to(std::size_t part);
@@ -148,7 +149,7 @@ void Check::set_share(const VisibleShare& visible) {
   asked_m2_ = (visible.share - internal::verify::kShareSlack) * area - rounding;
 }
 
-/// Of all parts, but for a point that is seen from all sides.
+/// Whether a position is in front of all parts, but for a point that is seen from all sides.
 bool Check::in_front(const Vec3& position) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!parts_[i].in_front(in_frame_of(i, position))) return false;
@@ -195,7 +196,8 @@ bool Check::sees(const TargetView& part, const Vec3& position, Verdict& verdict)
   return false;
 }
 
-/// Of a viewpoint that sees the antenna. One that is not claimed counts only where it has more than the link needs.
+/// Whether a viewpoint that sees the antenna has a link. One that is not claimed counts only where it has more than the
+/// link needs.
 bool Check::has_link(const Vec3& position, Verdict& verdict) const {
   if (!link_) return true;
   const bool is_clear = verdict.claimed ? !link_->entered_by(position) : !link_->may_lack(position);
