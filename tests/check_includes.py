@@ -102,7 +102,7 @@ RULES = [
     OnlyIn(r"core/format\.h", r".*\.cpp", "only source files include libfmt: it takes long to compile"),
     OnlyIn(r"nlohmann/", r"src/(io|app|live|flight)/|bench/support/cities\.cpp",
            "only src/io, src/app, src/live, src/flight and bench see nlohmann/json"),
-    OnlyIn(r"boost/", r"src/live/(conversation|page_server)\.", "only the server in src/live sees Boost"),
+    OnlyIn(r"boost/", r"src/live/(websocket_connection|page_server)\.", "only the server in src/live sees Boost"),
     NotIn(r"src/verify/", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the check shares no geometry code with what it checks"),
     NotIn(r"src/prove/", rf"(?!(prove|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "flight/along.h"
+#include "flight/flight_timeline.h"
 #include "flight/gimbal.h"
 #include "support/flight_cases.h"
 #include "support/random.h"
@@ -230,7 +230,7 @@ TEST(FlightCheck, AgreesWithPointsACentimetreApart) {
     const Flight flight = drawn_flight(random);
     const FlightCheck check = check_flight(mission, flight);
     constexpr double kStep = 0.01;
-    const internal::flight::Along along(flight, 7);
+    const internal::flight::FlightTimeline along(flight, 7);
     std::vector<Vec3> points;
     std::vector<double> places;
     for (std::size_t leg = 0; leg < flight.leg_count(); ++leg) {
@@ -378,7 +378,7 @@ TEST(FlightGimbal, KnowsWhereItNeedNotTurnFastBesideALeg) {
     const Leg leg{random.point(-10, 10), random.point(-10, 10)};
     const Vec3 to = random.point(-10, 10);
     const double rate = random.uniform(5, 90), speed = random.uniform(0.5, 5);
-    const internal::flight::OffPiece off = {random.uniform(0, 1), random.chance(0.5) ? 0 : random.uniform(0, 0.3)};
+    const internal::flight::Deviation off = {random.uniform(0, 1), random.chance(0.5) ? 0 : random.uniform(0, 0.3)};
     const std::vector<LegInterval> found = internal::flight::slow_turns(leg, to, speed, rate, off);
     for (int i = 0; i < 200; ++i) {
       const double share = random.uniform(0, 1);

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "flight/along.h"
+#include "flight/flight_timeline.h"
 #include "query/leg_link.h"
 #include "query/link_query.h"
 #include "support/flight_cases.h"
@@ -92,7 +92,7 @@ void compare_with_points(std::uint64_t seed, bool is_radio) {
     const double radius = trial % 2 == 0 ? 0 : random.uniform(0.1, 2);
     const FlightCheck check = check_flight(mission, flight, {.tube_radius_m = radius});
     const LinkCheck& link = check.links.at(0);
-    const internal::flight::Along along(flight, 5);
+    const internal::flight::FlightTimeline along(flight, 5);
     double farthest = 0;
     for (int i = 0; i < 400; ++i) {
       const auto leg = static_cast<std::size_t>(random.integer(0, static_cast<int>(flight.leg_count()) - 1));

@@ -314,20 +314,20 @@ TEST_F(LiveServerThread, StopsAProofThatWaits) {
 }
 
 // Whoever knows the token gets in, however many there are who do not.
-TEST_F(LiveServerThread, StrangersDoNotKeepTheOwnerOut) {
-  std::vector<asio::ip::tcp::socket> strangers;
+TEST_F(LiveServerThread, ConnectionsWithoutTheTokenDoNotKeepTheOwnerOut) {
+  std::vector<asio::ip::tcp::socket> unauthenticated;
   for (int i = 0; i < 150; ++i) {
-    strangers.push_back(connected());
+    unauthenticated.push_back(connected());
     if (i % 2 == 0)
-      asio::write(strangers.back(), asio::buffer(std::string("GET / HTTP/1.1\r\nHost: 127")));  // never more
+      asio::write(unauthenticated.back(), asio::buffer(std::string("GET / HTTP/1.1\r\nHost: 127")));  // never more
   }
   EXPECT_EQ(get(path(), host()).result(), http::status::ok);
   Socket socket = opened();
   EXPECT_TRUE(ask(socket, {{"id", 1}, {"request", {{"call", "about"}}}}).contains("value"));
-  // Those who came first were sent away.
+  // The oldest ones were closed.
   char byte = 0;
   beast::error_code error;
-  strangers.front().read_some(asio::buffer(&byte, 1), error);
+  unauthenticated.front().read_some(asio::buffer(&byte, 1), error);
   EXPECT_TRUE(error == asio::error::eof || error == asio::error::connection_reset) << error.message();
   EXPECT_EQ(get("/", host()).result(), http::status::forbidden);
 }

@@ -6,7 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "live/gate.h"
+#include "live/access_control.h"
 #include "live/page_text.h"
 #include "live/report_page.h"
 #include "live/request.h"
@@ -425,29 +425,29 @@ TEST_F(LiveSession, RequestsOfOthersAreRefused) {
   }
 }
 
-TEST(LiveGate, OpensForTheTokenAndTheOwnHostAlone) {
+TEST(LiveAccessControl, AllowsTheTokenAndTheOwnHostAlone) {
   const std::string token = random_token();
   ASSERT_EQ(token.size(), 32u);
   EXPECT_NE(token, random_token());
-  const Gate gate(token);
-  EXPECT_TRUE(gate.opens("/?token=" + token, "/"));
-  EXPECT_FALSE(gate.opens("/?token=" + token + "0", "/"));
-  EXPECT_FALSE(gate.opens("/?token=" + token.substr(1) + "x", "/"));
-  EXPECT_FALSE(gate.opens("/?token=", "/"));
-  EXPECT_FALSE(gate.opens("/", "/"));
-  EXPECT_FALSE(gate.opens("/socket?token=" + token, "/"));
+  const AccessControl access(token);
+  EXPECT_TRUE(access.allows("/?token=" + token, "/"));
+  EXPECT_FALSE(access.allows("/?token=" + token + "0", "/"));
+  EXPECT_FALSE(access.allows("/?token=" + token.substr(1) + "x", "/"));
+  EXPECT_FALSE(access.allows("/?token=", "/"));
+  EXPECT_FALSE(access.allows("/", "/"));
+  EXPECT_FALSE(access.allows("/socket?token=" + token, "/"));
   for (const char* const host : {"127.0.0.1:8090", "localhost:8090", "127.0.0.1", "localhost:9000"})
-    EXPECT_TRUE(Gate::is_own_host(host)) << host;
+    EXPECT_TRUE(AccessControl::is_own_host(host)) << host;
   for (const char* const host : {"evil.example:8090", "evil.example", "127.0.0.1:8090.evil.example", "127.0.0.1:", "",
                                  "127.0.0.1.evil.example", "localhost:1:2", "[::1]:8090"})
-    EXPECT_FALSE(Gate::is_own_host(host)) << host;
+    EXPECT_FALSE(AccessControl::is_own_host(host)) << host;
   const std::string own = "127.0.0.1:8090";
-  EXPECT_TRUE(Gate::is_own_origin("http://" + own, own));
+  EXPECT_TRUE(AccessControl::is_own_origin("http://" + own, own));
   for (const char* const origin :
        {"https://127.0.0.1:8090", "http://evil.example", "null", "", "http://127.0.0.1:8091", "http://localhost:8090"})
-    EXPECT_FALSE(Gate::is_own_origin(origin, own)) << origin;
+    EXPECT_FALSE(AccessControl::is_own_origin(origin, own)) << origin;
   const std::string other = "evil.example";
-  EXPECT_FALSE(Gate::is_own_origin("http://" + other, other));
+  EXPECT_FALSE(AccessControl::is_own_origin("http://" + other, other));
 }
 
 TEST_F(LiveSession, AVolumeThatIsShownMustBeClosed) {

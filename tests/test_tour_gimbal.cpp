@@ -141,7 +141,7 @@ TEST(TourGimbal, StretchesInPassingAreThoseThatAreSlow) {
     for (int k = random.integer(2, 5); k > 0; --k) {
       points.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60), random.uniform(5, 40));
     }
-    const tour::Way way(points);
+    const tour::Polyline way(points);
     TourTarget target;
     target.look_at = Vec3::Zero();
     TourSettings settings;

@@ -144,7 +144,7 @@ TEST(TourLimits, AWingFliesRoundWhatStandsWhereATargetWasMovedFrom) {
 
 TEST(TourLimits, PointsThatDifferAreAtDifferentStations) {
   // The step is lost in a million metres.
-  const internal::flight::tour::Way way({{0, 0, 0}, {1e6, 0, 0}, {1e6, 1e-13, 0}, {1e6, 1e-13, 0}, {1e6, 5, 0}});
+  const internal::flight::tour::Polyline way({{0, 0, 0}, {1e6, 0, 0}, {1e6, 1e-13, 0}, {1e6, 1e-13, 0}, {1e6, 5, 0}});
   EXPECT_LT(way.station(1), way.station(2));
   EXPECT_EQ(way.station(2), way.station(3));
   EXPECT_EQ(way.at(way.station(1)), way.points()[1]);
@@ -177,7 +177,7 @@ TEST(TourLimits, WaysAreAllowedAsTheyAreFlown) {
   testing::Random random(73);
   int found = 0;
   for (int i = 0; i < 200; ++i) {
-    internal::flight::tour::Draw draw(static_cast<std::uint64_t>(i + 1));
+    internal::flight::tour::SplitMix64 draw(static_cast<std::uint64_t>(i + 1));
     std::vector<Vec3> points = {Vec3(-50, random.uniform(-50, 50), 0), Vec3(50, random.uniform(-50, 50), 0)};
     const auto bends =
         internal::flight::tour::find_way(airspace, {points[0], points[1]}, draw, internal::core::ProgressReporter());

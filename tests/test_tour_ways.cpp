@@ -16,10 +16,10 @@ namespace {
 using internal::core::ProgressReporter;
 using internal::flight::tour::Course;
 using internal::flight::tour::CourseLimits;
-using internal::flight::tour::Draw;
 using internal::flight::tour::draw_ways_anew;
 using internal::flight::tour::fly_clear;
 using internal::flight::tour::join_bends;
+using internal::flight::tour::SplitMix64;
 using internal::flight::tour::Stop;
 using testing::BoxAirspace;
 
@@ -34,7 +34,7 @@ BoxAirspace walled() {
 bool never() { return false; }
 
 /// There and back.
-Course flown_once(const CourseLimits& limits, Draw& draw) {
+Course flown_once(const CourseLimits& limits, SplitMix64& draw) {
   const Course straight = {true, {{Stop::kFixed, kFrom}, {Stop::kFixed, kTo}}};
   return fly_clear(straight, limits, draw, ProgressReporter(), never).course;
 }
@@ -53,7 +53,7 @@ TEST(TourWays, DrawnAnewComeNearToTheShortestOne) {
   const double there_and_back = 2 * ((a - kFrom).norm() + (b - a).norm() + (kTo - b).norm());
   int shortened = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    Draw draw(seed);
+    SplitMix64 draw(seed);
     Course course = flown_once(limits, draw);
     const double once = course.length_m();
     for (int round = 0; round < 20; ++round) {
@@ -74,7 +74,7 @@ TEST(TourWays, BendsAreJoinedWhereThatMakesThemLittleLonger) {
   const CourseLimits limits = {kNoRegions, &airspace};
   std::size_t bends = 0, joined = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    Draw draw(seed);
+    SplitMix64 draw(seed);
     Course course = flown_once(limits, draw);
     for (int round = 0; round < 6; ++round) draw_ways_anew(course, limits, draw, ProgressReporter(), never);
     const double before = course.length_m();
@@ -91,9 +91,9 @@ TEST(TourWays, BendsAreJoinedWhereThatMakesThemLittleLonger) {
 TEST(TourWays, AreLeftAsTheyAreWhenTimeIsUp) {
   const BoxAirspace airspace = walled();
   const CourseLimits limits = {kNoRegions, &airspace};
-  Draw draw(1);
+  SplitMix64 draw(1);
   Course course = flown_once(limits, draw);
-  const std::uint64_t next = Draw(draw).bits();
+  const std::uint64_t next = SplitMix64(draw).bits();
   draw_ways_anew(course, limits, draw, ProgressReporter(), [] { return true; });
   EXPECT_EQ(draw.bits(), next);
 }
@@ -103,7 +103,7 @@ TEST(TourWays, AreAllowedWhenTheSearchIsStopped) {
   const CourseLimits limits = {kNoRegions, &airspace};
   const ProgressReporter::AskAlways always;
   for (int allowed = 1; allowed < 2000; allowed += 397) {
-    Draw draw(static_cast<std::uint64_t>(allowed));
+    SplitMix64 draw(static_cast<std::uint64_t>(allowed));
     Course course = flown_once(limits, draw);
     int asked = 0;
     const Progress progress = [&](std::string_view, double) { return ++asked <= allowed; };

@@ -36,30 +36,30 @@ Target square(double half, double height = 0) {
 // ---- segments and triangles ----
 
 TEST(VerifySegment, CrossesTheInterior) {
-  const Meeting meeting = meet(Segment({0.25, 0.25, 3}, {0.25, 0.25, -1}), kFlat);
-  EXPECT_EQ(meeting.contact, Contact::crossing);
-  EXPECT_DOUBLE_EQ(meeting.position, 0.75);
-  EXPECT_NEAR(meeting.border, 0.25, 1e-12);
-  EXPECT_EQ(meeting.turn, -1);
-  EXPECT_EQ(meet(Segment({0.25, 0.25, -1}, {0.25, 0.25, 3}), kFlat).turn, 1);
+  const Intersection hit = intersect(Segment({0.25, 0.25, 3}, {0.25, 0.25, -1}), kFlat);
+  EXPECT_EQ(hit.contact, Contact::crossing);
+  EXPECT_DOUBLE_EQ(hit.position, 0.75);
+  EXPECT_NEAR(hit.border, 0.25, 1e-12);
+  EXPECT_EQ(hit.turn, -1);
+  EXPECT_EQ(intersect(Segment({0.25, 0.25, -1}, {0.25, 0.25, 3}), kFlat).turn, 1);
 }
 
 TEST(VerifySegment, MissesBesideAboveAndBelow) {
-  EXPECT_EQ(meet(Segment({0.75, 0.75, 3}, {0.75, 0.75, -1}), kFlat).contact, Contact::none);
-  EXPECT_EQ(meet(Segment({0.25, 0.25, 3}, {0.25, 0.25, 1}), kFlat).contact, Contact::none);
-  EXPECT_EQ(meet(Segment({0.25, 0.25, -3}, {0.25, 0.25, -1}), kFlat).contact, Contact::none);
+  EXPECT_EQ(intersect(Segment({0.75, 0.75, 3}, {0.75, 0.75, -1}), kFlat).contact, Contact::none);
+  EXPECT_EQ(intersect(Segment({0.25, 0.25, 3}, {0.25, 0.25, 1}), kFlat).contact, Contact::none);
+  EXPECT_EQ(intersect(Segment({0.25, 0.25, -3}, {0.25, 0.25, -1}), kFlat).contact, Contact::none);
 }
 
 TEST(VerifySegment, TouchingIsNotCrossing) {
-  EXPECT_EQ(meet(Segment({0.25, 0.25, 1}, {0.25, 0.25, 0}), kFlat).contact, Contact::unsure);  // ends on it
-  EXPECT_EQ(meet(Segment({0.5, 0, 1}, {0.5, 0, -1}), kFlat).contact, Contact::unsure);         // through an edge
-  EXPECT_EQ(meet(Segment({0, 0, 1}, {0, 0, -1}), kFlat).contact, Contact::unsure);             // through a corner
-  EXPECT_EQ(meet(Segment({-1, 0.25, 0}, {2, 0.25, 0}), kFlat).contact, Contact::unsure);       // in its plane
+  EXPECT_EQ(intersect(Segment({0.25, 0.25, 1}, {0.25, 0.25, 0}), kFlat).contact, Contact::unsure);  // ends on it
+  EXPECT_EQ(intersect(Segment({0.5, 0, 1}, {0.5, 0, -1}), kFlat).contact, Contact::unsure);         // through an edge
+  EXPECT_EQ(intersect(Segment({0, 0, 1}, {0, 0, -1}), kFlat).contact, Contact::unsure);             // through a corner
+  EXPECT_EQ(intersect(Segment({-1, 0.25, 0}, {2, 0.25, 0}), kFlat).contact, Contact::unsure);       // in its plane
 }
 
 TEST(VerifySegment, ATriangleWithoutAreaIsNeverMet) {
   const FlatTriangle needle({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
-  EXPECT_EQ(meet(Segment({1, 1, 2}, {1, 1, 0}), needle).contact, Contact::none);
+  EXPECT_EQ(intersect(Segment({1, 1, 2}, {1, 1, 0}), needle).contact, Contact::none);
 }
 
 TEST(VerifySegment, ANeedleIsMissedBesideIt) {
@@ -76,12 +76,12 @@ TEST(VerifySegment, ANeedleIsMissedBesideIt) {
     const Vec3 normal = segment.direction.cross(needle.edge1).normalized();
     const double away = std::abs(normal.dot(segment.from - needle.corner));  // of the two lines
     if (away < 1e-9) continue;
-    EXPECT_EQ(meet(segment, needle).contact, Contact::none) << i << ": " << away << " m";
+    EXPECT_EQ(intersect(segment, needle).contact, Contact::none) << i << ": " << away << " m";
     ++missed;
   }
   EXPECT_GT(missed, 9000);
-  EXPECT_NE(meet(Segment({1, 1, 3}, {1, 1, -1}), needle).contact, Contact::none);  // through it
-  EXPECT_NE(meet(Segment({5, 5, 5}, {6, 6, 6}), needle).contact, Contact::none);   // along it
+  EXPECT_NE(intersect(Segment({1, 1, 3}, {1, 1, -1}), needle).contact, Contact::none);  // through it
+  EXPECT_NE(intersect(Segment({5, 5, 5}, {6, 6, 6}), needle).contact, Contact::none);   // along it
 }
 
 TEST(VerifySegment, NeverCertainlyWrongNearBorders) {
@@ -104,7 +104,7 @@ TEST(VerifySegment, NeverCertainlyWrongNearBorders) {
     const Vec3 direction = 100 * Vec3(in(random), in(random), in(random));
     const Segment segment(point - direction, point + direction);
     if (std::abs(left.normal.dot(direction)) < left.normal_length) continue;
-    const Contact first = meet(segment, left).contact, second = meet(segment, right).contact;
+    const Contact first = intersect(segment, left).contact, second = intersect(segment, right).contact;
     EXPECT_FALSE(first == Contact::crossing && second == Contact::crossing);
     EXPECT_FALSE(first == Contact::none && second == Contact::none);
     unsure += first == Contact::unsure;

@@ -83,7 +83,7 @@ def attack(results, rng, count=2000):
 def picture(answer, results, path):
     import pyvista
 
-    from vantage._plot import poly_data
+    from vantage._mesh import poly_data
 
     colors = ["#e45756", "#4c78a8", "#54a24b", "#b279a2", "#f58518", "#72b7b2", "#9d755d", "#ff9da6", "#eeca3b", "#1b9e77"]
     plotter = pyvista.Plotter(off_screen=True, window_size=[1200, 800])

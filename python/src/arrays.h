@@ -33,7 +33,7 @@ using ListView = View<T, nb::ndim<1>>;
 /// For properties that return views: these keep alive what they need themselves.
 inline constexpr auto kKept = nb::rv_policy::automatic;
 
-/// Of data that `keeper` keeps alive, also after the object that it was asked of.
+/// An array of data that `keeper` keeps alive, also after the object that it was asked of.
 template <typename Result, typename T, typename Keeper>
 Result view_of(const T* data, std::initializer_list<std::size_t> shape, std::shared_ptr<Keeper> keeper) {
   auto* kept = new std::shared_ptr<Keeper>(std::move(keeper));

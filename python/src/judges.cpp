@@ -58,7 +58,7 @@ std::string prove_by_provenance(const PyVolume& volume, const PyScene& scene, do
   });
 }
 
-/// Of a volume's file, with a certificate beside it.
+/// Proves the file of a volume, and writes a certificate beside it.
 std::string certify(const PyMission& mission, const std::filesystem::path& volume_file,
                     const std::filesystem::path& certificate, double shrink, bool maximal, int threads,
                     nb::object progress) {

@@ -76,7 +76,7 @@ PyMission resolve(std::shared_ptr<const PyScene> scene, const std::string& text,
   });
 }
 
-/// Of a mission file, whose scene is loaded.
+/// The mission of a mission file, whose scene is loaded.
 PyMission read(const std::filesystem::path& path, nb::object progress) {
   return computed(std::move(progress), 0, [&](const Progress& told) {
     const MissionFile file = read_mission(path);

@@ -21,7 +21,7 @@ namespace {
 
 using PlanArray = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using PlanView = View<double, nb::shape<-1, 2>>;
-/// Of each polygon its rings, the outer one first.
+/// The rings of each polygon, the outer one first.
 using Rings = std::vector<std::vector<PlanView>>;
 
 PlanView plan_view(std::vector<Eigen::Vector2d> points) {

@@ -99,7 +99,7 @@ struct ViewColumns {
   }
 };
 
-/// Of each mission its positions, in the order of the missions: a row for each.
+/// What is seen from the positions of all missions, in the order of the missions: a row for each position.
 nb::dict describe(const std::vector<PyMission>& missions, const std::vector<PointArray>& arrays, nb::object progress) {
   check_sizes(missions.size(), arrays.size());
   std::vector<std::vector<Vec3>> positions;

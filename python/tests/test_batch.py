@@ -124,7 +124,7 @@ def test_workers_that_never_live_end_the_run(scene, tmp_path, monkeypatch):
 
 
 def test_workers_that_die_one_after_the_other():
-    from vantage.batch._pool import Died
+    from vantage.batch._pool import LostTask
     from vantage.batch._queue import Queue
     from vantage.batch._work import Task
 
@@ -141,7 +141,7 @@ def test_workers_that_die_one_after_the_other():
         give = given.append
 
         def ended(self, timeout_s):
-            ended, self.given[:] = [Died(task) for task in self.given], []
+            ended, self.given[:] = [LostTask(task) for task in self.given], []
             return ended
 
     rows = _table.read(triangles()).rows
@@ -321,7 +321,7 @@ def test_failures_that_nobody_thought_of(scene, monkeypatch):
 
     monkeypatch.setattr(_work, "resolved", fail)
     row = _table.read(triangles(1)).rows[0]
-    found, result = _work.compute(None, scene, _geometry.Places(scene, None), row)
+    found, result = _work.compute(None, scene, _geometry.CrsTransform(scene, None), row)
     assert result is None and found["outcome"] == "error" and found["error_code"] == "internal-defect"
     assert "ZeroDivisionError" in found["error_problem"]
 

@@ -236,7 +236,7 @@ def test_only_what_a_run_left_is_tidied(tmp_path):
     folder._end.detach()  # as of a killed process
     (pathlib.Path(folder.path) / "volume.ply").write_text("half")
     assert os.path.isfile(os.path.join(folder.path, _folders.MARK))
-    store.tidy()
+    store.remove_unfinished()
     assert [name for name in mine if not (tmp_path / name).is_file()] == []
     assert [name for name in left if (tmp_path / name).exists()] == [] and not os.path.exists(folder.path)
     assert (tmp_path / "volumes" / left[0]).is_symlink()

@@ -41,7 +41,7 @@ def rows_of(table):
 
 def parts_of(city, geometry, crs="scene", **keys):
     row = rows_of([{"id": 1, "geometry": geometry, **keys}])[0]
-    targets = _geometry.targets_of(row, _geometry.Places(city, crs))
+    targets = _geometry.targets_of(row, _geometry.CrsTransform(city, crs))
     mission = vt.Mission.of(city, targets[0] if len(targets) == 1 else targets, max_range=60)
     return mission.target_parts
 
@@ -54,7 +54,7 @@ def test_other_systems_are_transformed(city, tmp_path):
     alone = vt.compute(city, vt.Target(outline=L_SHAPE), max_range=60)
     for number, crs in enumerate(("EPSG:25832", "EPSG:4326", "EPSG:3857", city.crs)):
         frame = geopandas.GeoDataFrame({"id": ["square"]}, geometry=[in_crs(city, L_SHAPE, crs)], crs=crs)
-        places = _geometry.Places(city, _table.read(frame).crs)
+        places = _geometry.CrsTransform(city, _table.read(frame).crs)
         targets = _geometry.targets_of(rows_of(frame)[0], places)
         assert np.array(targets[0].outline) == pytest.approx(np.array(L_SHAPE, float), abs=2e-6), crs
         if number:
@@ -118,7 +118,7 @@ def test_holes_and_several_polygons(city):
     assert plan_area(parts_of(city, raised)) == pytest.approx(ring.area, rel=1e-9)
     both = shapely.MultiPolygon([shapely.box(-30, 0, -20, 5), shapely.box(-50, 0, -45, 5)])
     row = rows_of([{"id": 1, "geometry": both}])[0]
-    targets = _geometry.targets_of(row, _geometry.Places(city, "scene"))
+    targets = _geometry.targets_of(row, _geometry.CrsTransform(city, "scene"))
     result = vt.compute(city, targets, max_range=60)
     seen = [vt.compute(city, one, max_range=60) for one in targets]
     assert 0 < result.volume_m3 < min(one.volume_m3 for one in seen)
@@ -148,7 +148,7 @@ def test_heights_are_in_the_unit_of_the_crs(city, tmp_path):
         shape = shapely.Polygon([(x, y, 6 / unit) for x, y in flat.exterior.coords])
         point = shapely.Point(shape.exterior.coords[0])
         frame = geopandas.GeoDataFrame({"id": [1, 2]}, geometry=[shape, point], crs=crs)
-        places = _geometry.Places(city, _table.read(frame).crs)
+        places = _geometry.CrsTransform(city, _table.read(frame).crs)
         polygon, single = (_geometry.targets_of(row, places)[0] for row in rows_of(frame))
         assert np.array(polygon.vertices)[:, 2] == pytest.approx([6, 6, 6]), crs
         assert single.point[2] == pytest.approx(6), crs

@@ -21,7 +21,7 @@ from . import _core
 if _refusal := getattr(_core, "refusal", None):  # in a subinterpreter
     raise ImportError(_refusal)
 
-from . import _arrays, _checks
+from . import _arrays, _checks, _html, _plot, _profile
 from ._areas import Area, Face, areas
 from ._check import BrokenLimit, FlightCheck, GimbalUse, LinkCheck, NearestPass, NotSeen, Span, TargetCheck, check
 from ._core import version as __version__
@@ -29,13 +29,14 @@ from ._errors import CancelledError, Error, InputError, InternalError, OutputErr
 from ._field import fraction_field
 from ._flight import Flight
 from ._mesh import Cause, Note
+from ._objects import SceneObject
 from ._place import Georeference
 from ._positions import Positions, PositionView, fewest_positions
 from ._progress import Progress
 from ._requests import Navigation, Sensor, Target, TourSettings, Vector
 from ._many import Results, compute_many
 from ._result import Answers, Mission, Result, compute
-from ._scene import Scene, SceneObject, checked_scene
+from ._scene import Scene, checked_scene
 from ._slice import Slice
 from ._tiles import Tile, Tiles, tiles
 from ._tour import LeftOut, Tour, TourBound, Visit, tour

@@ -12,9 +12,10 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._checks import flag, items, path as checked_path, shown, text
 from ._errors import input_error
-from ._requests import Path, Target, Vector
+from ._objects import SceneObject
 from ._progress import Progress
-from ._scene import Scene, SceneObject
+from ._render import html
+from ._requests import Path, Target, Vector
 
 Ring = Sequence[Sequence[float]]
 """Of (longitude, latitude), degrees, WGS 84; open: the first position is not repeated."""
@@ -50,9 +51,7 @@ class Area:
         return {"type": "Feature", "id": self.source_id, "properties": properties, "geometry": geometry}
 
     def _repr_html_(self) -> str:
-        from ._html import of_area
-
-        return of_area(self)
+        return html(self)
 
 
 def _numbers(values: Vector | None, count: int, name: str, form: str) -> list[float] | None:
@@ -132,9 +131,7 @@ class Face:
         return Target(**given)
 
     def _repr_html_(self) -> str:
-        from ._html import of_face
-
-        return of_face(self)
+        return html(self)
 
 
 _WITH_FACES = ("building", "building part", "other")
@@ -144,8 +141,7 @@ def _shown(one: SceneObject) -> str:
     return f"{one.source_id} {one.name}".strip()
 
 
-def _chosen(scene: Scene, objects: Iterable[Union[str, int]] | None) -> list[int]:
-    known = scene.objects
+def _chosen(known: Sequence[SceneObject], objects: Iterable[Union[str, int]] | None) -> list[int]:
     if objects is None:
         return [i for i, one in enumerate(known) if one.kind in _WITH_FACES]
     wanted = [objects] if isinstance(objects, (str, int)) else items(objects, "objects", "names, or numbers, of objects")
@@ -165,16 +161,15 @@ def _chosen(scene: Scene, objects: Iterable[Union[str, int]] | None) -> list[int
     return list(dict.fromkeys(chosen))
 
 
-def find_faces(scene: Scene, kind: str = "roof", *, min_area_m2: float = 1.0,
-               objects: Iterable[Union[str, int]] | None = None, progress: Progress = None) -> list[Face]:
-    """What `Scene.find_faces` does."""
+def find_faces(scene: _core.Scene, known: Sequence[SceneObject], kind: str, min_area_m2: float,
+               objects: Iterable[Union[str, int]] | None, progress: Progress) -> list[Face]:
+    """What `Scene.find_faces` does. `known`: the objects of the scene."""
     least = _arrays.number(min_area_m2, "min_area_m2")
     if least < 0:
         raise input_error("value-out-of-range", f"min_area_m2 is {min_area_m2}", "min_area_m2", "give square metres")
-    known = scene.objects
     faces = []
-    for index, number, normal, area_m2, parts, front in _core.faces(scene._core, _chosen(scene, objects), text(kind, "kind"),
-                                                                    least, progress):
+    for index, number, normal, area_m2, parts, front in _core.faces(scene, _chosen(known, objects), text(kind, "kind"), least,
+                                                                    progress):
         name = f"{_shown(known[index]) or f'object {index}'}, {kind} {number}"
         faces.append(Face(known[index], index, name, np.array(normal), area_m2, parts, front))
     return faces

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,12 +12,12 @@ from . import _arrays, _core
 from ._checks import path as checked_path, thread_count
 from ._errors import make, not_pickled
 from ._flight import AnyFlight, AnyMission, Flight, Numbers, flight_of, line_of, mission_of, table_of
+from ._folders import replace_file, write_text
 from ._progress import Progress
+from ._render import html, plot
 from ._requests import Path
-from ._slice import _replace, _write
-
-if TYPE_CHECKING:
-    from ._result import Mission
+from ._result import Mission
+from ._text import NAME
 
 
 class Span(NamedTuple):
@@ -227,7 +227,7 @@ class FlightCheck:
             raise make("output", "output-format-unknown", "a check is written as .json or .csv", file,
                        "give a name that ends so", None)
         told = self._core.json() if file.endswith(".json") else self._core.csv()
-        _replace(file, lambda draft: _write(draft, told))
+        replace_file(file, lambda draft: write_text(draft, told))
 
     def to_geodataframe(self) -> Any:
         """A row for each stretch, for geopandas: lines with z in the scene's frame (points where it hovers), its CRS where its
@@ -264,8 +264,6 @@ class FlightCheck:
         Returns:
             the matplotlib.figure.Figure.
         """
-        from ._profile import plot
-
         return plot(self, path, size=size)
 
     def __reduce__(self) -> Any:
@@ -278,9 +276,7 @@ class FlightCheck:
         return f"<vantage.FlightCheck: {self.length_m:,.1f} m, {seen} of {len(self.targets)} targets {reached}, {text}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_check
-
-        return of_check(self)
+        return html(self)
 
 
 def _spans(rows: Any) -> list[Span]:
@@ -353,14 +349,11 @@ def check(mission: AnyMission, plan: AnyFlight, *, tube_m: float = 0.0, speed_m_
         "height_m": height_m, "return_height_m": return_height_m, "loiter_radius_m": loiter_radius_m,
         "ground_legs": ground_legs}, progress)
     each = for_flights(of, progress=progress)
-    core = of._told(lambda: _core.check_flight(each._core, flight._core, tube, speed, dwell, clearance, rate, count,
+    core = of._call(lambda: _core.check_flight(each._core, flight._core, tube, speed, dwell, clearance, rate, count,
                                                progress))
     return FlightCheck(core, each, flight)
 
 
 def for_flights(mission: Mission, progress: Progress = None) -> Mission:
     """The mission with each of its targets by itself."""
-    from ._result import Mission
-    from ._text import NAME
-
-    return Mission(mission._told(lambda: _core.for_flights(mission._core, None, NAME, progress)), mission._scene, mission._text)
+    return Mission(mission._call(lambda: _core.for_flights(mission._core, None, NAME, progress)), mission._scene, mission._text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Protocol, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -18,15 +18,9 @@ from ._progress import Progress
 from ._requests import Path
 from ._result import Mission, Result
 
-if TYPE_CHECKING:
-    from ._tour import Tour
-    from ._views import Orbit
-
 Numbers = npt.NDArray[np.float64]
 AnyMission = Union[Mission, Result, Path]
 """A mission, a result, whose mission is meant, or the path of a mission file."""
-AnyFlight = Union["Flight", "Tour", "Orbit", Path, npt.ArrayLike]
-"""A flight, what has one, the path of a plan, or (n, 3) positions."""
 
 HEIGHTS = ("sea", "ellipsoid", "ground", "home", "scene")
 
@@ -92,7 +86,7 @@ class Flight:
         place = None if home is None else _arrays.numbers(home, "home")
         if place is not None and (place.shape != (2,) or not np.isfinite(place).all()):
             raise input_error("value-syntax", "home must be 2 numbers", "home", "pass (latitude, longitude)")
-        core = of._told(lambda: _core.read_plan(
+        core = of._call(lambda: _core.read_plan(
             of._core, checked_path(path), text(track, "track"), None if place is None else place.tolist(),
             _number(home_z_m, "home_z_m"), _number(undulation_m, "undulation_m"),
             None if heights is None else choice(heights, "heights", HEIGHTS), _number(height_m, "height_m"),
@@ -169,6 +163,23 @@ class Flight:
     def __repr__(self) -> str:
         count = len(self)
         return f"<vantage.Flight: {count} point{'' if count == 1 else 's'}, {self.length_m:,.1f} m>"
+
+
+class HasFlight(Protocol):
+    """A tour, and whatever else has a flight."""
+
+    @property
+    def flight(self) -> Flight: ...
+
+
+class MakesFlight(Protocol):
+    """An orbit, and whatever else can be flown."""
+
+    def flight(self) -> Flight: ...
+
+
+AnyFlight = Union[Flight, HasFlight, MakesFlight, Path, npt.ArrayLike]
+"""A flight, what has one, the path of a plan, or (n, 3) positions."""
 
 
 def _number(value: float | None, name: str) -> float | None:

@@ -9,8 +9,10 @@ import shutil
 import stat
 import tempfile
 import weakref
+from collections.abc import Callable
 from typing import Any
 
+from ._errors import make
 from ._requests import Path
 
 BESIDE = ".vantage-part-"
@@ -80,6 +82,24 @@ def remove_all(prefix: str, parent: Path) -> None:
                 _remove(path)
         finally:
             os.close(folder)
+
+
+def write_text(file: str, text: str) -> None:
+    """A new file, in UTF-8."""
+    with open(file, "w", encoding="utf-8") as out:
+        out.write(text)
+
+
+def replace_file(file: str, write: Callable[[str], None]) -> None:
+    """A file that is written whole beside it takes its place."""
+    try:
+        with Folder(BESIDE, os.path.dirname(file)) as folder:
+            draft = os.path.join(folder, os.path.basename(file))
+            write(draft)
+            os.replace(draft, file)
+    except OSError as error:
+        raise make("output", "output-unwritable", f"the file cannot be written: {error.strerror or error}", file,
+                   "free some room, or choose another place", None) from None
 
 
 def _named_so(prefix: str, parent: str) -> list[str]:

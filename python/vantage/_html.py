@@ -1,4 +1,4 @@
-"""Tables for notebooks."""
+"""Tables for notebooks, registered with `_render`."""
 
 from __future__ import annotations
 
@@ -6,21 +6,22 @@ import dataclasses
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from ._areas import Area, Face
-    from ._check import FlightCheck
-    from ._many import Results
-    from ._mesh import Note, Solid
-    from ._positions import Positions
-    from ._result import Answers, Mission, Result
-    from ._scene import Scene
-    from ._slice import Slice
-    from ._tour import Tour
-    from ._volume import Volume
+from ._areas import Area, Face
+from ._check import FlightCheck
+from ._many import Results
+from ._mesh import Note, Solid
+from ._positions import Positions
+from ._render import html
+from ._requests import Request
+from ._result import Answers, Mission, Result
+from ._scene import Scene
+from ._slice import Slice
+from ._tour import Tour
+from ._volume import Volume
 
 Rows = list[tuple[str, str]]
 _MOST = 5
@@ -60,12 +61,14 @@ def _solid(title: str, solid: Solid, more: Rows) -> str:
     return table(title, [*_numbers_of(solid), *more, *_bounded_by(solid), *_noted(solid.notes)])
 
 
-def of_result(result: Result) -> str:
+@html.register(Result)
+def _result(result: Result) -> str:
     """The numbers of a result, and its largest causes."""
     return _solid(result.mission.target_name, result, [("range", f"{result.mission.range_m:g} m")])
 
 
-def of_volume(volume: Volume) -> str:
+@html.register(Volume)
+def _volume(volume: Volume) -> str:
     """Its numbers, and what it was computed for."""
     made = volume.provenance
     more = [("target", made["target"]), ("method", made["method"])] if made else []
@@ -74,7 +77,8 @@ def of_volume(volume: Volume) -> str:
     return _solid("volume", volume, more)
 
 
-def of_scene(scene: Scene) -> str:
+@html.register(Scene)
+def _scene(scene: Scene) -> str:
     """How much is in it, and where it lies."""
     kinds = Counter(one.kind for one in scene.objects)
     rows = [("size", _size(scene.bounds)), ("triangles", f"{len(scene.faces):,}"),
@@ -87,14 +91,16 @@ def of_scene(scene: Scene) -> str:
     return table("scene", rows)
 
 
-def of_mission(mission: Mission) -> str:
+@html.register(Mission)
+def _mission(mission: Mission) -> str:
     """What is asked."""
     corners = ", ".join(str(len(part)) for part in mission.target_parts)
     return table(mission.target_name, [("range", f"{mission.range_m:g} m"), ("method", mission._core.method),
                                        ("corners", corners), *_noted(mission.notes)])
 
 
-def of_request(request: Any) -> str:
+@html.register(Request)
+def _request(request: Any) -> str:
     """What was given of a Target, Sensor or Navigation."""
     def shown(value: Any) -> str:
         text = repr(value.tolist() if isinstance(value, np.ndarray) else value)
@@ -104,7 +110,8 @@ def of_request(request: Any) -> str:
     return table(type(request).__name__, [(name, shown(value)) for name, value in fields if value is not None])
 
 
-def of_slice(one: Slice) -> str:
+@html.register(Slice)
+def _slice(one: Slice) -> str:
     """Its numbers, and a drawing."""
     rows = [("area", f"{one.area_m2:,.1f} m²"), ("polygons", f"{len(one.polygons):,}"),
             ("CRS", one.crs or "the scene's frame")]
@@ -114,7 +121,8 @@ def of_slice(one: Slice) -> str:
     return table("slice", [("height", f"{one.z_m:g} m"), *rows]) + drawing
 
 
-def of_area(area: Area) -> str:
+@html.register(Area)
+def _area(area: Area) -> str:
     """What the map tells, and a drawing about its middle, in metres."""
     latitude, longitude = area.center
     rows = [("id", area.source_id), ("area", f"{area.area_m2:,.0f} m²"), ("middle", f"{latitude:.6f}, {longitude:.6f}"),
@@ -124,14 +132,16 @@ def of_area(area: Area) -> str:
     return table(area.name or "area", rows) + _drawing(drawn)
 
 
-def of_face(face: Face) -> str:
+@html.register(Face)
+def _face(face: Face) -> str:
     """How large it is, and where it looks."""
     return table(face.name, [("area", f"{face.area_m2:,.1f} m²"), ("of", f"{face.object.kind} {face.object.name}".strip()),
                              ("normal", ", ".join(f"{value:.3f}" for value in face.normal)),
                              ("parts", f"{len(face.parts):,}")])
 
 
-def of_positions(found: Positions) -> str:
+@html.register(Positions)
+def _positions(found: Positions) -> str:
     """The answer, and a row for each position."""
     rows = [(f"{number}: " + ", ".join(f"{value:,.1f}" for value in place) + " m",
              f"sees {len(sees)}: {_listed(sees)}; {depth:,.2f} m deep")
@@ -140,7 +150,8 @@ def of_positions(found: Positions) -> str:
     return table(str(found), [*rows[:_MOST_ROWS], *more, *(("note", note) for note in found.notes)])
 
 
-def of_check(check: FlightCheck) -> str:
+@html.register(FlightCheck)
+def _check(check: FlightCheck) -> str:
     """A row for each target, and what fails."""
     rows = []
     for target in check.targets:
@@ -154,7 +165,8 @@ def of_check(check: FlightCheck) -> str:
                  [*rows[:_MOST_ROWS], *more, *ends, *(("fails", failure) for failure in check.failures)])
 
 
-def of_tour(tour: Tour) -> str:
+@html.register(Tour)
+def _tour(tour: Tour) -> str:
     """A row for each visit, and what is left out."""
     rows = [(visit.name, f"in view {visit.begin_m:,.1f} to {visit.end_m:,.1f} m along the flight, {visit.dwell_s:,.1f} s")
             for visit in tour.visits]
@@ -164,14 +176,16 @@ def of_tour(tour: Tour) -> str:
                  [("time", f"{tour.time_s:,.1f} s"), *rows[:_MOST_ROWS], *more, *left, *(("note", note) for note in tour.notes)])
 
 
-def of_results(results: Results) -> str:
+@html.register(Results)
+def _results(results: Results) -> str:
     """How many there are of each, and the first errors."""
     rows = [(f"{number}", f"{error.code}: {error.problem}") for number, error in results.errors.items()]
     more = [("", f"and {len(rows) - _MOST_ROWS:,} more")] if len(rows) > _MOST_ROWS else []
     return table(repr(results)[len("<vantage.Results: "):-1], [*rows[:_MOST_ROWS], *more])
 
 
-def of_answers(answers: Answers) -> str:
+@html.register(Answers)
+def _answers(answers: Answers) -> str:
     """A row for each point, of the first ones."""
     def why(row: int) -> str:
         reasons = [*answers.blocked_by[row], *(["range"] if answers.out_of_range[row] else []),

@@ -13,6 +13,7 @@ from . import _core
 from ._checks import choice, thread_count
 from ._errors import Error, make
 from ._progress import Listener, Progress, listener
+from ._render import html
 from ._requests import Navigation, Sensor, Target, keys_of
 from ._result import Mission, Result, asked, resolved
 from ._scene import Scene, checked_scene
@@ -54,9 +55,7 @@ class Results(list[Union[Result, Error]]):
         return f"<vantage.Results: {text}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_results
-
-        return of_results(self)
+        return html(self)
 
 
 @overload
@@ -203,14 +202,14 @@ def _volumes_of(scene: Scene, target: Target, number: int, request: dict[str, An
     """How many volumes a target has: one, or of several faces one for each. Raises what is wrong with where it is."""
     without_limits = {**request, "navigation": None}
     text, _ = asked(scene, [target], _names([number]), is_one=True, combine="each", **without_limits)
-    return text.told(lambda: _core.check(scene._core, text.text(), NAME, [], prepares, told))
+    return text.call(lambda: _core.check(scene._core, text.text(), NAME, [], prepares, told))
 
 
 def _check_limits(scene: Scene, request: dict[str, Any], told: Listener) -> None:
     """Raises what is wrong with the sensor and the limits, which all targets share: asked with a target that is right."""
     text, meshes = asked(scene, [_stand_in(scene, request)], [_STAND_IN], is_one=True, **request)
     try:
-        text.told(lambda: _core.check(scene._core, text.text(), NAME, meshes, False, told))
+        text.call(lambda: _core.check(scene._core, text.text(), NAME, meshes, False, told))
     except Error as error:
         if not error.where.startswith(_STAND_IN):
             raise

@@ -9,14 +9,12 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._extras import require
+from ._objects import KINDS
 from ._place import Georeference
 from ._slice import Slice
 
 if TYPE_CHECKING:
     import trimesh
-
-KINDS: tuple[str, ...] = tuple(_core.object_kinds())
-"""What an object can be: "other", "ground", "building", ..."""
 
 
 class Cause(NamedTuple):
@@ -37,6 +35,16 @@ class Note(NamedTuple):
 
     code: str
     text: str
+
+
+def poly_data(vertices: _arrays.Points, faces: _arrays.Faces, **arrays: Any) -> Any:
+    """A pyvista mesh of triangles, with an array of values for each facet."""
+    cells = np.column_stack([np.full(len(faces), 3, np.int64), faces.astype(np.int64)])
+    mesh = require("pyvista", "plot").PolyData(np.array(vertices), cells)
+    for name, values in arrays.items():
+        if len(values) == len(faces):
+            mesh.cell_data[name] = np.array(values)
+    return mesh
 
 
 class Triangles:
@@ -185,8 +193,6 @@ class Solid(Triangles):
 
     def to_pyvista(self) -> Any:
         """For pyvista, with an array "cause"."""
-        from ._plot import poly_data
-
         return poly_data(self.vertices, self.faces, cause=self.cause_of)
 
     def to_manifold(self) -> Any:

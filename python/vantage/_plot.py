@@ -1,18 +1,17 @@
-"""Pictures by pyvista (the extra `plot`)."""
+"""Pictures of results by pyvista (the extra `plot`), registered with `_render`."""
 
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from . import _arrays
+from . import _render
 from ._extras import require
+from ._mesh import poly_data
 from ._requests import Path
-
-if TYPE_CHECKING:
-    from ._result import Result
+from ._result import Result
 
 COLORS = {"scene": "#4c78a8", "range": "#e0b84c", "target_plane": "#9d9d9d", "navigation": "#54a24b", "sensor": "#b279a2"}
 """Of facets, by the kind of their cause."""
@@ -23,21 +22,12 @@ LABELS = {"scene": "view hidden", "range": "out of range", "target_plane": "behi
 TARGET = "#e45756"
 
 
-def poly_data(vertices: _arrays.Points, faces: _arrays.Faces, **arrays: Any) -> Any:
-    """A pyvista mesh of triangles, with an array of values for each facet."""
-    cells = np.column_stack([np.full(len(faces), 3, np.int64), faces.astype(np.int64)])
-    mesh = require("pyvista", "plot").PolyData(np.array(vertices), cells)
-    for name, values in arrays.items():
-        if len(values) == len(faces):
-            mesh.cell_data[name] = np.array(values)
-    return mesh
-
-
 def _add_legend(plotter: Any, labels: list[str], colors: list[str]) -> None:
     entries = [["target", TARGET], *map(list, zip(labels, colors))]
     plotter.add_legend(entries, bcolor="white", face="rectangle", size=(0.2, 0.035 * len(entries)))
 
 
+@_render.plot.register(Result)
 def plot(result: Result, path: Path | None = None, *, scene: bool = True, size: tuple[int, int] = (1200, 900),
          opacity: float = 0.4) -> Any:
     """Scene, target and volume. With `path` a PNG, off screen; else a window, or a view to turn in a notebook.

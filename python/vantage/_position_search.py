@@ -26,8 +26,8 @@ _LAST_TRIES = 4
 """Points of a volume that are asked for when time is over, and none is known."""
 
 
-class Told:
-    """Tells progress, and stops when the callback returns False."""
+class ProgressReporter:
+    """Calls back with the progress, and stops when the callback returns False."""
 
     def __init__(self, progress: Listener):
         self.progress = progress
@@ -108,8 +108,8 @@ def _in_time(clock: Clock, work: Any) -> Any:
 class PositionSearch:
     """Candidates and conflicts, as far as they are known. Regions are those that are not empty."""
 
-    def __init__(self, regions: list[Region], clock: Clock, threads: int, told: Told):
-        self.regions, self.clock, self.threads, self.told = regions, clock, threads, told
+    def __init__(self, regions: list[Region], clock: Clock, threads: int, report: ProgressReporter):
+        self.regions, self.clock, self.threads, self.report = regions, clock, threads, report
         self.points: list[Numbers] = []
         self.seen: list[frozenset[int]] = []  # by each of the points
         self.conflicts: set[frozenset[int]] = set()  # no position is in all of them
@@ -121,7 +121,7 @@ class PositionSearch:
 
     def of(self, numbers: list[int]) -> PositionSearch:
         """The same search of some of the regions, with what is known of their candidates."""
-        less = PositionSearch([self.regions[number] for number in numbers], self.clock, self.threads, self.told)
+        less = PositionSearch([self.regions[number] for number in numbers], self.clock, self.threads, self.report)
         place = {number: i for i, number in enumerate(numbers)}
         less.points = self.points
         less.seen = [frozenset(place[number] for number in one if number in place) for one in self.seen]
@@ -142,7 +142,7 @@ class PositionSearch:
         held = np.zeros((len(self.regions), len(points)), bool)
         for number, region in enumerate(self.regions):
             if stage is not None and len(points) > 1:
-                self.told(stage, number / len(self.regions))
+                self.report(stage, number / len(self.regions))
             held[number] = region.holds(points, self.threads)
         return held
 
@@ -151,14 +151,14 @@ class PositionSearch:
         rng = np.random.default_rng(1)
         found: list[Numbers] = []
         for number, region in enumerate(self.regions):
-            self.told("candidates", number / (2 * len(self.regions)))
+            self.report("candidates", number / (2 * len(self.regions)))
             if self.clock.is_over:
                 break
             found.append(inner_points(region.inner, _SAMPLES, rng, self.threads))
         points = np.concatenate(found) if found else np.zeros((0, 3))
         held = np.zeros((len(self.regions), len(points)), bool)
         for number, region in enumerate(self.regions):
-            self.told("candidates", 0.5 + number / (2 * len(self.regions)))
+            self.report("candidates", 0.5 + number / (2 * len(self.regions)))
             if self.clock.is_over:
                 break
             held[number] = region.holds(points, self.threads)
@@ -174,7 +174,7 @@ class PositionSearch:
             if any(number in one for one in self.seen):
                 continue
             if self.clock.is_over:
-                self.told("candidates", number / len(self.regions))
+                self.report("candidates", number / len(self.regions))
                 self._add_own(number, found[number] if number < len(found) else None)
             else:
                 self.common({number})
@@ -205,7 +205,7 @@ class PositionSearch:
             return False
         regions = [self.regions[number] for number in sorted(group)]
         least = max(region.least_depth_m for region in regions)
-        self.told.again()
+        self.report.again()
         found = deepest([region.inner for region in regions], least, share=0.5, most_boxes=20_000, threads=self.threads,
                         clock=self.clock)
         if found.point is not None:
@@ -227,7 +227,7 @@ class PositionSearch:
     def surround(self) -> None:
         """Makes the outer meshes, as long as there is time."""
         for number, region in enumerate(self.regions):
-            self.told("outer", number / len(self.regions))
+            self.report("outer", number / len(self.regions))
             if not region.surround(self.threads, self.clock):
                 self.is_cut = True
 
@@ -236,7 +236,7 @@ class PositionSearch:
         pairs = list(itertools.combinations(self.all(), 2))
         for number, (a, b) in enumerate(pairs):
             if number % 50 == 0:
-                self.told("pairs", number / len(pairs))
+                self.report("pairs", number / len(pairs))
             if self.clock.is_over:
                 self.is_cut = True
                 break
@@ -283,7 +283,7 @@ class PositionSearch:
     def improve(self, best: list[list[int]], least: int, apart: list[int]) -> tuple[list[list[int]], bool]:
         """Fewer groups, until there are no fewer; whether that is certain for the inner meshes."""
         while len(best) > least:
-            self.told("fewer", least / len(best))
+            self.report("fewer", least / len(best))
             if self.clock.is_over:
                 self.is_cut = True
                 return best, False
@@ -311,7 +311,7 @@ class PositionSearch:
     def raise_bound(self, bound: int, most: int, apart: list[int]) -> int:
         """How many groups the outer meshes need, from `bound` on."""
         while bound < most and not self.clock.is_over:
-            self.told("bound", bound / most)
+            self.report("bound", bound / most)
             tried = groups(len(self.regions), bound, self.outer_conflicts, apart, self.clock)
             if tried is False:
                 bound += 1

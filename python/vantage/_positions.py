@@ -17,8 +17,9 @@ from ._cover import Clock, cp_model, least_cover, most_apart
 from ._errors import Error, input_error
 from ._extras import require
 from ._flight import table_of
-from ._position_search import PositionSearch, Region, Told
+from ._position_search import PositionSearch, ProgressReporter, Region
 from ._progress import Progress, listener
+from ._render import html
 from ._result import Mission, Result
 from ._views import View, described, names_of_view
 from ._volume import Volume
@@ -100,9 +101,7 @@ class Positions:
         return len(self.positions)
 
     def _repr_html_(self) -> str:
-        from ._html import of_positions
-
-        return of_positions(self)
+        return html(self)
 
     def __repr__(self) -> str:
         return f"<vantage.Positions: {self}>"
@@ -185,8 +184,8 @@ def fewest_positions(volumes: Sequence[Result | Volume | Error], candidates: npt
     limit = _arrays.number(time_limit_s, "time_limit_s")
     if limit <= 0:
         raise input_error("value-out-of-range", f"time_limit_s is {time_limit_s}", "time_limit_s", "pass seconds")
-    told = Told(listener(progress))
-    clock = Clock(limit, told.again)
+    report = ProgressReporter(listener(progress))
+    clock = Clock(limit, report.again)
     if isinstance(volumes, (Result, Volume)) or not isinstance(volumes, Sequence):
         raise input_error("wrong-type", f"volumes is a {type(volumes).__name__}", "volumes", "pass a list of them")
     if cost is not None and candidates is None and not callable(cost):
@@ -194,14 +193,14 @@ def fewest_positions(volumes: Sequence[Result | Volume | Error], candidates: npt
                           "pass candidates, or a function of points")
     every = []
     for number, one in enumerate(volumes):
-        told("volumes", number / len(volumes))
+        report("volumes", number / len(volumes))
         every.append(Region(one, f"volumes[{number}]"))
     points = None if candidates is None else _arrays.points(candidates, "candidates")
     numbers = [number for number, region in enumerate(every) if not region.inner.is_empty]
     if not numbers:
         raise input_error("nothing-given", "there is no volume that is not empty", "volumes",
                           "pass results that are not empty: Result.reason says why they are")
-    search = PositionSearch([every[number] for number in numbers], clock, count, told)
+    search = PositionSearch([every[number] for number in numbers], clock, count, report)
     if points is not None:
         return _among(search, points, cost, numbers, len(every))
     return _anywhere(search, cost, numbers, len(every))
@@ -321,7 +320,7 @@ def _deep_point(search: PositionSearch, group: list[int]) -> Numbers:
     if search.clock.is_over:
         return search.points[known]
     least = max(region.least_depth_m for region in regions)
-    search.told.again()
+    search.report.again()
     found = deepest([region.inner for region in regions], least, threads=search.threads, clock=search.clock)
     if found.point is not None and all(region.holds(found.point[None, :], search.threads)[0] for region in regions):
         return found.point
@@ -357,7 +356,7 @@ def _views(search: PositionSearch, positions: _arrays.Points, held: Any, depths:
         if region.mission is not None and held[row].any():
             missions.append(region.mission)
             places.append(np.ascontiguousarray(positions[held[row]]))
-    left = iter(described(missions, places, search.told))
+    left = iter(described(missions, places, search.report))
     views = []
     for row, region in enumerate(search.regions):
         for k in np.flatnonzero(held[row]).tolist():

@@ -1,4 +1,4 @@
-"""Scenes of footprints with heights, from geopandas (the extra `geo`)."""
+"""Triangles of footprints with heights, from geopandas (the extra `geo`)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._errors import Error, input_error, make
 from ._extras import require
-from ._mesh import KINDS
+from ._objects import KINDS, SceneObject
 from ._place import WGS84, Georeference, crs_text
-from ._scene import Scene, SceneObject
 
 Numbers = npt.NDArray[np.float64]
 Column = Union[str, float]
@@ -31,11 +30,21 @@ _GROUND_MARGIN_M = 1000.0
 _METRES_PER_DEGREE = 111_320.0
 
 
-class Prisms(NamedTuple):
-    """Triangles of several solids."""
+class Prism(NamedTuple):
+    """Triangles of one solid, or of the ground."""
 
     vertices: Numbers
     faces: npt.NDArray[np.int64]
+
+
+class Prisms(NamedTuple):
+    """What `Scene.from_arrays` takes."""
+
+    vertices: Numbers
+    faces: npt.NDArray[np.int64]
+    object_of: npt.NDArray[np.int64]
+    objects: list[SceneObject]
+    place: Georeference | None
 
 
 def _named(labels: Sequence[Hashable]) -> str:
@@ -149,7 +158,7 @@ def _triangles(polygon: Any) -> tuple[Numbers, npt.NDArray[np.int64]]:
     return places, number.reshape(-1, 3)
 
 
-def _prism(polygon: Any, low: float, high: float) -> Prisms:
+def _prism(polygon: Any, low: float, high: float) -> Prism:
     """Bottom, top, and two triangles for each side of one triangle alone: so it is closed, whatever the footprint."""
     corners, top = _triangles(polygon)
     count = len(corners)
@@ -158,15 +167,15 @@ def _prism(polygon: Any, low: float, high: float) -> Prisms:
     here, there = sides[~np.isin(keys, back)].T
     walls = [np.column_stack([here, there, there + count]), np.column_stack([here, there + count, here + count])]
     vertices = np.concatenate([np.column_stack([corners, np.full(count, z)]) for z in (low, high)])
-    return Prisms(vertices, np.concatenate([top[:, ::-1], top + count, *walls]))
+    return Prism(vertices, np.concatenate([top[:, ::-1], top + count, *walls]))
 
 
-def _ground(bounds: Sequence[float], z: float) -> Prisms:
+def _ground(bounds: Sequence[float], z: float) -> Prism:
     west, south, east, north = bounds
     west, south, east, north = (west - _GROUND_MARGIN_M, south - _GROUND_MARGIN_M, east + _GROUND_MARGIN_M,
                                 north + _GROUND_MARGIN_M)
     vertices = np.array([[west, south, z], [east, south, z], [east, north, z], [west, north, z]])
-    return Prisms(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
+    return Prism(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
 
 
 def _labels(gdf: Any, name: str | None) -> list[str]:
@@ -179,9 +188,9 @@ def _labels(gdf: Any, name: str | None) -> list[str]:
     return [str(value) if isinstance(value, (str, int)) else "" for value in gdf[column]]
 
 
-def scene_of(gdf: Any, height: Column, base: Column | None, ground: bool | float, name: str | None, kind: str,
-             origin: Any, default_height: float | None, sea_level: float | None) -> Scene:
-    """What Scene.from_geodataframe does."""
+def prisms_of(gdf: Any, height: Column, base: Column | None, ground: bool | float, name: str | None, kind: str,
+              origin: Any, default_height: float | None) -> Prisms:
+    """A prism for each polygon of a table, and the ground: see `Scene.from_geodataframe`."""
     shapely = require("shapely", "geo")
     if not isinstance(gdf, require("geopandas", "geo").GeoDataFrame):
         raise input_error("wrong-type", f"{type(gdf).__name__} is no GeoDataFrame", "gdf",
@@ -219,5 +228,4 @@ def scene_of(gdf: Any, height: Column, base: Column | None, ground: bool | float
     starts = np.cumsum([0] + [len(solid.vertices) for solid in solids[:-1]])
     faces = np.concatenate([solid.faces + start for solid, start in zip(solids, starts)])
     object_of = np.concatenate([np.full(len(solid.faces), which) for solid, which in zip(solids, of)])
-    return Scene.from_arrays(np.concatenate([solid.vertices for solid in solids]), faces, object_of=object_of,
-                             objects=objects, georeference=place, sea_level=sea_level)
+    return Prisms(np.concatenate([solid.vertices for solid in solids]), faces, object_of, objects, place)

@@ -1,20 +1,19 @@
-"""Pictures of flights: height over distance, and when what is seen. By matplotlib (the extra `plot`)."""
+"""Pictures of flights: height over distance, and when what is seen. By matplotlib (the extra `plot`), registered
+with `_render`."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, _render
+from ._check import FlightCheck, Span
 from ._checks import path as checked_path, shown, whole
 from ._errors import input_error
 from ._extras import require
+from ._flight import Numbers
 from ._requests import Path
-
-if TYPE_CHECKING:
-    from ._check import FlightCheck, Span
-    from ._flight import Numbers
 
 COLORS = {"seen": "#54a24b", "inside": "#54a24b", "linked": "#72b7b2", "hidden": "#4c78a8", "out_of_range": "#e0b84c",
           "behind": "#9d9d9d", "limit": "#b279a2", "outside": "#9d9d9d", "broken": "#e45756"}
@@ -121,6 +120,7 @@ def _short(name: str) -> str:
     return plain if len(plain) <= _MOST_NAME else plain[:_MOST_NAME - 3] + "..."
 
 
+@_render.plot.register(FlightCheck)
 def plot(check: FlightCheck, path: Path | None = None, *, size: tuple[int, int] = (1200, 800)) -> Any:
     """What `FlightCheck.plot` does."""
     file = None if path is None else checked_path(path)

@@ -11,6 +11,8 @@ import numpy.typing as npt
 
 from ._checks import shown
 from ._errors import input_error
+from ._geometry import target_keys
+from ._render import html
 
 Path = Union[str, os.PathLike[str]]
 Vector = Union[Sequence[float], npt.NDArray[Any]]
@@ -31,7 +33,7 @@ def keys_of(request: Any, kind: type, name: str) -> dict[str, Any]:
     return _given(request)
 
 
-class _Request:
+class Request:
     """Printed with what was given, no more."""
 
     def __repr__(self) -> str:
@@ -39,13 +41,11 @@ class _Request:
         return f"{type(self).__name__}({given})"
 
     def _repr_html_(self) -> str:
-        from ._html import of_request
-
-        return of_request(self)
+        return html(self)
 
 
 @dataclasses.dataclass(repr=False, kw_only=True)
-class Target(_Request):
+class Target(Request):
     """What must be seen whole: a convex polygon, several of them, or a point. Coordinates are metres in the scene's frame.
 
     One of `vertices`, `parts`, `point`, `outline`, `osm`, `file`, `object`, `at`, `center` and `volume` says which it is.
@@ -132,13 +132,11 @@ class Target(_Request):
             >>> Target.from_shape(Shape(), z=12, name="deck").vertices.tolist()
             [[0.0, 0.0, 12.0], [9.0, 0.0, 12.0], [9.0, 9.0, 12.0]]
         """
-        from ._shapes import of_geometry
-
-        return of_geometry(getattr(shape, "__geo_interface__", shape), "shape", z=z, **keys)
+        return cls(**target_keys(getattr(shape, "__geo_interface__", shape), "shape", z=z), **keys)
 
 
 @dataclasses.dataclass(repr=False, kw_only=True)
-class Sensor(_Request):
+class Sensor(Request):
     """What the sensor can do. Each limit holds for the whole target; what is not given does not limit.
 
     Attributes:
@@ -204,7 +202,7 @@ class Sensor(_Request):
 
 
 @dataclasses.dataclass(repr=False, kw_only=True)
-class Navigation(_Request):
+class Navigation(Request):
     """Where the vehicle may fly: the intersection of all that is given.
 
     Attributes:
@@ -233,7 +231,7 @@ class Navigation(_Request):
 
 
 @dataclasses.dataclass(repr=False, kw_only=True)
-class TourSettings(_Request):
+class TourSettings(Request):
     """What a flight that sees every target is asked for: the keys of `tour` in a mission file.
 
     Attributes:

@@ -16,6 +16,7 @@ from ._checks import (choice, flag, instance, not_called, path as checked_path, 
 from ._errors import Error, input_error, not_pickled
 from ._mesh import Note, Solid
 from ._progress import Progress
+from ._render import html, plot
 from ._requests import Navigation, Path, Sensor, Target, TourSettings, given, keys_of
 from ._scene import Scene, checked_scene
 from ._shapes import AnyTarget, is_several, targets_of
@@ -46,9 +47,7 @@ class Answers(NamedTuple):
     """limits that the point breaks"""
 
     def _repr_html_(self) -> str:
-        from ._html import of_answers
-
-        return of_answers(self)
+        return html(self)
 
 
 class Mission:
@@ -135,11 +134,11 @@ class Mission:
     def run_each(self, *, threads: int = 0, progress: Progress = None) -> list[Result]:
         """Computes all of its volumes, several at once: one, but with combine="each" one for each target."""
         count = thread_count(threads)
-        return [Result(core, self._scene) for core in self._told(lambda: self._core.run(count, progress))]
+        return [Result(core, self._scene) for core in self._call(lambda: self._core.run(count, progress))]
 
     def _try_each(self, threads: int, progress: Progress) -> list[Result | Error]:
         """The same, with an error in the place of the result of a target that is wrong."""
-        made = self._told(lambda: self._core.try_each(threads, progress))
+        made = self._call(lambda: self._core.try_each(threads, progress))
         rename = self._text.renamed if self._text is not None else (lambda error: error)
         return [rename(one) if isinstance(one, Error) else Result(one, self._scene) for one in made]
 
@@ -194,17 +193,15 @@ class Mission:
 
     def _asked(self, progress: Progress) -> _core.Query:
         if self._query is None:
-            self._query = self._told(lambda: _core.query(self._core, progress))
+            self._query = self._call(lambda: _core.query(self._core, progress))
         return self._query
 
-    def _told(self, work: Callable[[], T]) -> T:
-        """What `work` returns; errors in what was asked by arguments are told of them."""
-        return work() if self._text is None else self._text.told(work)
+    def _call(self, work: Callable[[], T]) -> T:
+        """What `work` returns. Errors in what was asked by arguments name these."""
+        return work() if self._text is None else self._text.call(work)
 
     def _repr_html_(self) -> str:
-        from ._html import of_mission
-
-        return of_mission(self)
+        return html(self)
 
     def __reduce__(self) -> Any:
         raise not_pickled("a mission", "pickle the scene, and what was asked of `compute`")
@@ -282,8 +279,6 @@ class Result(Solid):
 
     def plot(self, path: Path | None = None, **options: Any) -> Any:
         """Scene, target and volume by pyvista: in a notebook to turn, or as a PNG at `path`."""
-        from ._plot import plot
-
         return plot(self, path, **options)
 
     def picture(self, path: Path | None = None, *, view: str | Sequence[float] = "oblique",
@@ -322,9 +317,7 @@ class Result(Solid):
         return f"<vantage.Result: {self.mission.target_name}, {repr(self.volume)[len('<vantage.Volume: '):]}"
 
     def _repr_html_(self) -> str:
-        from ._html import of_result
-
-        return of_result(self)
+        return html(self)
 
 
 def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,
@@ -376,7 +369,7 @@ def resolved(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, i
              **request: Any) -> Mission:
     """The mission of some targets. `names`: what errors call each of them."""
     text, meshes = asked(scene, targets, names, is_one=is_one, **request)
-    return Mission(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
+    return Mission(text.call(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
 
 
 def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_one: bool, max_range: float | None = None,
@@ -403,7 +396,7 @@ def asked(scene: Scene, targets: Sequence[Target], names: Sequence[str], *, is_o
         text.add("combine", combine)
     is_sensed = any(one.volume is None for one in targets)  # what is only flown through needs no sensor
     if is_sensed or sensor is not None or max_range is not None:
-        limits = _sensor(sensor, max_range)
+        limits = sensor_keys(sensor, max_range)
         if isinstance(limits.get("camera"), str):
             limits["camera"] = {"model": limits["camera"]}
         text.add("sensor", limits)
@@ -430,7 +423,7 @@ def _with_true_path(keys: dict[str, Any], name: str) -> dict[str, Any]:
     return {**keys, **paths}
 
 
-def _sensor(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:
+def sensor_keys(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:
     if sensor is not None and max_range is not None:
         raise input_error("conflicting-keys", "both max_range and sensor are given", "max_range",
                           "write sensor=vt.Sensor(max_range=...)")

@@ -7,27 +7,29 @@ import os
 import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
+from ._areas import Face, find_faces
 from ._checks import instance, items, not_called, path, path as checked_path, shown, text as checked_text
 from ._errors import Error, input_error, make
 from ._extras import require
 from ._folders import Folder
-from ._mesh import KINDS, Triangles
+from ._mesh import Triangles, poly_data
+from ._objects import KINDS, SceneObject
 from ._place import Georeference
+from ._prisms import prisms_of
 from ._progress import Progress
+from ._render import html
 from ._requests import Path, Target, Vector
 from ._source import Source
 from ._text import NAME, Text
 
 if TYPE_CHECKING:
     import trimesh
-
-    from ._areas import Face
 
 _MAPS = (".osm", ".osm.gz", ".osm.bz2", ".pbf")
 _RASTERS = (".tif", ".tiff", ".hgt", ".hgt.zip", ".asc", ".vrt", ".img")
@@ -54,14 +56,6 @@ def _how_to_read(file: Any) -> str:
 def checked_scene(scene: Any, name: str = "scene") -> Scene:
     """A scene, and not the name of its file."""
     return instance(scene, Scene, name, _how_to_read(scene))
-
-
-class SceneObject(NamedTuple):
-    """Who an object of a scene is."""
-
-    name: str
-    source_id: str = ""
-    kind: str = "other"
 
 
 class Scene(Triangles):
@@ -220,7 +214,7 @@ class Scene(Triangles):
         text.add("scene", given, "scene")
         source = Source.of(text.text(), given["osm"]) if "osm" in given else None
         try:
-            core = text.told(lambda: _core.load_scene(text.text(), NAME, progress))
+            core = text.call(lambda: _core.load_scene(text.text(), NAME, progress))
         except Error as error:
             raise _with_reader(error, given) from None
         return cls(core, source)
@@ -263,9 +257,9 @@ class Scene(Triangles):
             >>> scene.georeference.source_crs
             'EPSG:32631'
         """
-        from ._prisms import scene_of
-
-        return scene_of(gdf, height, base, ground, name, kind, origin, default_height, sea_level)
+        prisms = prisms_of(gdf, height, base, ground, name, kind, origin, default_height)
+        return cls.from_arrays(prisms.vertices, prisms.faces, object_of=prisms.object_of, objects=prisms.objects,
+                               georeference=prisms.place, sea_level=sea_level)
 
     def _recall(self, needs_map: bool) -> None:
         """Tells a scene that was unpickled its map again, if that is still the same."""
@@ -362,9 +356,7 @@ class Scene(Triangles):
             roofs = scene.find_faces("roof", min_area_m2=200)
             results = vt.compute_many(scene, [roof.target() for roof in roofs], max_range=300)
         """
-        from ._areas import find_faces
-
-        return find_faces(self, kind, min_area_m2=min_area_m2, objects=objects, progress=progress)
+        return find_faces(self._core, self.objects, kind, min_area_m2, objects, progress)
 
     # ---- elsewhere
 
@@ -384,8 +376,6 @@ class Scene(Triangles):
 
     def to_pyvista(self) -> Any:
         """The triangles with an array "object", for pyvista."""
-        from ._plot import poly_data
-
         return poly_data(self.vertices, self.faces, object=self.object_of)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -394,9 +384,7 @@ class Scene(Triangles):
                            None if self._source is None else self._source.kept(), self.attribution)
 
     def _repr_html_(self) -> str:
-        from ._html import of_scene
-
-        return of_scene(self)
+        return html(self)
 
     def __repr__(self) -> str:
         size = self.bounds[1] - self.bounds[0]

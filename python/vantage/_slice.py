@@ -14,8 +14,9 @@ from . import _core
 from ._checks import path as checked_path
 from ._errors import make
 from ._extras import require
-from ._folders import BESIDE, Folder
+from ._folders import replace_file, write_text
 from ._place import WGS84, Georeference, crs_text, no_place
+from ._render import html
 from ._requests import Path
 
 Ring = npt.NDArray[np.float64]
@@ -118,10 +119,10 @@ class Slice:
                        None)
         if extension == ".gpkg":
             frame = self.to_geodataframe()
-            _replace(file, lambda draft: frame.to_file(draft, driver="GPKG", layer="slice"))
+            replace_file(file, lambda draft: frame.to_file(draft, driver="GPKG", layer="slice"))
             return
         text = json.dumps(self._feature_collection(), indent=1) + "\n"
-        _replace(file, lambda draft: _write(draft, text))
+        replace_file(file, lambda draft: write_text(draft, text))
 
     def _feature_collection(self) -> dict[str, Any]:
         on_earth = self.to_crs(WGS84)
@@ -139,28 +140,9 @@ class Slice:
         return f"<vantage.Slice: {count} polygon{'' if count == 1 else 's'}, {self.area_m2:,.1f} m2 {height}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_slice
-
-        return of_slice(self)
+        return html(self)
 
 
 def _area(ring: Ring) -> float:
     x, y = (ring - ring[0]).T
     return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
-
-
-def _write(file: str, text: str) -> None:
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(text)
-
-
-def _replace(file: str, write: Any) -> None:
-    """A file that is written whole beside it takes its place."""
-    try:
-        with Folder(BESIDE, os.path.dirname(file)) as folder:
-            draft = os.path.join(folder, os.path.basename(file))
-            write(draft)
-            os.replace(draft, file)
-    except OSError as error:
-        raise make("output", "output-unwritable", f"the file cannot be written: {error.strerror or error}", file,
-                   "free some room, or choose another place", None) from None

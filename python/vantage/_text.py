@@ -64,8 +64,8 @@ class Text:
         else:
             self._line(f"{head} {flow(value, argument)}", depth, argument)
 
-    def told(self, work: Callable[[], T]) -> T:
-        """What `work` returns; errors in the text are told of the argument."""
+    def call(self, work: Callable[[], T]) -> T:
+        """What `work` returns. Errors in the text become errors of the argument."""
         try:
             return work()
         except Error as error:

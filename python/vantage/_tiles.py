@@ -52,7 +52,7 @@ class Tiles(Sequence[Tile]):
         self._options = {key: value for key, value in options.items() if value is not None}
         text = Text()
         text.add("scene", {"osm": self.path, **self._options}, "scene")
-        (origin, ground, reach), rows = text.told(
+        (origin, ground, reach), rows = text.call(
             lambda: _core.plan_tiles(text.text(), NAME, self.size_m, self.margin_m, progress))
         self.frame: dict[str, Any] = {"origin": origin, "ground": ground, "reach": reach}
         """what all tiles share, for `Scene.from_osm(..., frame=)`"""

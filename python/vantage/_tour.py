@@ -16,6 +16,7 @@ from ._errors import input_error, not_pickled
 from ._flight import AnyMission, Flight, Numbers, line_of, mission_of, table_of
 from ._positions import Positions
 from ._progress import Progress
+from ._render import html
 from ._requests import Path, TourSettings, keys_of
 from ._result import Mission
 from ._text import NAME, Text
@@ -169,9 +170,7 @@ class Tour:
         return f"<vantage.Tour: {text}>"
 
     def _repr_html_(self) -> str:
-        from ._html import of_tour
-
-        return of_tour(self)
+        return html(self)
 
 
 def _aircraft(numbers: Sequence[int]) -> list[int]:
@@ -242,5 +241,5 @@ def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None 
         each = _core.for_flights(of._core, given, NAME, progress)
         return each, _core.plan_tour(each, with_bound, views, count, progress)
 
-    each, core = of._told(work) if settings is None else text.told(work)
+    each, core = of._call(work) if settings is None else text.call(work)
     return Tour(core, Mission(each, of._scene, of._text))

@@ -16,6 +16,7 @@ from ._errors import input_error
 from ._folders import Folder
 from ._mesh import Solid
 from ._progress import Progress
+from ._render import html
 from ._requests import Path
 from ._scene import Scene, checked_scene
 
@@ -188,9 +189,7 @@ class Volume(Solid):
                 return _restored, (saved.read(),)
 
     def _repr_html_(self) -> str:
-        from ._html import of_volume
-
-        return of_volume(self)
+        return html(self)
 
     def __repr__(self) -> str:
         if self.empty:

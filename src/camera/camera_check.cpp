@@ -57,7 +57,7 @@ std::optional<CameraFault> fault_of_numbers(const Camera& camera) {
   return std::nullopt;
 }
 
-/// Of one side; the sensor and the picture are known.
+/// What is wrong with the pixels of one side; the sensor and the picture are known.
 std::optional<CameraFault> fault_of_pixel(double sensor_mm, int pixels, const char* side) {
   const double pixel = sensor_mm / pixels;
   if (pixel > kLargestPixelMm || (sensor_mm > kLargeSensorMm && pixel > kLargestPixelOfLargeSensorMm)) {

@@ -251,7 +251,7 @@ std::string list_of_files(const ComputeArguments& options, const Result& run, co
   return text;
 }
 
-/// Of files, and of standard output.
+/// Notes which files were not written, and whether standard output was not.
 void tell_of_unwritten(const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) {
     std::error_code error;

@@ -50,7 +50,7 @@ class PointTable {
   bool has_header() const { return has_header_; }
   bool is_lonlat() const { return is_lonlat_; }
   HeightColumn height() const { return height_; }
-  /// Of those, what else the header has and is not used.
+  /// Other columns of heights that the header has and that are not used.
   const std::vector<std::string>& unused_heights() const { return unused_heights_; }
 
   bool has_fraction() const { return options_.fraction; }

@@ -12,7 +12,7 @@ namespace vantage::cli {
 /// `arguments`: without the program's name. Names the option or the command that was probably meant.
 Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments);
 
-/// Of a word that is not a command.
+/// The error for a word that is not a command.
 Error unknown_command(const CLI::App& app, const std::string& word);
 
 /// The command of that name; nullptr where there is none.

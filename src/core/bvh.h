@@ -22,8 +22,8 @@ struct BvhNode {
 struct Bvh {
   std::vector<BvhNode> nodes;  ///< the root comes first; empty when there are no items
 
-  /// Of a hierarchy of groups: 0 for the nodes above the groups, and for a group's nodes numbers from 1 on, in the
-  /// order of the groups. Else empty.
+  /// The ranks of nodes in a hierarchy of groups: 0 for the nodes above the groups, and for a group's nodes numbers
+  /// from 1 on, in the order of the groups. Else empty.
   std::vector<std::uint32_t> rank = {};
 
   /// Whether a node, one of `nodes`, holds several groups: then it depends on which groups there are.

@@ -157,10 +157,10 @@ void Mender::take_in(std::uint32_t t) {
   flat_facets_.push({side_length(t, longest_side(t)), t});
 }
 
-/// Of the flat facets the one with the longest side of all gives its third corner, b, to the facet across: (c, a, b)
-/// and (a, c, x) become (a, b, x) and (b, c, x). On one line b and x lie between a and c, so the side b x that comes is
-/// shorter than the side a c that goes, and an end is reached. Narrow facets that are not quite flat may turn in
-/// circles: so many turns for each of them are far more than others need.
+/// The flat facet with the longest side of all gives its third corner, b, to the facet across: (c, a, b) and (a, c, x)
+/// become (a, b, x) and (b, c, x). On one line b and x lie between a and c, so the side b x that comes is shorter than
+/// the side a c that goes, and an end is reached. Narrow facets that are not quite flat may turn in circles: so many
+/// turns for each of them are far more than others need.
 void Mender::turn_sides() {
   const std::size_t turns = flat_ == 0 ? 16 * triangles_.size() : 64 * flat_facets_.size();
   std::size_t left = 64 + std::min(turns, 16 * triangles_.size());

@@ -68,7 +68,7 @@ ParsedNumber parse_quantity(std::string_view text, std::span<const Unit> units) 
   return {value, NumberFault::none};
 }
 
-/// Of digits that are not those of a plain decimal number.
+/// What to do about digits that are not those of a plain decimal number.
 std::string advice_for_digits(const std::string& lower) {
   if (lower.find("0x") != std::string::npos || lower.find("0o") != std::string::npos) {
     return "write it in decimal digits";

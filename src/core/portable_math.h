@@ -12,9 +12,9 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/// Of an angle in radians, each within 1.2 units in the last place for angles of less than a million.
-/// Cody and Waite's reduction to a quarter turn ("Software Manual for the Elementary Functions", 1980, chapter 8), then
-/// Taylor's series.
+/// The sine and the cosine of an angle in radians, each within 1.2 units in the last place for angles of less than a
+/// million. Cody and Waite's reduction to a quarter turn ("Software Manual for the Elementary Functions", 1980, chapter
+/// 8), then Taylor's series.
 SineCosine sine_cosine(double angle);
 
 inline double sin(double angle) { return sine_cosine(angle).sine; }
@@ -32,7 +32,7 @@ double atan2(double y, double x);
 
 inline double atan(double tangent) { return atan2(tangent, 1); }
 
-/// Of -1 to 1, else NaN. Within 3 units in the last place.
+/// Takes -1 to 1; NaN for all else. Within 3 units in the last place.
 inline double acos(double cosine) { return atan2(std::sqrt((1 - cosine) * (1 + cosine)), cosine); }
 
 /// Within 1.3 units in the last place, where the squares neither overflow nor vanish: 1e-150 to 1e150.

@@ -31,7 +31,7 @@ std::size_t utf8_length(std::string_view text) {
   return wrong ? 0 : length;
 }
 
-/// Of one character, which is UTF-8.
+/// The code point of one character, which is UTF-8.
 unsigned code_of(std::string_view character) {
   const auto lead = static_cast<unsigned char>(character[0]);
   unsigned code = character.size() == 1 ? lead : lead & (0x7fU >> character.size());

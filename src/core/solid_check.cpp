@@ -127,8 +127,8 @@ std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree)
     if (other == t) return;
     const int shared = shared_corners(t, other);
     const Contact contact = contact_of(corners(t), corners(other), shared, distance_);
-    // Of two that pass each other by within the distance, all but parallel, corners are taken to lie in the other's
-    // plane, and the rest seems to cross. What truly crosses does so when looked at closely, too.
+    // If two triangles pass each other by within the distance, all but parallel, corners are taken to lie in the
+    // other's plane, and the rest seems to cross. What truly crosses does so when looked at closely, too.
     const bool is_apart = contact == Contact::crossing &&
                           contact_of(corners(t), corners(other), shared, kClosely * distance_) != Contact::crossing;
     if (contact == Contact::touching || is_apart) touching_[t] = 1;

@@ -45,7 +45,7 @@ bool is_there(const fs::path& path) {
   return ::lstat(path.c_str(), &status) == 0;
 }
 
-/// Of what is open, and nothing that took its name meanwhile.
+/// Removes the file that is open, and nothing that took its name meanwhile.
 void unlink_own(const fs::path& path, int descriptor) {
   if (!path.empty() && leads_to(path, descriptor)) ::unlink(path.c_str());
 }

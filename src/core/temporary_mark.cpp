@@ -18,7 +18,7 @@ constexpr std::string_view kMarkText =
 
 constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 
-/// Of a folder that may have been moved meanwhile: by its descriptor, not by its name.
+/// Empties a folder that may have been moved meanwhile: by its descriptor, not by its name.
 void empty_folder(int folder, std::string_view kept) {
   const int again = ::openat(folder, ".", kOpenFolder);
   DIR* const entries = again < 0 ? nullptr : ::fdopendir(again);

@@ -5,7 +5,7 @@
 
 namespace vantage::internal::core {
 
-/// Of the file; python/vantage/_folders.py writes the same one.
+/// The name of the file; python/vantage/_folders.py writes the same one.
 inline constexpr const char* kTemporaryMark = ".vantage-temporary";
 
 /// Puts the mark into the open folder. False, with errno, where that cannot be done, or something has its name.

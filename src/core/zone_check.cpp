@@ -45,7 +45,7 @@ bool meet(const Side& a, const Side& b) {
          (a_from == 0 && in_box_of(b, a.from)) || (a_to == 0 && in_box_of(b, a.to));
 }
 
-/// Of neighbours, which share a corner: whether the second one runs back along the first.
+/// Whether the second of two neighbours, which share a corner, runs back along the first.
 bool folds_back(const Side& first, const Side& second) {
   return side_of(first.from, first.to, second.to) == 0 && (first.to - first.from).dot(second.to - second.from) < 0;
 }
@@ -58,7 +58,7 @@ std::string side_text(const Side& side) {
   return "side " + std::to_string(side.index) + (side.ring == 0 ? "" : " of " + ring_text(side.ring));
 }
 
-/// Of heights that may be infinite; `name` begins the message.
+/// What is wrong with heights that may be infinite; `name` begins the message.
 std::optional<LimitFault> fault_of_heights(const std::string& name, double low, double high) {
   if (std::isnan(low) || std::isnan(high)) {
     return LimitFault{ErrorCode::value_out_of_range, name + " is not a number", "give numbers, or infinite ones"};

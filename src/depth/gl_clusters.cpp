@@ -14,7 +14,7 @@ struct Range {
   std::size_t begin, end;
 };
 
-/// Of the polygons under a node: they lie together, the left child's first.
+/// The range of the polygons under a node: they lie together, the left child's first.
 Range polygons_under(const std::vector<core::BvhNode>& nodes, const core::BvhNode& node) {
   const core::BvhNode *first = &node, *last = &node;
   while (!first->leaf()) first = &nodes[first->first];

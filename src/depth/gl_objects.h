@@ -27,7 +27,7 @@ class GlObjects {
   GLuint vertex_array();
   GLuint query();
   GLuint framebuffer();
-  /// Of whole textures; `depth` may be 0.
+  /// A framebuffer with whole textures; `depth` may be 0.
   GLuint framebuffer(const std::vector<GLuint>& colours, GLuint depth);
   /// `name` is for messages.
   GLuint program(const std::string& name, const ShaderSources& sources);

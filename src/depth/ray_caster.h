@@ -10,7 +10,7 @@
 
 namespace vantage::internal::depth {
 
-/// Of Embree: "3.13.5".
+/// The version of Embree: "3.13.5".
 std::string ray_caster_version();
 
 /// Casts rays into a scene's polygons. Embree works in single precision relative to the scene's origin: it tells which

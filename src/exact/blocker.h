@@ -11,7 +11,7 @@
 
 namespace vantage::internal::exact {
 
-/// Of a blocker: g . x = 1 bounds what it hides. Hidden points have g . x > 1 for all of its planes.
+/// A plane of a blocker: g . x = 1 bounds what it hides. Hidden points have g . x > 1 for all of its planes.
 using core::Plane;
 
 /// The part of a polygon (local frame, metres) that is above the target's plane; heights within `slack` of it are set

@@ -81,7 +81,7 @@ void compute_point(const PreparedTarget& target, const ExactOptions& options,
                    const internal::core::ProgressReporter& progress, Volume& volume) {
   const double max_range = range_limit_m(target.sensor());
   const internal::target::PointSides& sides = *target.data().parts[0].sides;
-  // Of the point itself: the triangle would cost micrometres.
+  // The range about the point itself: the triangle would cost micrometres.
   const internal::target::RangeRegion range(volume.frame.polygon, max_range);
   std::optional<LinkScene> link;
   if (target.sensor().link) link.emplace(target, range);

@@ -27,8 +27,8 @@ struct CurveSampling {
 };
 
 /// Every crease inside one blocker that bounds the volume is in the result in full: leaving one out would over-claim.
-/// Of those between balls of the range region there is what `grid` is too coarse for. Parallel over facets; the result
-/// does not depend on the number of threads.
+/// Creases between balls of the range region are in it where `grid` is too coarse for them. Parallel over facets; the
+/// result does not depend on the number of threads.
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                         const CurveSampling& sampling, OctahedralGrid& grid, const core::ProgressReporter& progress);
 

@@ -48,7 +48,7 @@ class Hidden {
     for (int a = 0; a < 3; ++a) axes_[a] = {frame.axis_u[a], frame.axis_v[a], frame.normal[a]};
   }
 
-  /// Of a box about the antenna, grown by `radius`: whether all of it is hidden, or behind the antenna.
+  /// Whether all of a box about the antenna, grown by `radius`, is hidden, or behind the antenna.
   bool hides_box(const Vec3& low, const Vec3& high, double radius) const {
     Vec3 middle = Vec3::Zero();
     std::array<Vec3, 3> half;
@@ -61,7 +61,7 @@ class Hidden {
     return middle.z() + above <= target_.slack || tree_.hides_box(middle, half);
   }
 
-  /// Of points about the antenna.
+  /// Whether the convex hull of points about the antenna is hidden, or behind the antenna.
   bool hides_hull(const std::vector<Vec3>& points) {
     to_local(points);
     const bool is_behind = std::all_of(local_.begin(), local_.end(), [&](const Vec3& p) { return p.z() <= 0; });

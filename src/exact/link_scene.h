@@ -17,7 +17,7 @@ namespace vantage::internal::exact {
 
 class LinkScene {
  public:
-  /// Of a point with a link. `range` is about it. Keeps references.
+  /// The scene for a point with a link. `range` is about it. Keeps references.
   LinkScene(const PreparedTarget& target, const target::RangeRegion& range);
 
   /// A polygon that is so near to the antenna that it enters the zone of every position, if there is one.

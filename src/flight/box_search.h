@@ -13,7 +13,7 @@
 
 namespace vantage::internal::flight {
 
-/// Of N numbers: middles and half widths. The number with the widest half, times its weight, is halved first.
+/// A box of N numbers: middles and half widths. The number with the widest half, times its weight, is halved first.
 template <std::size_t N>
 struct SearchBox {
   SearchBox() { weight.fill(1); }

@@ -14,9 +14,9 @@
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "core/text.h"
-#include "flight/along.h"
 #include "flight/check_gimbal.h"
 #include "flight/check_links.h"
+#include "flight/flight_timeline.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/query.h"
@@ -24,13 +24,13 @@
 namespace vantage {
 namespace {
 
-using internal::flight::Along;
+using internal::flight::FlightTimeline;
 using internal::flight::Stretch;
 namespace flight = internal::flight;
 
 using Intervals = std::vector<LegInterval>;
 
-/// Of one leg, why the target is not seen: by kind and name.
+/// Why the target is not seen on one leg: by kind and name.
 using Reasons = std::map<std::pair<NotSeen::Kind, std::string>, Intervals>;
 
 /// One target on one leg.
@@ -58,7 +58,7 @@ const Intervals& whole() {
 
 Intervals common(const Intervals& a, const Intervals& b) { return flight::without(a, flight::without(whole(), b)); }
 
-/// Of a volume to fly through, as a limit that is kept inside it. A little within its surface: more than what rounding
+/// A volume to fly through, as a limit that is kept inside it. A little within its surface: more than what rounding
 /// does to the ends of intervals.
 struct VolumeToFlyThrough {
   explicit VolumeToFlyThrough(const TargetVolume& volume) : limits(inside(volume.mesh)) {
@@ -179,7 +179,7 @@ class JudgedTarget {
 };
 
 /// What is judged on every leg.
-struct Judges {
+struct LegChecks {
   std::vector<JudgedTarget> targets;
   std::vector<flight::JudgedLink> links;
   LegLimits limits;
@@ -220,7 +220,7 @@ std::vector<Vec3> places_of(const FlightCheck& check) {
 }
 
 /// What was found on the legs, leg after leg.
-std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const Judges& judges, double radius_m,
+std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const LegChecks& judges, double radius_m,
                               const internal::core::ProgressReporter& reporter) {
   std::vector<OnLeg> found(legs.size());
   std::atomic<std::size_t> done = 0;
@@ -238,7 +238,7 @@ std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const Judges& judges
 
 /// One target, all legs.
 TargetCheck check_target(const JudgedTarget& target, std::size_t index, const std::vector<OnLeg>& legs,
-                         const Flight& path, const Along& along, const FlightCheckOptions& options) {
+                         const Flight& path, const FlightTimeline& along, const FlightCheckOptions& options) {
   TargetCheck check;
   check.name = target.name();
   check.is_volume = target.is_volume();
@@ -272,7 +272,7 @@ TargetCheck check_target(const JudgedTarget& target, std::size_t index, const st
   return check;
 }
 
-std::vector<BrokenLimit> broken_limits(const std::vector<OnLeg>& legs, const Along& along) {
+std::vector<BrokenLimit> broken_limits(const std::vector<OnLeg>& legs, const FlightTimeline& along) {
   std::vector<BrokenLimit> result;
   std::map<std::string, std::pair<std::size_t, std::vector<Stretch>>> by_name;
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {
@@ -315,8 +315,8 @@ LegDistanceOptions but_for_the_ground(const Mission& mission) {
   return options;
 }
 
-NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene, const Along& along, double radius_m,
-                         const Progress& progress) {
+NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene, const FlightTimeline& along,
+                         double radius_m, const Progress& progress) {
   const std::vector<LegDistance> distances = scene.nearest(legs, progress);
   NearestPass nearest;
   double least = std::numeric_limits<double>::infinity();
@@ -373,7 +373,7 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
   return failures;
 }
 
-/// Of a flight that is one point, a leg without length.
+/// The legs of a flight. One point is a leg without length.
 std::vector<Leg> legs_of(const Flight& flight) {
   std::vector<Leg> legs;
   for (std::size_t i = 0; i < flight.leg_count(); ++i) legs.push_back(flight.leg(i));
@@ -409,7 +409,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
                          const Progress& progress) {
   check_flight_points(flight);
   const FlightCheckOptions options = filled(mission, given);
-  const Along along(flight, options.speed_m_s.value_or(std::numeric_limits<double>::quiet_NaN()));
+  const FlightTimeline along(flight, options.speed_m_s.value_or(std::numeric_limits<double>::quiet_NaN()));
   if ((options.dwell_s.value_or(0) > 0 || options.gimbal_rate_deg_s) && std::isnan(along.duration_s())) {
     const std::string what = options.dwell_s.value_or(0) > 0 ? "a dwell" : "a rate of the gimbal";
     throw Error(ErrorCode::missing_key, what + " is asked for, and the plan does not say how fast it is flown",
@@ -426,7 +426,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
 
   const PreparedScene scene = options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
   const std::vector<Leg> legs = legs_of(flight);
-  Judges judges{{}, {}, LegLimits(mission.navigation)};
+  LegChecks judges{{}, {}, LegLimits(mission.navigation)};
   for (std::size_t i = 0; i < volume_count(mission); ++i) judges.targets.emplace_back(one_volume(mission, i), scene);
   const std::vector<MissionLink>& written = mission.as_written.links;
   for (std::size_t i = 0; i < mission.links.size(); ++i) {

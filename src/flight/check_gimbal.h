@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "flight/along.h"
+#include "flight/flight_timeline.h"
 #include "flight/gimbal.h"
 #include "vantage/flight.h"
 #include "vantage/flight_check.h"
@@ -17,7 +17,7 @@ namespace vantage::internal::flight {
 class GimbalCheck {
  public:
   /// All must outlive it.
-  GimbalCheck(const Flight& path, const Along& along, double radius_m)
+  GimbalCheck(const Flight& path, const FlightTimeline& along, double radius_m)
       : path_(path), along_(along), radius_m_(radius_m) {}
 
   /// Yaw is that of the flight itself.
@@ -29,10 +29,10 @@ class GimbalCheck {
                                      double rate_deg_s) const;
 
  private:
-  OffPiece off(std::size_t leg) const { return off_chord(path_.leg(leg), radius_m_, path_.chord_error_m); }
+  Deviation off(std::size_t leg) const { return off_chord(path_.leg(leg), radius_m_, path_.chord_error_m); }
 
   const Flight& path_;
-  const Along& along_;
+  const FlightTimeline& along_;
   double radius_m_;
 };
 

@@ -13,7 +13,7 @@
 namespace vantage::internal::flight {
 namespace {
 
-/// Of positions within the radius of the leg: a distance is a convex function along it.
+/// The farthest of all positions within the radius of the leg: a distance is a convex function along it.
 double farthest_m(const Leg& leg, const Vec3& point, double radius_m) {
   return std::max((leg.from - point).norm(), (leg.to - point).norm()) + radius_m;
 }
@@ -43,8 +43,8 @@ JudgedLink::JudgedLink(const FlightLink& link, const PreparedScene& scene, const
                        double radius_m, const std::string& place)
     : link_(link), views_(antenna(link, scene, legs, radius_m, place)) {}
 
-LinkCheck JudgedLink::check(const std::vector<LegView>& views, const std::vector<Leg>& legs, const Along& along,
-                            double radius_m) const {
+LinkCheck JudgedLink::check(const std::vector<LegView>& views, const std::vector<Leg>& legs,
+                            const FlightTimeline& along, double radius_m) const {
   LinkCheck check;
   check.name = link_.name;
   check.point = link_.point;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "flight/along.h"
+#include "flight/flight_timeline.h"
 #include "vantage/flight_check.h"
 #include "vantage/mission.h"
 #include "vantage/query.h"
@@ -23,7 +23,7 @@ class JudgedLink {
   LegView look(const Leg& leg, double radius_m) const { return views_.look(leg, radius_m); }
 
   /// `views`: of each leg.
-  LinkCheck check(const std::vector<LegView>& views, const std::vector<Leg>& legs, const Along& along,
+  LinkCheck check(const std::vector<LegView>& views, const std::vector<Leg>& legs, const FlightTimeline& along,
                   double radius_m) const;
 
  private:

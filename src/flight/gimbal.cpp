@@ -54,7 +54,7 @@ PitchRange pitch_range(const Leg& piece, const Vec3& to, double radius_m) {
 
 // The circle through both ends of a chord c with sagitta s turns from it by an angle whose half has the tangent 2 s /
 // c.
-OffPiece off_chord(const Leg& piece, double reach_m, double chord_error_m) {
+Deviation off_chord(const Leg& piece, double reach_m, double chord_error_m) {
   if (!(chord_error_m > 0)) return {reach_m, 0};
   const double length = (piece.to - piece.from).norm(), tangent = 2 * chord_error_m / length;
   return {reach_m, length > 0 ? 2 * tangent / std::hypot(1.0, tangent) : 2};
@@ -62,7 +62,7 @@ OffPiece off_chord(const Leg& piece, double reach_m, double chord_error_m) {
 
 // Seen from d, a vehicle in the direction e turns by speed |e x d| / |d|^2. With d off by r and e off by a that is at
 // most speed (h + r + a |d|) / |d|^2, h the distance of the whole line; it falls with |d|.
-double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, const OffPiece& off) {
+double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, const Deviation& off) {
   const Vec3 e = piece.to - piece.from, d = to - piece.from;
   const double length = e.norm();
   if (!(length > 0)) return 0;
@@ -74,7 +74,7 @@ double fastest_turn_deg_s(const Leg& piece, const Vec3& to, double speed_m_s, co
 }
 
 std::vector<LegInterval> slow_turns(const Leg& piece, const Vec3& to, double speed_m_s, double rate_deg_s,
-                                    const OffPiece& off) {
+                                    const Deviation& off) {
   const Vec3 e = piece.to - piece.from, d = to - piece.from;
   const double length = e.norm();
   if (!(length > 0)) return {{0, 1}};

@@ -44,7 +44,8 @@ struct CurveRequest {
   double slack_m = 0;                            ///< the bound is of curves that are so much deeper than that
   double error_m = 0;                            ///< > 0: depths of curves may be so much too small
   SearchLimits limits;                           ///< the tolerance is of the value
-  /// Of OrbitKind::finest_pixel: of a point, or no more than of any point within reach; the smaller the better.
+  /// For OrbitKind::finest_pixel: the value at a point, or no more than that of any point within reach; the smaller the
+  /// better.
   std::function<double(const Vec3& point, double reach_m)> pixel_m;
   std::function<bool(const ClosedCurve&)> is_inside;  ///< asked of each curve before it counts
 };

@@ -19,7 +19,7 @@ double squared_between(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& 
   double s = 0, t = 0;
   const double determinant = dd * ee - de * de;
   if (dd > 0 && ee > 0) {
-    // Of segments that are parallel to rounding any s will do: the ends are compared with the triangle besides.
+    // If the segments are parallel to rounding, any s will do: the ends are compared with the triangle besides.
     if (determinant > 0) s = std::clamp((de * er - dr * ee) / determinant, 0.0, 1.0);
     t = std::clamp((de * s + er) / ee, 0.0, 1.0);
     s = std::clamp((de * t - dr) / dd, 0.0, 1.0);

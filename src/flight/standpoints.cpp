@@ -108,7 +108,7 @@ class StandpointFinder {
     return false;
   }
 
-  /// Of points about the solid's origin. Larger is better.
+  /// The value of points about the solid's origin. Larger is better.
   internal::flight::PointValue value_of(StandpointKind kind) const {
     const TargetView& view = target();
     switch (kind) {

@@ -10,7 +10,7 @@
 
 namespace vantage::internal::flight {
 
-/// Of one part of a target, scene frame.
+/// The corners of one part of a target, scene frame.
 std::vector<Vec3> corners_of(const TargetFrame& part);
 
 /// Measures of the target of one volume. With a `reach_m` of more than 0 they are bounds: no position that near to the

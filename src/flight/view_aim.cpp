@@ -31,7 +31,7 @@ AimedCamera allowed(const Aim& aim, bool is_vertical, const Mount& mount) {
 
 }  // namespace
 
-// Of several lists each must be seen, and of a list one target. All lists count as one picture.
+// If there are several lists, each must be seen; of a list one target. All lists count as one picture.
 ViewAim::ViewAim(const Mission& mission) : mount_(mission.sensor.mount) {
   if (mission.sensor.camera) camera_ = *mission.sensor.camera;
   if (mission.views.size() == 1) {

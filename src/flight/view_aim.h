@@ -15,7 +15,7 @@ struct AimedCamera {
   bool is_centred = true;  ///< whether it looks at the centre; else the target is whole in the picture, if it can be
 };
 
-/// Of the target of one volume.
+/// How a camera looks at the target of one volume.
 class ViewAim {
  public:
   explicit ViewAim(const Mission& mission);

@@ -13,7 +13,7 @@
 
 namespace vantage::internal::flight {
 
-/// Of the scene alone: shared by the targets in it.
+/// What follows from the scene alone: shared by the targets in it.
 struct Surroundings {
   explicit Surroundings(const Mission& mission);
 

@@ -60,7 +60,7 @@ class CameraEntry {
     return {};
   }
 
-  /// Of something that has a size.
+  /// A length of something that has a size.
   double length(const char* key) {
     const json* value = find(key);
     if (value == nullptr) {

@@ -334,7 +334,7 @@ class CityJsonReader {
   std::size_t objects_ = 0;
   Finding other_lod_, empty_, no_surfaces_;
 
-  // Of the geometry that is being read.
+  // For the geometry that is being read.
   Vertices* vertices_ = nullptr;
   Eigen::Affine3d placement_ = Eigen::Affine3d::Identity();
   bool mirrored_ = false;

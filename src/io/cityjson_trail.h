@@ -30,7 +30,7 @@ class Trail {
     Trail& trail_;
   };
 
-  /// Of a text sequence, the line that is read; 0 for none.
+  /// The line of a text sequence that is read; 0 for none.
   void set_line(std::uint64_t line) { line_ = line; }
   void set_object(std::string id) { object_ = std::move(id); }
   const std::string& object() const { return object_; }

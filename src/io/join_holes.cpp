@@ -92,7 +92,7 @@ class HoleJoiner {
     return a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
   }
 
-  /// Of the corners in the triangle, those that could hide `end`, the one nearest to the ray in angle; else `end`.
+  /// The corner that is nearest to the ray in angle, of those in the triangle that could hide `end`; else `end`.
   Point least_angle(const Point& from, const Point& crossed, const Point& end) const {
     Point best = end;
     double best_slope = std::abs(end.y() - from.y()) / (end.x() - from.x());

@@ -130,7 +130,7 @@ Mesh in_file_order(const Volume& volume, const StoredMesh& stored) {
   return mesh;
 }
 
-/// Of a volume that was read the georeference alone knows it.
+/// Whom the file has to name. If the volume was read, the georeference alone knows it.
 const std::string& credit_of(const Volume& volume) {
   const bool is_placed = volume.attribution.empty() && volume.georeference;
   return is_placed ? volume.georeference->attribution : volume.attribution;

@@ -106,7 +106,7 @@ bool ends_with(std::string_view name, std::string_view extension) {
 /// No byte of a deflated stream makes more than this many.
 constexpr std::uintmax_t kMostOfAByte = 1032;
 
-/// Of a stream without a header. Exactly `size` bytes, or else it is broken: what is behind them is not made.
+/// Inflates a stream without a header. Exactly `size` bytes, or else it is broken: what is behind them is not made.
 std::string inflated(std::string_view packed, std::size_t size) {
   if (size / kMostOfAByte > packed.size()) fail("its bytes are broken");
   std::string made(size, '\0');

@@ -12,7 +12,7 @@
 
 namespace vantage::live {
 
-/// Of one scene. They are read from the map when one is first asked for.
+/// The areas of one scene. They are read from the map when one is first asked for.
 class MapAreas {
  public:
   /// The smallest area, other than buildings, in which a position of the scene frame lies; null: none. Throws Error

@@ -17,9 +17,9 @@
 #include <string>
 #include <utility>
 
-#include "live/conversation.h"
-#include "live/gate.h"
+#include "live/access_control.h"
 #include "live/page_text.h"
+#include "live/websocket_connection.h"
 #include "vantage/error.h"
 
 namespace vantage::live {
@@ -35,29 +35,29 @@ constexpr std::uint32_t kLargestHeader = 8192;
 constexpr std::uint64_t kLargestBody = 1024;           // nobody sends one
 constexpr auto kMostTime = std::chrono::seconds(10);   // for a request
 constexpr auto kMostStill = std::chrono::seconds(30);  // an answer may take any time, if only some of it moves on
-constexpr std::size_t kMostStrangers = 100;
+constexpr std::size_t kMostUnauthenticated = 100;
 
-class Caller;
+class HttpConnection;
 
-/// Callers who have not shown the token. Where there are too many, the one who has waited longest is sent away: whoever
-/// comes is let in, and a browser sends its request at once.
-class Strangers {
+/// Connections that have not sent the token. Where there are too many, the oldest one is closed: a new one is always
+/// accepted, and a browser sends its request at once.
+class UnauthenticatedConnections {
  public:
-  void add(const std::shared_ptr<Caller>& caller);
-  void remove(const Caller* caller);
+  void add(const std::shared_ptr<HttpConnection>& connection);
+  void remove(const HttpConnection* connection);
 
  private:
-  std::deque<std::pair<const Caller*, std::weak_ptr<Caller>>> callers_;  // who goes is removed
+  std::deque<std::pair<const HttpConnection*, std::weak_ptr<HttpConnection>>> connections_;  // closed ones are removed
 };
 
-/// What callers have in common.
-struct House {
-  Gate gate{random_token()};
+/// What connections have in common.
+struct ServerState {
+  AccessControl access{random_token()};
   Session session;
   std::string page;
-  Workshop workshop;
-  Strangers strangers;
-  std::shared_ptr<const int> seats = std::make_shared<int>();  // a copy for each conversation
+  WorkerPool pool;
+  UnauthenticatedConnections unauthenticated;
+  std::shared_ptr<const int> slots = std::make_shared<int>();  // a copy for each WebSocket
 };
 
 /// The page asks nothing of other hosts, and no other page may show it in a frame. `host`: one of this machine's names.
@@ -67,16 +67,16 @@ std::string policy_of(std::string_view host) {
          std::string(host) + "; frame-ancestors 'none'; base-uri 'none'";
 }
 
-/// One request of a browser: for the page, or to become a conversation.
-class Caller : public std::enable_shared_from_this<Caller> {
+/// One request of a browser: for the page, or for a WebSocket.
+class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  Caller(Tcp::socket socket, House& house) : stream_(std::move(socket)), house_(house) {}
-  ~Caller() { house_.strangers.remove(this); }
-  Caller(const Caller&) = delete;
-  Caller& operator=(const Caller&) = delete;
+  HttpConnection(Tcp::socket socket, ServerState& state) : stream_(std::move(socket)), state_(state) {}
+  ~HttpConnection() { state_.unauthenticated.remove(this); }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
 
   /// Whatever it waits for fails.
-  void send_away() { stream_.close(); }
+  void close() { stream_.close(); }
 
   void start() {
     parser_.header_limit(kLargestHeader);
@@ -99,36 +99,37 @@ class Caller : public std::enable_shared_from_this<Caller> {
 
   void take() {
     const Request& request = parser_.get();
-    const Gate& gate = house_.gate;
+    const AccessControl& access = state_.access;
     const std::string_view target = view(request.target());
     const std::string_view host = view(request[http::field::host]);
-    if (!Gate::is_own_host(host)) {
+    if (!AccessControl::is_own_host(host)) {
       return reply(http::status::misdirected_request, "Open http://127.0.0.1 with the port, or http://localhost.\n");
     }
     if (beast::websocket::is_upgrade(request)) {
       const bool is_ours =
-          gate.opens(target, "/socket") && Gate::is_own_origin(view(request[http::field::origin]), host);
+          access.allows(target, "/socket") && AccessControl::is_own_origin(view(request[http::field::origin]), host);
       if (!is_ours) return reply(http::status::forbidden, "Open the address that the program printed.\n");
       if (buffer_.size() > 0) {  // RFC 6455, 4.1: nothing may be sent before the answer
         return reply(http::status::bad_request, "Wait for the answer before the first message.\n");
       }
-      house_.strangers.remove(this);
-      if (house_.seats.use_count() > Workshop::kMostConversations) {
+      state_.unauthenticated.remove(this);
+      if (state_.slots.use_count() > WorkerPool::kMostConnections) {
         return reply(http::status::service_unavailable, "The program talks to " +
-                                                            std::to_string(Workshop::kMostConversations) +
+                                                            std::to_string(WorkerPool::kMostConnections) +
                                                             " windows already: close one of them.\n");
       }
-      std::make_shared<Conversation>(std::move(stream_), house_.session, house_.workshop, house_.seats)->start(request);
+      std::make_shared<WebSocketConnection>(std::move(stream_), state_.session, state_.pool, state_.slots)
+          ->start(request);
       return;
     }
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
       return reply(http::status::method_not_allowed, "This page is only read.\n");
     }
-    if (!gate.opens(target, "/")) {
+    if (!access.allows(target, "/")) {
       return reply(http::status::forbidden, "Open the whole address that the program printed, with its token.\n");
     }
-    house_.strangers.remove(this);
-    send(http::status::ok, house_.page, "text/html; charset=utf-8");
+    state_.unauthenticated.remove(this);
+    send(http::status::ok, state_.page, "text/html; charset=utf-8");
   }
 
   void reply(http::status status, std::string words) {
@@ -142,7 +143,7 @@ class Caller : public std::enable_shared_from_this<Caller> {
     response_->set(http::field::content_type, type);
     response_->set(http::field::cache_control, "no-store");
     const std::string_view host = view(parser_.get()[http::field::host]);
-    response_->set("Content-Security-Policy", policy_of(Gate::is_own_host(host) ? host : "127.0.0.1"));
+    response_->set("Content-Security-Policy", policy_of(AccessControl::is_own_host(host) ? host : "127.0.0.1"));
     response_->set("X-Content-Type-Options", "nosniff");
     response_->set("Referrer-Policy", "no-referrer");
     response_->keep_alive(false);
@@ -163,7 +164,7 @@ class Caller : public std::enable_shared_from_this<Caller> {
   }
 
   beast::tcp_stream stream_;
-  House& house_;
+  ServerState& state_;
   beast::flat_buffer buffer_;
   std::string words_;
   http::request_parser<http::string_body> parser_;
@@ -171,17 +172,17 @@ class Caller : public std::enable_shared_from_this<Caller> {
   std::optional<http::response_serializer<http::span_body<const char>>> serializer_;
 };
 
-void Strangers::add(const std::shared_ptr<Caller>& caller) {
-  if (callers_.size() >= kMostStrangers) {
-    const std::shared_ptr<Caller> longest = callers_.front().second.lock();
-    callers_.pop_front();  // first: who goes here for good removes itself
-    if (longest) longest->send_away();
+void UnauthenticatedConnections::add(const std::shared_ptr<HttpConnection>& connection) {
+  if (connections_.size() >= kMostUnauthenticated) {
+    const std::shared_ptr<HttpConnection> longest = connections_.front().second.lock();
+    connections_.pop_front();  // first: one that ends here removes itself
+    if (longest) longest->close();
   }
-  callers_.emplace_back(caller.get(), caller);
+  connections_.emplace_back(connection.get(), connection);
 }
 
-void Strangers::remove(const Caller* caller) {
-  std::erase_if(callers_, [&](const auto& known) { return known.first == caller; });
+void UnauthenticatedConnections::remove(const HttpConnection* connection) {
+  std::erase_if(connections_, [&](const auto& known) { return known.first == connection; });
 }
 
 }  // namespace
@@ -191,22 +192,20 @@ class PageServer::Listener {
   explicit Listener(std::uint16_t port) : acceptor_(opened(context_, port)) {}
 
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
-  const std::string& token() const { return house_.gate.token(); }
+  const std::string& token() const { return state_.access.token(); }
 
-  void set_before_work(std::function<void(const std::string&)> before) {
-    house_.workshop.before_work = std::move(before);
-  }
+  void set_before_work(std::function<void(const std::string&)> before) { state_.pool.before_work = std::move(before); }
 
   void run(Session session, std::string page, int threads, const std::function<bool()>& is_over) {
-    house_.session = std::move(session);
-    house_.page =
-        with_start(std::move(page), "window.vantageLive={socket:\"/socket?token=" + house_.gate.token() + "\"}");
-    house_.workshop.threads = threads;
+    state_.session = std::move(session);
+    state_.page =
+        with_start(std::move(page), "window.vantageLive={socket:\"/socket?token=" + state_.access.token() + "\"}");
+    state_.pool.threads = threads;
     accept();
     watch(is_over);
     context_.run();
-    house_.workshop.workers.stop();
-    house_.workshop.workers.join();
+    state_.pool.workers.stop();
+    state_.pool.workers.join();
   }
 
  private:
@@ -229,9 +228,9 @@ class PageServer::Listener {
     acceptor_.async_accept([this](beast::error_code error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();  // no descriptor is left
-      const auto caller = std::make_shared<Caller>(std::move(socket), house_);
-      house_.strangers.add(caller);
-      caller->start();
+      const auto connection = std::make_shared<HttpConnection>(std::move(socket), state_);
+      state_.unauthenticated.add(connection);
+      connection->start();
       accept();
     });
   }
@@ -247,12 +246,12 @@ class PageServer::Listener {
     timer_.expires_after(std::chrono::milliseconds(100));
     timer_.async_wait([this, &is_over](beast::error_code) {
       if (!is_over()) return watch(is_over);
-      house_.workshop.is_over = true;
+      state_.pool.is_over = true;
       context_.stop();
     });
   }
 
-  House house_;  // first: callers that wait still belong to the context, and leave it when that goes
+  ServerState state_;  // first: connections that wait belong to the context, and are destroyed with it
   asio::io_context context_{1};
   Tcp::acceptor acceptor_;
   asio::steady_timer timer_{context_}, pause_{context_};

@@ -10,12 +10,12 @@
 
 namespace vantage::live {
 
-/// Takes callers from this machine alone. Who knows the token, which is new each time, may see the page and ask its
-/// session; each page has a copy of the session, and what is quick waits for no other page. However many callers there
-/// are without the token, who knows it gets in.
+/// Accepts connections from this machine alone. Who knows the token, which is new each time, may see the page and ask
+/// its session; each page has a copy of the session, and what is quick waits for no other page. However many
+/// connections there are without the token, one with it is accepted.
 class PageServer {
  public:
-  /// `port`: 0 takes one that is free. Whoever calls before it runs waits. Throws Error(input) for a port that is used.
+  /// `port`: 0 takes one that is free. Who connects before it runs waits. Throws Error(input) for a port that is used.
   explicit PageServer(std::uint16_t port);
   ~PageServer();
   PageServer(const PageServer&) = delete;

@@ -142,6 +142,13 @@ Json parsed(std::string_view text) {
   return is_read ? reader.result() : Json(Json::value_t::discarded);
 }
 
+std::string error_answer(const Request& request, const std::exception& error, const Json& engine_ms) {
+  Json header = error_json(error);
+  header["id"] = request.id;
+  header["engine_ms"] = engine_ms;
+  return framed(header);
+}
+
 /// Its value is sent as the session has it, however long: it is not read here.
 std::string message_of(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
@@ -149,17 +156,11 @@ std::string message_of(Session& session, MapAreas& areas, const Request& request
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     return time.count();
   };
-  bool is_error = true;
-  const std::string value = answered([&] {
-    std::string text = value_of(session, areas, request, progress);
-    is_error = false;
-    return text;
-  });
-  if (is_error) {
-    Json header = Json::parse(value);
-    header["id"] = request.id;
-    header["engine_ms"] = milliseconds();
-    return framed(header);
+  std::string value;
+  try {
+    value = value_of(session, areas, request, progress);
+  } catch (const std::exception& error) {
+    return error_answer(request, error, milliseconds());
   }
   const ViewMesh* mesh = mesh_of(session, request.call);
   const std::string* bytes = request.call == "save" ? &session.bytes() : nullptr;
@@ -170,14 +171,6 @@ std::string message_of(Session& session, MapAreas& areas, const Request& request
   std::string text = header.dump();
   text.back() = ',';
   return framed(text + R"("value":)" + value + "}", mesh, bytes);
-}
-
-/// `error`: JSON.
-std::string error_answer(const Request& request, const std::string& error) {
-  Json header = Json::parse(error);
-  header["id"] = request.id;
-  header["engine_ms"] = 0;
-  return framed(header);
 }
 
 }  // namespace
@@ -216,14 +209,13 @@ Request parse_request(std::string_view text) {
 std::string answer(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
   try {
     return message_of(session, areas, request, progress);
-  } catch (const std::exception&) {  // no room for the message itself
-    return error_answer(request, answered([]() -> std::string { throw; }));
+  } catch (const std::exception& error) {  // no room for the message itself
+    return error_answer(request, error, 0);
   }
 }
 
 std::string cancelled_answer(const Request& request) {
-  return error_answer(
-      request, answered([]() -> std::string { throw Error(ErrorCode::cancelled, "stopped before its turn", "", ""); }));
+  return error_answer(request, Error(ErrorCode::cancelled, "stopped before its turn", "", ""), 0);
 }
 
 std::string waiting_notice(const Request& request, bool waits) {

@@ -30,7 +30,7 @@ Request parse_request(std::string_view text);
 /// then the arrays in this order, or the bytes. Never throws Error: that is an answer, too.
 std::string answer(Session& session, MapAreas& areas, const Request& request, const Progress& progress = {});
 
-/// Of a request whose answer comes later: whether it waits until others have computed, {id, waits}.
+/// The notice about a request whose answer comes later: whether it waits until others have computed, {id, waits}.
 std::string waiting_notice(const Request& request, bool waits);
 
 /// To a request that a newer one replaces.

@@ -31,7 +31,8 @@ void check_grid(const std::array<int, 2>& grid) {
          "give at most [12800, 6400]");
 }
 
-/// Of the machine, or as much of it as the control group (a container, a batch job) may use; version 2, "max" for all.
+/// The memory of the machine, or as much of it as the control group (a container, a batch job) may use; version 2,
+/// "max" for all.
 double memory_bytes() {
   const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   double group = 0;

@@ -24,7 +24,7 @@ class Canvas {
 
   void set_colour(Colour colour, double opacity = 1);
   void set_font(double size, bool bold = false);
-  /// Of the text as show() would write it.
+  /// The width of the text as show() would write it.
   double width_of(const std::string& text) const;
   /// Writes from (x, baseline); what is not UTF-8 appears as '?'.
   void show(const std::string& text, double x, double baseline);

@@ -309,7 +309,7 @@ class Builder {
     return (box.max - box.min).head<2>().maxCoeff() > kTerrainSize * extent_.radius;
   }
 
-  /// Of the parts: less the farther away, and little where one hides the target.
+  /// The opacities of the parts: less the farther away, and little where one hides the target.
   std::vector<double> opacities_of(const Parts& parts, const Vec3& middle) const {
     std::vector<double> opacities(parts.boxes.size(), 0);
     for (std::size_t i = 0; i < parts.boxes.size(); ++i) {

@@ -29,11 +29,11 @@ inline constexpr Colour kPlainVolume{0, 114, 178};
 inline constexpr Colour kPath{32, 36, 44};
 inline constexpr Colour kMarkedPath{240, 160, 0};
 
-/// Of PictureRequest::solids, in turn.
+/// The colours of PictureRequest::solids, in turn.
 inline constexpr std::array<Colour, 4> kSolids{Colour{0, 114, 178}, Colour{0, 158, 115}, Colour{204, 121, 167},
                                                Colour{86, 180, 233}};
 
-/// Of PictureRequest::marks, in turn.
+/// The colours of PictureRequest::marks, in turn.
 inline constexpr std::array<Colour, 2> kMarks{Colour{232, 0, 0}, Colour{240, 200, 0}};
 
 constexpr Colour colour_of(CauseKind kind) {

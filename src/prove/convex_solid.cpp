@@ -91,7 +91,7 @@ ConvexSolid ConvexSolid::within(const HalfSpace& side) const {
   return part_in({side.normal, side.offset + lost_m_ + uneven_m_ + step_m()});
 }
 
-/// Of both parts the corners on cut edges are the same. So what the one loses along an edge the other one has.
+/// Both parts have the same corners on cut edges. So what the one loses along an edge the other one has.
 std::pair<ConvexSolid, ConvexSolid> ConvexSolid::split(const HalfSpace& side) const {
   return {part_in(side), part_in({-side.normal, -side.offset})};
 }

@@ -107,7 +107,7 @@ bool FlatPolygons::Growth::extend(std::size_t side) {
   return true;
 }
 
-/// Of the ring, without those that all but lie on the line between their neighbours.
+/// The corners of the ring, without those that all but lie on the line between their neighbours.
 std::vector<std::uint32_t> FlatPolygons::Growth::corners() const {
   std::vector<std::uint32_t> left = ring_;
   for (std::size_t i = 0; left.size() > 3 && i < left.size();) {

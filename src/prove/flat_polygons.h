@@ -30,10 +30,10 @@ struct FlatPolygon {
 /// alone. Any thread may ask.
 class FlatPolygons {
  public:
-  /// Of these triangles of the scene; numbers may repeat. Positions are taken about `origin`. Cost: linear.
+  /// Takes these triangles of the scene; numbers may repeat. Positions are taken about `origin`. Cost: linear.
   FlatPolygons(const Scene& scene, const Vec3& origin, std::vector<std::uint32_t> triangles);
 
-  /// Of one of the triangles. Null where it has no area.
+  /// The polygon about one of the triangles. Null where it has no area.
   const FlatPolygon* around(std::uint32_t triangle) const;
   /// The triangle by itself. Null where it has no area.
   const FlatPolygon* only(std::uint32_t triangle) const;

@@ -35,7 +35,7 @@ struct OwnLengths {
 OwnLengths own_lengths(double largest, const TargetFrame& frame, double radius_m, double range_m) {
   constexpr double kOnTarget = 1e-9, kRoundings = 8;
   largest = std::max(largest, frame.origin.cwiseAbs().maxCoeff());
-  // Of the target, of the scene about a middle of its own, and of the two about each other.
+  // The rounding of the target, of the scene about a middle of its own, and of the two about each other.
   const double rounded = kRoundings * kEpsilon * (3 * largest + radius_m + (std::isfinite(range_m) ? range_m : 0));
   const double small = std::min(1.0, range_m / kFullRange);
   const double clear = std::max(kClear * small, 4 * std::max(rounded, kOnTarget * std::min(1.0, radius_m)));

@@ -69,7 +69,7 @@ class LimitCollector {
     found_.limits.push_back({kind, std::move(name), begins_once, tolerance, std::move(breaks)});
   }
   Box about_origin(const Box& box) const { return {box.min - view_.origin, box.max - view_.origin}; }
-  /// Of the coordinates of cut faces, at sides of a box.
+  /// The rounding of the coordinates of cut faces, at sides of a box.
   double rounding_m(const Box& box) const {
     double largest = view_.origin.cwiseAbs().maxCoeff();
     for (const Vec3& corner : {box.min, box.max}) {

@@ -34,7 +34,7 @@ struct LimitsBeyond {
   std::vector<std::string> without_argument;  ///< names of limits that are given
 };
 
-/// Of a target's part. The references must last.
+/// The limits as they are for a part of the target. The references must last.
 LimitsBeyond limits_beyond(const Navigation& navigation, const Sensor& sensor, const View& view);
 
 }  // namespace vantage::internal::prove

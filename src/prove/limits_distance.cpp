@@ -40,8 +40,8 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t at) {
   return at;
 }
 
-/// Of each group of triangles that touch each other, in the same places, a corner. Nothing of a group that reaches out
-/// of the box.
+/// One corner for each group of triangles that touch each other, in the same places. Nothing of a group that reaches
+/// out of the box.
 std::vector<Vec3> corners_of_groups_within(const Mesh& mesh, const Vec3& origin, const Box& box) {
   std::vector<std::uint32_t> order(mesh.vertices.size()), parent(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);

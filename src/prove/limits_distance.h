@@ -11,7 +11,7 @@ namespace vantage::internal::prove {
 ClaimProof prove_clearance(const LimitedVolume& volume, const Clearance& clearance,
                            const core::ProgressReporter& progress);
 
-/// Of each part of the target.
+/// Proves the least distance to each part of the target.
 ClaimProof prove_min_range(const LimitedVolume& volume, double min_range_m, const std::vector<View>& parts,
                            const core::ProgressReporter& progress);
 

@@ -50,7 +50,7 @@ class Picture {
             std::cos(roll_) * below - std::sin(roll_) * level};
   }
 
-  /// Of the edges of the picture, left, right, top and bottom: unit normals of the planes through the camera, inward.
+  /// The edges of the picture, left, right, top and bottom: unit normals of the planes through the camera, inward.
   std::array<Vec3, 4> edges(const CameraAim& aim) const {
     const auto [ahead, right, down] = axes(aim);
     return {across_ * (half_width_ * ahead + right), across_ * (half_width_ * ahead - right),

@@ -20,7 +20,7 @@
 namespace vantage::internal::prove {
 namespace {
 
-/// Of triangles in plan: the least part of the squared longest side that twice the area is. Thinner ones are vertical;
+/// For triangles in plan: the least part of the squared longest side that twice the area is. Thinner ones are vertical;
 /// those that are thinner than the second one cover nothing, as their corners would move far with their sides.
 constexpr double kVertical = 1e-13, kCovering = 1e-6;
 

@@ -8,7 +8,7 @@
 
 namespace vantage::internal::prove {
 
-/// Of each mesh: the worst.
+/// The worst of the proofs for each mesh.
 ClaimProof prove_meshes(const LimitedVolume& volume, const std::vector<KeepInMesh>& meshes);
 
 }  // namespace vantage::internal::prove

@@ -45,7 +45,7 @@ class SunCone {
     return along * sine_ - (sight - along * axis_).norm() * cosine_;
   }
 
-  /// Of a position, by the deepest line of sight that is found.
+  /// The depth of a position, by the deepest line of sight that is found.
   double depth(const Vec3& position) const {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < target_.size(); ++i) {

@@ -9,11 +9,11 @@
 
 namespace vantage::internal::prove {
 
-/// Of the union of all that the vehicle is to stay in.
+/// The proof for the union of all that the vehicle is to stay in.
 ClaimProof prove_keep_in(const LimitedVolume& volume, const Navigation& navigation,
                          const core::ProgressReporter& progress);
 
-/// Of each box and zone that it is to stay out of: the worst.
+/// The worst of the proofs for each box and zone that it is to stay out of.
 ClaimProof prove_keep_out(const LimitedVolume& volume, const Navigation& navigation,
                           const core::ProgressReporter& progress);
 

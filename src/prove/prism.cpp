@@ -17,7 +17,7 @@ double distance_in_plan(const Plan& point, const Plan& from, const Plan& to) {
   return (point - from - share * along).norm();
 }
 
-/// Of two segments that do not cross: from an end of one to the other.
+/// The distance of two segments that do not cross: from an end of one to the other.
 double distance_of_sides(const Plan& a, const Plan& b, const Plan& c, const Plan& d) {
   return std::min(
       {distance_in_plan(a, c, d), distance_in_plan(b, c, d), distance_in_plan(c, a, b), distance_in_plan(d, a, b)});

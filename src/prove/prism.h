@@ -12,7 +12,7 @@ namespace vantage::internal::prove {
 /// Positions are relative to an origin. Its heights may be infinite.
 class Prism {
  public:
-  /// Of a zone, but for its heights above ground that is no plane.
+  /// The prism of a zone, but for its heights above ground that is no plane.
   Prism(const Zone& zone, const Vec3& origin);
 
   double low() const { return low_; }

@@ -182,7 +182,7 @@ class Prover {
   const Mesh& volume_;
   double range_;
   ProveOptions options_;  ///< of the rounding, what is believed
-  /// Of a part of the target: as it is stated, and what of it is believed.
+  /// How far a part of the target is raised: as it is stated, and how much of it is believed.
   struct Lift {
     double stated_m = 0, used_m = 0;
   };
@@ -243,7 +243,7 @@ struct Prover::Judged {
   std::vector<std::uint32_t> numbers;  ///< of these, in the volume that was given
 };
 
-/// Of the mesh with these vertices, about View::origin: what is looked at.
+/// The part of a mesh that is judged. `vertices`: of the mesh, about View::origin.
 Prover::Judged Prover::judged(const std::vector<Vec3>& vertices, const prove::View& view) {
   Judged judged;
   if (other_side_m_) {
@@ -393,7 +393,7 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
     look_at(part, progress.part(kSightPart * static_cast<double>(part) / parts,
                                 kSightPart * static_cast<double>(part + 1) / parts));
   }
-  // Of a target that is raised by less than its file says the certificate would be one of another target.
+  // If a target is raised by less than its file says, the certificate would be one of another target.
   const auto is_lowered = [](const Lift& lift) { return lift.used_m != lift.stated_m; };
   if (std::any_of(lifts_.begin(), lifts_.end(), is_lowered)) report_.certificate.reset();
   add_sight();
@@ -442,7 +442,7 @@ void Prover::set_lifts(const internal::core::ProgressReporter& progress) {
   }
 }
 
-/// Of the parts that are raised by less than was stated.
+/// Tells of the parts that are raised by less than was stated.
 std::string Prover::lifts_text() const {
   constexpr std::size_t kMostTold = 3;
   std::string text;

@@ -42,7 +42,7 @@ void check_numbers(const Mesh& mesh, const std::string& where) {
   }
 }
 
-/// Of each vertex, the first one in its place.
+/// For each vertex the first one in its place.
 std::vector<std::uint32_t> first_in_place(const std::vector<Vec3>& vertices) {
   std::vector<std::uint32_t> order(vertices.size()), first(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -92,7 +92,7 @@ void check_edges(const Mesh& mesh, const std::string& where) {
   }
 }
 
-/// Of each triangle, the number of the piece that it is a part of; pieces share vertices with no other.
+/// For each triangle the number of the piece that it is a part of; pieces share vertices with no other.
 std::vector<std::uint32_t> piece_of(const Mesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0u);

@@ -1,4 +1,4 @@
-// Of two triangles that do not meet, the nearest points are on two edges, or on a corner and a face; of two that do, an
+// The nearest points of two triangles that do not meet are on two edges, or on a corner and a face. If they meet, an
 // edge of one passes through the other.
 #include "prove/triangle_distance.h"
 
@@ -16,7 +16,7 @@ Vec3 nearest_of_edge(const Vec3& from, const Vec3& to, const Vec3& point) {
   return length > 0 ? Vec3(from + std::clamp((point - from).dot(along) / length, 0.0, 1.0) * along) : from;
 }
 
-/// Of two segments: each of the four ends with the other one, and where both are nearest inside.
+/// Compares two segments: each of the four ends with the other segment, and where both are nearest inside.
 void see_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, NearestPoints& best) {
   const auto see = [&](const Vec3& on_a, const Vec3& on_b) {
     const double distance = (on_a - on_b).norm();

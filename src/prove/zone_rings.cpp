@@ -37,7 +37,7 @@ bool meet(const Side& a, const Side& b) {
 /// Neighbours share a corner: they must not lie on each other.
 bool fold(const Side& first, const Side& second) { return is_on(first, second.to) || is_on(second, first.from); }
 
-/// Of a point on no side: a ray towards x crosses the ring an odd number of times.
+/// For a point on no side: a ray towards x crosses the ring an odd number of times.
 bool is_inside(const Zone::Ring& ring, const Point& p) {
   bool is_odd = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -32,9 +32,9 @@ class BlockerIndex {
     std::uint32_t plane;    ///< the one that gives the bound, for plane(): the first to try
   };
 
-  /// Of the polygons in `leaves` (nodes of the scene's hierarchy), for points up to `reach` metres from the target's
-  /// centre. Keeps references to nothing. Uses the threads of the caller's arena. Cost: O(N M) for each polygon, as
-  /// BlockerBuilder.
+  /// Indexes the polygons in `leaves` (nodes of the scene's hierarchy), for points up to `reach` metres from the
+  /// target's centre. Keeps references to nothing. Uses the threads of the caller's arena. Cost: O(N M) for each
+  /// polygon, as BlockerBuilder.
   BlockerIndex(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
                std::span<const std::uint32_t> leaves, double reach);
   ~BlockerIndex();

@@ -31,10 +31,10 @@ constexpr double kParallel = 1e30;
 /// Corners of seen polygons that are nearer to each other are one, in parts of the target's radius.
 constexpr double kSnap = 1e-9;
 
-/// Of what is not seen whole.
+/// The largest share of what is not seen whole.
 constexpr double kLessThanAll = 1 - std::numeric_limits<double>::epsilon() / 2;
 
-/// Of the parts that were looked at so far.
+/// Sums over the parts that were looked at so far.
 struct Sum {
   double seen = 0, all = 0;
   bool is_whole = true;  ///< in front of all, and nothing hides any of them

@@ -39,7 +39,7 @@ void add_break(std::vector<LegBreak>& breaks, const std::string& limit, LegBreak
 /// Triangles by place, about an origin near them.
 class LegTriangles {
  public:
-  /// Of a mesh with triangles. `in_plan`: their hierarchy leaves z aside.
+  /// Indexes a mesh with triangles. `in_plan`: their hierarchy leaves z aside.
   explicit LegTriangles(const Mesh& mesh, bool in_plan = false);
 
   const Vec3& origin() const { return origin_; }

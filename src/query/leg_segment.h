@@ -15,8 +15,8 @@ struct NearestPair {
   Vec3 point;
 };
 
-/// Of the segment and a convex polygon, planar but for rounding, of 1 corner or more; without area too. Where they
-/// meet, a point that they share. Cost: linear in the corners.
+/// The nearest points of the segment and a convex polygon, planar but for rounding, of 1 corner or more; without area
+/// too. Where they meet, a point that they share. Cost: linear in the corners.
 NearestPair nearest_to_polygon(const Vec3& from, const Vec3& to, std::span<const Vec3> corners);
 
 /// A lower bound of the distance of a segment from a box: the least distance of its points, but for rounding.

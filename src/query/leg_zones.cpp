@@ -60,7 +60,7 @@ LegIntervals broken_by_box(const Box& box, const Tube& tube) {
 LegZone::LegZone(const Zone& zone, std::shared_ptr<const LegGround> ground)
     : zone_(zone), box_(box_of(zone)), ground_(std::move(ground)) {}
 
-/// Of the leg itself: between two places where it passes a side, or nearly, all of it is inside or none.
+/// The intervals of the leg itself: between two places where it passes a side, or nearly, all of it is inside or none.
 LegIntervals LegZone::in_plan(const Tube& tube, bool with_border) const {
   const Plan from = tube.leg.from.head<2>(), along = tube.leg.to.head<2>() - from;
   constexpr double kNear = 1e-9;  // of a side's length

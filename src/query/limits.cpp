@@ -126,7 +126,7 @@ const GroundHeights& Limits::heights_of(const Ground& ground) const {
 void Limits::add_above_ground_crossings(const AboveGround& limit, const ViewRay& line,
                                         std::vector<double>& cuts) const {
   for (const double above_m : {limit.min_m, limit.max_m}) {
-    // Of an infinite height the ends of the ground are left: any finite one has them too.
+    // If the height is infinite, the ends of the ground are left: any finite one has them too.
     heights_of(limit.ground)
         .add_crossings(line.origin, line.direction, line.reach, std::isfinite(above_m) ? above_m : 0, cuts);
   }
@@ -202,7 +202,7 @@ void Limits::add_broken_above_ground(const Vec3& point, std::vector<std::string>
   if (point.z() > ground->lowest_m + navigation_.above_ground->max_m) broken.push_back("agl max");
 }
 
-/// Of a zone to stay in.
+/// Whether a point is within the heights of a zone to stay in.
 bool Limits::is_at_height(const Zone& zone, const Vec3& point) const {
   if (!zone.above_ground) return true;
   const auto ground = heights_of(zone.above_ground->ground).at(point.x(), point.y());
@@ -210,7 +210,7 @@ bool Limits::is_at_height(const Zone& zone, const Vec3& point) const {
          point.z() <= ground->lowest_m + zone.above_ground->max_m;
 }
 
-/// Of a zone to stay out of.
+/// Whether a point is outside of the heights of a zone to stay out of.
 bool Limits::is_clear_of_heights(const Zone& zone, const Vec3& point) const {
   if (!zone.above_ground) return false;
   const auto ground = heights_of(zone.above_ground->ground).at(point.x(), point.y());

@@ -81,7 +81,7 @@ class MappedPolygon {
  public:
   MappedPolygon(const PreparedScene::Data& scene, const Vec3& antenna) : scene_(scene), antenna_(antenna) {}
 
-  /// Of the polygon's point that is deepest in the zone, the place on the map.
+  /// The place on the map of the polygon's point that is deepest in the zone.
   Vec3 deepest(std::uint32_t polygon, const LinkEllipsoid& zone) {
     corners_.clear();
     for (const std::uint32_t vertex : scene_.corners_of(polygon)) {

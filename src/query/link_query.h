@@ -22,7 +22,7 @@ class LinkQuery {
   /// Calls visit(object) for what enters the zone of the vehicle at that distance; for an object once or more.
   void for_each_entering(const Vec3& direction, double distance, const std::function<void(std::uint32_t)>& visit) const;
 
-  // Of legs; positions are about the antenna, and zones are of ways that are longer by `more` metres, which is not
+  // For legs; positions are about the antenna, and zones are of ways that are longer by `more` metres, which is not
   // negative.
 
   /// Calls visit(polygon, point) for each polygon that enters the zone, with a point where it does.

@@ -17,7 +17,7 @@ constexpr double kFar = 1e6;
 /// Keeps what is divided by in the solid angle of a target that is seen from its own plane, but for nothing.
 constexpr double kLeastHeight = 1e-150;
 
-/// Of a cone about `axis`: directions this near to its border are in it. A chord.
+/// A chord: directions this near to the border of a cone about `axis` are in it.
 constexpr double kOnCone = 1e-14;
 
 bool is_in_cone(const Vec3& axis, double chord, const Vec3& direction) {

@@ -70,7 +70,7 @@ Box Side::pyramid(const Vec3& direction, double farthest) const {
   return box;
 }
 
-/// Of all that may hide the target from points within reach. Relative to the scene's origin.
+/// A box of all that may hide the target from points within reach. Relative to the scene's origin.
 Box Side::box_within(double metres) const {
   Box box;
   for (const auto& t : target.vertices) box.extend(Vec3(frame.to_scene({t.x(), t.y(), 0}) - scene.origin));

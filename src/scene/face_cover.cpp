@@ -59,7 +59,7 @@ class Cover {
  private:
   double height_of(const Vec3& point) const { return plane_.normal.dot(point) - plane_.at; }
 
-  /// Of what is upright in the plane, a segment is left there: on one side of it may be a solid.
+  /// Takes a polygon away. One that is upright in the plane leaves a segment: on one side of it may be a solid.
   void take(std::vector<Vec3> polygon) {
     for (Vec3& corner : polygon) corner -= height_of(corner) * plane_.normal;
     if (!is_sliver(polygon, sliver_)) return subtract(pieces_, polygon, plane_.normal, sliver_);

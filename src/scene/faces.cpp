@@ -96,7 +96,7 @@ Neighbours neighbours_of(const ObjectMesh& object, const std::vector<Vec3>& vert
   Neighbours neighbours(object.triangles.size());
   std::vector<Edge> edges;
   std::vector<std::vector<std::uint32_t>> triangles;  // of each edge
-  // Of the object's own vertices, in their order: the scene may have a thousand times as many.
+  // Only the object's own vertices, in their order: the scene may have a thousand times as many.
   std::vector<std::uint32_t> own;
   for (const Triangle& t : object.triangles) own.insert(own.end(), t.begin(), t.end());
   std::sort(own.begin(), own.end());

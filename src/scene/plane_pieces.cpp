@@ -13,10 +13,10 @@ namespace {
 
 using Polygon = std::vector<Vec3>;
 
-// Of the extent: what two pieces may turn the wrong way where they are joined. A tenth of what a target may.
+// A part of the extent: what two pieces may turn the wrong way where they are joined. A tenth of what a target may.
 constexpr double kBent = 1e-10;
 constexpr std::size_t kMostCorners = 64;  // of a target's part
-// Of the extent: no part of a target is so narrow, and no two of its corners are so near. Twice what is refused.
+// A part of the extent: no part of a target is so narrow, and no two of its corners are so near. Twice what is refused.
 constexpr double kNarrow = 2e-9;
 
 /// Twice the area vector.

@@ -35,7 +35,7 @@ double area_of(const std::vector<Vec3>& polygon);  ///< square metres
 /// order of the first of each.
 std::vector<PlanePieces> connected(const PlanePieces& pieces, double slack);
 
-/// Of the point of a convex polygon that is nearest to `point`.
+/// The distance from `point` to the nearest point of a convex polygon.
 double distance_to(const std::vector<Vec3>& polygon, const Vec3& normal, const Vec3& point);
 
 }  // namespace vantage::internal::scene

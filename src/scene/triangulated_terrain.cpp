@@ -11,7 +11,7 @@
 namespace vantage::internal::scene {
 namespace {
 
-// Of a place in the coordinates of a triangle (1 is a corner): what rounding may put outside it.
+// What rounding may put outside a triangle, in its own coordinates (1 is a corner).
 constexpr double kOutside = 1e-9;
 constexpr int kMaxCells = 4096;  // in one direction
 const Incline kLevel{Eigen::Vector2d::Zero(), 0};

@@ -20,7 +20,7 @@ struct Aim {
 /// the picture where its product with each is >= 0. Their lengths are sqrt(1 + tangent^2).
 using PictureEdges = std::array<Vec3, 4>;
 
-/// Of unit length: along the camera's axis, to the right and up in the picture.
+/// The axes of a picture, of unit length: along the camera's axis, to the right and up.
 struct PictureAxes {
   Vec3 ahead, right, up;
 };

@@ -123,7 +123,7 @@ bool is_flap(const Vec3& start, const Vec3& end, const Vec3& third, const Vec3& 
   return a.dot(b) > 0 && a.cross(b).squaredNorm() <= narrowest * narrowest * std::max(a.squaredNorm(), b.squaredNorm());
 }
 
-/// Of two triangles with an area: whether they have more in common than corners and sides that both have.
+/// Whether two triangles with an area have more in common than corners and sides that both have.
 bool collide(const Corners& a, const Corners& b, double narrowest) {
   std::array<bool, 3> is_shared_a = {}, is_shared_b = {};
   int shared = 0;

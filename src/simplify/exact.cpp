@@ -10,7 +10,7 @@ namespace {
 
 using core::orientation;
 
-/// Of points of one plane: how three of them turn in a coordinate plane that the plane is not upright on.
+/// Points of one plane, projected to a coordinate plane that the plane is not upright on: how three of them turn there.
 class PlaneView {
  public:
   explicit PlaneView(const Corners& triangle) {

@@ -13,7 +13,7 @@ namespace vantage::internal::simplify {
 /// surface stays near in the tree. Built anew now and then.
 class FacetTree {
  public:
-  /// Of those facets whose box is not empty.
+  /// A tree of the facets whose box is not empty.
   explicit FacetTree(const std::vector<Box>& facets);
 
   /// The facet's box from now on; an empty one takes it out. It must have been in the tree.

@@ -15,7 +15,7 @@ constexpr std::uint64_t kMostLevels = 8;
 /// A level whose solid is larger than that of the one before by no more than this part of it is left out.
 constexpr double kNoGain = 1e-9;
 
-/// Of one node. Above the last level, from `all` on, every position counts.
+/// The levels of one node. Above the last level, from `all` on, every position counts.
 struct Levels {
   std::vector<MissedAtMost> kept;  ///< ascending in cost and in what they hold; those that hold nothing are left out
   std::uint64_t all = 0;           ///< the cost of all cells below
@@ -33,7 +33,7 @@ struct Operand {
   bool is_everywhere = false;
 };
 
-/// Of positions that miss at most `cost`; neither solid nor everywhere where there are none.
+/// The positions that miss at most `cost`; neither solid nor everywhere where there are none.
 Operand missed_at_most(const Levels& levels, std::uint64_t cost) {
   if (cost >= levels.all) return {nullptr, true};
   const MissedAtMost* best = nullptr;
@@ -84,7 +84,7 @@ class Tree {
   double done_ = 0, all_ = 0;     // effort
 };
 
-/// Of a node by itself, about: the volumes of many cells have more facets, and more levels.
+/// An estimate of the work for a node by itself: the volumes of many cells have more facets, and more levels.
 double own_effort(std::size_t cells) { return static_cast<double>(cells * cells); }
 
 double Tree::effort_of(std::size_t begin, std::size_t end) {

@@ -161,7 +161,7 @@ struct ToGrow {
   }
 };
 
-/// Of one component. `centre`: where the volume begins.
+/// Adds the parts of one component that must grow. `centre`: where the volume begins.
 template <typename ReachesVolume>
 void add_to_grow(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, const Vec3& centre,
                  const ReachesVolume& reaches_volume, std::vector<ToGrow>& to_grow) {

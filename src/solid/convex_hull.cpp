@@ -33,8 +33,8 @@ bool are_on_a_line(const Vec3& a, const Vec3& b, const Vec3& c) {
   return true;
 }
 
-/// Of the points for which `is_allowed` holds the one with the largest `value`. Rounding of values may choose another
-/// one, not one that is not allowed.
+/// The point with the largest `value` of those for which `is_allowed` holds. Rounding of values may choose another one,
+/// not one that is not allowed.
 template <typename Value, typename IsAllowed>
 std::optional<std::uint32_t> farthest(std::span<const Vec3> points, const Value& value, const IsAllowed& is_allowed) {
   std::uint32_t best = 0;

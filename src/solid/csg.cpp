@@ -200,7 +200,7 @@ Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progr
 
 Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress) {
   if (operands.empty()) throw Error(ErrorCode::internal_defect, "an intersection needs an operand", "", "");
-  // Of several that are as large the first ones come first.
+  // If several are as large, the first ones come first.
   const auto is_larger = [](const std::pair<std::size_t, Solid>& a, const std::pair<std::size_t, Solid>& b) {
     return std::pair(a.second.facets(), a.first) > std::pair(b.second.facets(), b.first);
   };

@@ -19,7 +19,7 @@ namespace vantage::internal::solid {
 
 using core::LabelledMesh;
 
-/// Of a LabelledMesh that becomes a solid.
+/// The largest label of a LabelledMesh that becomes a solid.
 constexpr std::uint32_t kMaxLabel = 0x7fffffff;
 
 /// An immutable closed solid, cheap to copy. Any number of threads may read one.
@@ -64,10 +64,10 @@ class Solid {
 Solid unite(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 VANTAGE_INTERNAL_API Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 Solid subtract(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
-/// Of any number of operands, smallest first. The union of none is empty. Its work is estimated: as if nothing were
-/// lost on the way.
+/// The union of any number of operands, smallest first. The union of none is empty. Its work is estimated: as if
+/// nothing were lost on the way.
 Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
-/// Of at least one operand, the smallest first; ends when nothing is left.
+/// The intersection of at least one operand, the smallest first; ends when nothing is left.
 VANTAGE_INTERNAL_API Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
 
 /// Labels of a box's sides.

@@ -257,7 +257,7 @@ class InsideSearch {
   Answer& answer_;
 };
 
-/// Of a facet that has an area; one without is part of its neighbours' sides.
+/// Adds the half space of a facet that has an area; one without is part of its neighbours' sides.
 void add_half_space(const Corners& c, std::vector<HalfSpace>& half_spaces) {
   const Vec3 normal = normal_of(c);
   if (normal.squaredNorm() > 0.5) half_spaces.push_back({normal, normal.dot(c[0])});

@@ -283,8 +283,8 @@ Solid between(const Mesh& mesh, const HeightOfVertex& bottom, const HeightOfVert
   return Solid(solid, "heights above the ground");
 }
 
-/// Of triangles that lie over each other: the space over and under any of them, without what is too low or too high
-/// above one of them.
+/// The band of triangles that lie over each other: the space over and under any of them, without what is too low or too
+/// high above one of them.
 Solid between_all(const Mesh& mesh, double min_m, double max_m, const GroundBandLabels& labels,
                   const core::ProgressReporter& progress) {
   const Box box = bounding_box(mesh);

@@ -221,7 +221,7 @@ void Replacement::find_borders() {
 /// The border of a group passes each vertex once at most: a fan that has two umbrellas at a vertex would leave it open
 /// which of them belong together. Facets at other vertices are taken out of their groups. False where there are none.
 bool Replacement::give_back_pinched() {
-  // Of each vertex the groups for which a border begins there; few have more than two.
+  // For each vertex the groups for which a border begins there; few vertices have more than two.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> begins;
   for (const Border& border : borders_) begins.emplace_back(border.from, border.group);
   std::sort(begins.begin(), begins.end());

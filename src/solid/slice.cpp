@@ -129,7 +129,7 @@ CutRing tidied_ring(CutRing ring) {
   return ring.size() >= 3 ? ring : CutRing{};
 }
 
-/// Of a ring that does not cross itself, and is tidied: by its corner that comes first in order.
+/// For a ring that does not cross itself, and is tidied: decided at the corner that comes first in order.
 bool is_counter_clockwise(const CutRing& ring) {
   const auto first = static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), InOrder()) - ring.begin());
   const std::size_t count = ring.size();
@@ -150,7 +150,7 @@ std::optional<bool> is_inside_ring(const CutPoint& p, const CutRing& ring) {
   return is_odd;
 }
 
-/// Of rings that do not cross: by the first corner or middle of a side that is not on the outer one.
+/// For rings that do not cross: decided by the first corner or middle of a side that is not on the outer one.
 bool lies_in(const CutRing& hole, const CutRing& outer) {
   for (std::size_t i = 0; i < hole.size(); ++i) {
     const CutPoint middle = (hole[i] + hole[(i + 1) % hole.size()]) / 2;

@@ -123,7 +123,7 @@ class CellBounds {
       for (int k = 0; k < std::min(count, grid_.columns()); ++k) lower(band, begin + k, radius);
   }
 
-  /// Of the cells about a vertex.
+  /// The least bound of the cells about a vertex.
   double at_vertex(int ring, int column) const {
     double least = std::numeric_limits<double>::infinity();
     const bool is_pole = ring == 0 || ring == grid_.bands();
@@ -148,7 +148,7 @@ class CellBounds {
     }
   }
 
-  /// Of a rectangle beside the axis: those of its corners, counted from that of its first one.
+  /// The longitudes of a rectangle beside the axis: those of its corners, counted from that of its first one.
   static void longitudes(const Vec3& low, const Vec3& high, double& from, double& to) {
     const double base = std::atan2(low.y(), low.x());
     double least = 0, most = 0;

@@ -7,7 +7,7 @@
 namespace vantage::internal::target {
 namespace {
 
-// Of coordinates as given, of those about the scene's origin, and of those in the target's frame.
+// The rounding of coordinates: as they are given, about the scene's origin, and in the target's frame.
 double coordinate_rounding(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range) {
   const double largest = frame.origin.cwiseAbs().maxCoeff() + (frame.origin - scene.origin).cwiseAbs().maxCoeff() +
                          frame.enclosing_radius_m + max_range;

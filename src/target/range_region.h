@@ -46,7 +46,7 @@ class RangeRegion {
     return b > 0 ? direction.squaredNorm() / (b + root) : (root - b) / power_[ball];
   }
 
-  /// Of the region: the greatest of the balls' gauges. Convex in `direction`.
+  /// The gauge of the region: the greatest of the balls' gauges. Convex in `direction`.
   double gauge(const Vec3& direction) const;
 
   /// The same, trying `ball` first and leaving there the one that is met first: neighbouring directions mostly share

@@ -59,8 +59,8 @@ class LowSurfaces {
         most_(lengths.lift + 2 * lengths.clear),
         reach_(reach) {}
 
-  /// Of polygons within reach: their highest corners that are above the plane by at most what the target may be raised
-  /// by, ascending.
+  /// The highest corners of polygons within reach that are above the plane by at most what the target may be raised by,
+  /// ascending.
   std::vector<double> tops() {
     core::walk_bvh(
         scene_.bvh, [this](const core::BvhNode& node) { return is_low_and_near(node.bounds); },

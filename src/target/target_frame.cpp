@@ -21,8 +21,8 @@ constexpr double kPlanarFraction = 1e-6;  // of the extent
 constexpr double kPlanarAtLeast = 1e-3;   // metres
 // A vertex this far inside the line between its neighbours, in parts of the extent, is on it. The target only grows.
 constexpr double kStraight = 1e-9;
-// Of the extent: four times what the coordinates of a vertex lose on the way into the frame, and so all that a target
-// may lose of a corner.
+// A part of the extent: four times what the coordinates of a vertex lose on the way into the frame, and so all that a
+// target may lose of a corner.
 constexpr double kCornerRounding = 0x1p-50;
 
 [[noreturn]] void refuse(ErrorCode code, const Target& target, std::string problem, std::string fix) {

@@ -207,7 +207,7 @@ BoxIndex::~BoxIndex() = default;
 BoxIndex::BoxIndex(BoxIndex&&) noexcept = default;
 BoxIndex& BoxIndex::operator=(BoxIndex&&) noexcept = default;
 
-bool BoxIndex::any_along(const Vec3& from, const Vec3& to, Caller<bool> call, void* visitor) const {
+bool BoxIndex::any_along(const Vec3& from, const Vec3& to, VisitFunction<bool> call, void* visitor) const {
   if (!impl_->scene) return false;
   AlongContext context{{}, call, visitor, false};
   rtcInitIntersectContext(&context.embree);
@@ -227,7 +227,7 @@ bool BoxIndex::any_along(const Vec3& from, const Vec3& to, Caller<bool> call, vo
   return context.stopped;
 }
 
-void BoxIndex::nearest(const Vec3& point, Caller<double> call, void* visitor) const {
+void BoxIndex::nearest(const Vec3& point, VisitFunction<double> call, void* visitor) const {
   if (!impl_->scene) return;
   NearestContext context{call, visitor, 2 * impl_->growth};
   RTCPointQuery query{};
@@ -240,7 +240,7 @@ void BoxIndex::nearest(const Vec3& point, Caller<double> call, void* visitor) co
   rtcPointQuery(impl_->scene, &query, &instances, visit_nearest, &context);
 }
 
-bool BoxIndex::any_within(const std::vector<HalfSpace>& region, Caller<bool> call, void* visitor) const {
+bool BoxIndex::any_within(const std::vector<HalfSpace>& region, VisitFunction<bool> call, void* visitor) const {
   return impl_->root && any_below(impl_->root, region, call, visitor);
 }
 

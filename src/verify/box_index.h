@@ -31,35 +31,35 @@ class BoxIndex {
   /// did.
   template <class Visit>
   bool any_along(const Vec3& from, const Vec3& to, Visit&& visit) const {
-    return any_along(from, to, caller<bool, Visit>(), &visit);
+    return any_along(from, to, visit_function<bool, Visit>(), &visit);
   }
 
   /// Calls visit(i) for every box i that may lie within the radius that the last call returned (at first: infinity).
   template <class Visit>
   void nearest(const Vec3& point, Visit&& visit) const {
-    nearest(point, caller<double, Visit>(), &visit);
+    nearest(point, visit_function<double, Visit>(), &visit);
   }
 
   /// Calls visit(i) for every box i that may reach into the intersection of the half spaces, until it returns true.
   template <class Visit>
   bool any_within(const std::vector<HalfSpace>& region, Visit&& visit) const {
-    return any_within(region, caller<bool, Visit>(), &visit);
+    return any_within(region, visit_function<bool, Visit>(), &visit);
   }
 
  private:
   template <class Result>
-  using Caller = Result (*)(void* visitor, std::uint32_t box);
+  using VisitFunction = Result (*)(void* visitor, std::uint32_t box);
 
   template <class Result, class Visit>
-  static Caller<Result> caller() {
+  static VisitFunction<Result> visit_function() {
     return [](void* visitor, std::uint32_t box) -> Result {
       return (*static_cast<std::remove_reference_t<Visit>*>(visitor))(box);
     };
   }
 
-  bool any_along(const Vec3& from, const Vec3& to, Caller<bool> call, void* visitor) const;
-  void nearest(const Vec3& point, Caller<double> call, void* visitor) const;
-  bool any_within(const std::vector<HalfSpace>& region, Caller<bool> call, void* visitor) const;
+  bool any_along(const Vec3& from, const Vec3& to, VisitFunction<bool> call, void* visitor) const;
+  void nearest(const Vec3& point, VisitFunction<double> call, void* visitor) const;
+  bool any_within(const std::vector<HalfSpace>& region, VisitFunction<bool> call, void* visitor) const;
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

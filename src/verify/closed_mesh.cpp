@@ -164,10 +164,10 @@ std::optional<bool> ClosedMesh::contains_along(const Vec3& point, const Vec3& di
   const Segment ray(point, point + 1.5 * diagonal_ * direction);  // ends outside
   long winding = 0, crossings = 0;
   const bool unsure = index_->any_along(ray.from, ray.to, [&](std::uint32_t i) {
-    const Meeting meeting = meet(ray, triangles_[i]);
-    if (meeting.contact == Contact::unsure) return true;
-    if (meeting.contact == Contact::crossing) {
-      winding += meeting.turn;
+    const Intersection hit = intersect(ray, triangles_[i]);
+    if (hit.contact == Contact::unsure) return true;
+    if (hit.contact == Contact::crossing) {
+      winding += hit.turn;
       ++crossings;
     }
     return false;

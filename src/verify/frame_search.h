@@ -11,7 +11,7 @@
 
 namespace vantage::internal::verify {
 
-/// Of one limit at one viewpoint.
+/// What was found for one limit at one viewpoint.
 enum class Finding { kept, broken, undecided };
 
 /// Radians, as Mount has them: yaw clockwise from +y, pitch up from level.

@@ -49,7 +49,7 @@ GroundProbe::GroundProbe(const AboveGround& limit) : min_m_(limit.min_m), max_m_
   allowance_m_ = kRoundings * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Of the point above the pieces of ground there.
+/// The heights of the point above the pieces of ground there.
 std::optional<GroundProbe::Heights> GroundProbe::heights(const Vec3& point) const {
   if (!index_) return Heights{point.z() - ground_.plane_z_m, point.z() - ground_.plane_z_m};
   Heights result{INFINITY, -INFINITY};

@@ -61,17 +61,17 @@ Occluders::Occluders(const Scene& scene, const TargetView& view, double max_rang
 }
 
 std::optional<double> Occluders::hit(const Segment& segment, const FlatTriangle& triangle) const {
-  const Meeting meeting = meet(segment, triangle);
-  if (meeting.contact != Contact::crossing || meeting.border < kGrazing) return std::nullopt;
-  if (meeting.position < kEnd) return std::nullopt;
+  const Intersection hit = intersect(segment, triangle);
+  if (hit.contact != Contact::crossing || hit.border < kGrazing) return std::nullopt;
+  if (hit.position < kEnd) return std::nullopt;
   if (view_.is_point()) {
-    if ((1 - meeting.position) * segment.length < kPointSurface) return std::nullopt;
-    return meeting.position;
+    if ((1 - hit.position) * segment.length < kPointSurface) return std::nullopt;
+    return hit.position;
   }
-  if (meeting.position > 1 - kEnd) return std::nullopt;
-  const Vec3 point = segment.at(meeting.position);
+  if (hit.position > 1 - kEnd) return std::nullopt;
+  const Vec3 point = segment.at(hit.position);
   if (view_.height(point) < kSurfaceHeight && view_.over(point, kSurfaceHeight)) return std::nullopt;
-  return meeting.position;
+  return hit.position;
 }
 
 void Occluders::add_if_touched(const FlatTriangle& triangle, std::uint32_t number) {

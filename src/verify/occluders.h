@@ -42,7 +42,7 @@ class Occluders {
   std::size_t size() const { return triangles_.size(); }
 
  private:
-  /// Of a triangle that a point lies on.
+  /// A triangle that a point lies on.
   struct TouchedTriangle {
     Vec3 outward;          ///< normal on the target's front
     std::uint32_t number;  ///< in the scene

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector2d;
 using Bounds = Eigen::AlignedBox2d;
 
-/// Of the whole polygon: smaller pieces are rounding.
+/// A part of the area of the whole polygon: smaller pieces are rounding.
 constexpr double kNothing = 1e-16;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }

@@ -59,7 +59,7 @@ bool are_certainly_apart(const Segment& segment, const FlatTriangle& triangle, d
 
 }  // namespace
 
-Meeting meet(const Segment& segment, const FlatTriangle& triangle) {
+Intersection intersect(const Segment& segment, const FlatTriangle& triangle) {
   if (triangle.normal_length == 0) return {};
   const Vec3 from = segment.from - triangle.corner;
   const double magnitude = from.norm() + segment.length;
@@ -73,9 +73,9 @@ Meeting meet(const Segment& segment, const FlatTriangle& triangle) {
   if (std::abs(gap) <= 4 * side_error) {  // runs (almost) in the plane
     return {are_certainly_apart(segment, triangle, magnitude) ? Contact::none : Contact::unsure, 0, 0, 0};
   }
-  Meeting meeting;
-  meeting.position = side_from / gap;
-  const Vec3 hit = from + meeting.position * segment.direction;
+  Intersection result;
+  result.position = side_from / gap;
+  const Vec3 hit = from + result.position * segment.direction;
   const double hit_error = segment.length * (4 * side_error / std::abs(gap)) + 8 * kRoundoff * magnitude;
 
   const double scale = 1 / (triangle.normal_length * triangle.normal_length);
@@ -90,10 +90,10 @@ Meeting meet(const Segment& segment, const FlatTriangle& triangle) {
   const bool sides_certain = std::abs(side_from) > side_error && std::abs(side_to) > side_error;
   const bool crosses = sides_certain && border > border_error;
   if (!crosses && are_certainly_apart(segment, triangle, magnitude)) return {};
-  meeting.contact = crosses ? Contact::crossing : Contact::unsure;
-  meeting.border = border - border_error;
-  meeting.turn = gap < 0 ? 1 : -1;
-  return meeting;
+  result.contact = crosses ? Contact::crossing : Contact::unsure;
+  result.border = border - border_error;
+  result.turn = gap < 0 ? 1 : -1;
+  return result;
 }
 
 namespace {

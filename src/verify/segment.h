@@ -35,14 +35,14 @@ enum class Contact {
   crossing  ///< the segment certainly passes from one side to the other through the triangle's interior
 };
 
-struct Meeting {
+struct Intersection {
   Contact contact = Contact::none;
   double position = 0;  ///< fraction of the segment at which it meets the plane; for unsure and crossing
   double border = 0;    ///< smallest barycentric coordinate of the hit less its rounding error; for crossing
   int turn = 0;         ///< +1: the segment runs along the normal, -1: against it; for crossing
 };
 
-Meeting meet(const Segment& segment, const FlatTriangle& triangle);
+Intersection intersect(const Segment& segment, const FlatTriangle& triangle);
 
 /// Distance from a point to the nearest point of the (closed) triangle, in metres.
 double distance(const Vec3& point, const FlatTriangle& triangle);

@@ -25,10 +25,10 @@ class SensorJudge {
   /// To every vertex of the target, at most; metres, finite.
   double range() const { return range_; }
 
-  /// Of a viewpoint that is claimed, in the first part's frame: broken is what is broken by more than rounding.
+  /// Judges a viewpoint that is claimed, in the first part's frame: broken is what is broken by more than rounding.
   Judgement of_claimed(const Vec3& position) const { return judge(position, claimed_); }
 
-  /// Of a viewpoint that is not: broken is also what facets on the safe side may take away.
+  /// Judges a viewpoint that is not claimed: broken is also what facets on the safe side may take away.
   Judgement of_unclaimed(const Vec3& position) const { return judge(position, unclaimed_); }
 
  private:

@@ -10,10 +10,10 @@ namespace vantage::internal::verify {
 
 class TargetView {
  public:
-  /// Of a target of one part. The polygon in the plane through the mean of its vertices, normal by Newell's rule, front
-  /// by the rule in vantage/target.h, offset applied. Vertices that rounding has put inside the others' outline, by a
-  /// millionth of the extent at most, are left out. A point has one vertex and the plane through it. Throws
-  /// Error(input) for a polygon that has no plane, is not planar or not convex.
+  /// The view of a target of one part: the polygon in the plane through the mean of its vertices, normal by Newell's
+  /// rule, front by the rule in vantage/target.h, offset applied. Vertices that rounding has put inside the others'
+  /// outline, by a millionth of the extent at most, are left out. A point has one vertex and the plane through it.
+  /// Throws Error(input) for a polygon that has no plane, is not planar or not convex.
   explicit TargetView(const Target& target);
 
   const Vec3& origin() const {

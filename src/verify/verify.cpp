@@ -68,7 +68,8 @@ struct Verdict {
   Vec3 hidden = Vec3::Zero();          ///< and a hidden point of it, in its frame
 };
 
-/// Of a target in parts: the first part's frame is the check's, and the scene is indexed for one part at a time.
+/// The check of a target in parts: the first part's frame is the check's, and the scene is indexed for one part at a
+/// time.
 class Check {
  public:
   Check(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor, const Navigation& navigation,
@@ -87,7 +88,7 @@ class Check {
 
   /// Chooses a viewpoint.
   Verdict draw(std::size_t number) const;
-  /// Of a viewpoint that another check has chosen: whether it is within the limits.
+  /// Judges whether a viewpoint that another check has chosen is within the limits.
   void judge(Verdict& verdict) const;
   /// What look() looks at from now on. Not while other threads look.
   void turn_to(std::size_t part);
@@ -148,7 +149,7 @@ void Check::set_share(const VisibleShare& visible) {
   asked_m2_ = (visible.share - internal::verify::kShareSlack) * area - rounding;
 }
 
-/// Of all parts, but for a point that is seen from all sides.
+/// Whether a position is in front of all parts, but for a point that is seen from all sides.
 bool Check::in_front(const Vec3& position) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!parts_[i].in_front(in_frame_of(i, position))) return false;
@@ -195,7 +196,8 @@ bool Check::sees(const TargetView& part, const Vec3& position, Verdict& verdict)
   return false;
 }
 
-/// Of a viewpoint that sees the antenna. One that is not claimed counts only where it has more than the link needs.
+/// Whether a viewpoint that sees the antenna has a link. One that is not claimed counts only where it has more than the
+/// link needs.
 bool Check::has_link(const Vec3& position, Verdict& verdict) const {
   if (!link_) return true;
   const bool is_clear = verdict.claimed ? !link_->entered_by(position) : !link_->may_lack(position);
@@ -399,9 +401,9 @@ PartViews raised_views(const Scene& scene, const std::vector<std::vector<Target>
 }
 
 /// Runs something for all viewpoints, on all threads, and counts them.
-class ForAll {
+class ParallelLoop {
  public:
-  ForAll(std::size_t points, std::size_t rounds, const Progress& callback)
+  ParallelLoop(std::size_t points, std::size_t rounds, const Progress& callback)
       : points_(points), progress_(callback), counter_(begun(progress_), points * rounds) {}
 
   template <typename Act>
@@ -433,10 +435,10 @@ struct Seen {
 };
 
 /// The viewpoints of several targets: each chooses its share of them, and all are judged for each.
-class ManyChecks {
+class MultiTargetCheck {
  public:
-  ManyChecks(const Scene& scene, PartViews views, const Sensor& sensor, const Navigation& navigation,
-             const Mesh& volume, const VerifyOptions& options, const Progress& callback)
+  MultiTargetCheck(const Scene& scene, PartViews views, const Sensor& sensor, const Navigation& navigation,
+                   const Mesh& volume, const VerifyOptions& options, const Progress& callback)
       : scene_(scene),
         views_(std::move(views)),
         sensor_(sensor),
@@ -444,7 +446,7 @@ class ManyChecks {
         volume_(volume),
         options_(options),
         verdicts_(options.points, Verdict(Random(options.seed, 0))),
-        for_all_(options.points, 1 + 2 * target_count(), callback),
+        for_each_viewpoint_(options.points, 1 + 2 * target_count(), callback),
         first_(scene, views_.front().front(), sensor, navigation, volume, options) {}
 
   VerifyReport run() {
@@ -460,7 +462,7 @@ class ManyChecks {
         if (all[i].cause.empty() && !seen[i].good) all[i].cause = seen[i].cause;
       }
     }
-    for_all_([&](std::size_t i) {
+    for_each_viewpoint_([&](std::size_t i) {
       verdicts_[i].good = all[i].good;
       verdicts_[i].undecided = all[i].undecided;
       verdicts_[i].is_enough = all[i].enough && !all[i].good && !all[i].undecided && !verdicts_[i].claimed;
@@ -495,7 +497,7 @@ class ManyChecks {
       for (const std::vector<Target>& parts : list) {
         const Check check = check_of(parts);
         const Vec3 shift = check.origin() - first_.origin();
-        for_all_([&](std::size_t i) {
+        for_each_viewpoint_([&](std::size_t i) {
           if (i / 8 % count != number) return;  // eight viewpoints make a round of all kinds
           verdicts_[i] = check.draw(i);
           verdicts_[i].position += shift;
@@ -521,7 +523,7 @@ class ManyChecks {
       });
     }
     std::vector<std::size_t> wrong;
-    for_all_([&](std::size_t i) {
+    for_each_viewpoint_([&](std::size_t i) {
       verdicts_[i].rays = own[i].rays;
       seen[i].enough = seen[i].enough || own[i].good || own[i].is_enough;
       if (own[i].on_surface || seen[i].good || !own[i].good) return;
@@ -546,7 +548,7 @@ class ManyChecks {
   const Mesh& volume_;
   const VerifyOptions& options_;
   std::vector<Verdict> verdicts_;
-  ForAll for_all_;
+  ParallelLoop for_each_viewpoint_;
   Check first_;
 };
 
@@ -564,11 +566,11 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
-  ForAll for_all(options.points, parts.size() + 1, callback);
-  for_all([&](std::size_t i) { verdicts[i] = check.draw(i); });
+  ParallelLoop for_each_viewpoint(options.points, parts.size() + 1, callback);
+  for_each_viewpoint([&](std::size_t i) { verdicts[i] = check.draw(i); });
   for (std::size_t part = 0; part < parts.size(); ++part) {
     check.turn_to(part);
-    for_all([&](std::size_t i) { check.look(verdicts[i]); });
+    for_each_viewpoint([&](std::size_t i) { check.look(verdicts[i]); });
   }
   internal::parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) check.settle(verdicts[i]);
@@ -587,7 +589,7 @@ VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Tar
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   options.rounding_m = std::min(options.rounding_m, most_rounding_m(volume));
   if (!topology.closed) return report_of_mesh(topology, options);
-  return ManyChecks(scene, std::move(parts), sensor, navigation, volume, options, progress).run();
+  return MultiTargetCheck(scene, std::move(parts), sensor, navigation, volume, options, progress).run();
 }
 
 }  // namespace vantage

@@ -111,11 +111,11 @@ void add(Mesh& mesh, const Mesh& more) {
 class MeshDrawing {
  public:
   MeshDrawing(MeshCase& c, Random& random)
-      : c_(c), random_(random), truth_(c), centre_(vantage::make_target_frame(c.target).origin) {
+      : c_(c), random_(random), oracle_(c), centre_(vantage::make_target_frame(c.target).origin) {
     std::vector<Vec3> places;
     add_special_places(places);
     for (int i = 0; i < 80; ++i) places.push_back(draw_place(c, random));
-    const auto broken = truth_.broken(places);
+    const auto broken = oracle_.broken(places);
     for (std::size_t i = 0; i < places.size(); ++i) (broken[i].empty() ? good_ : c_.suspects).push_back(places[i]);
   }
 
@@ -182,7 +182,7 @@ class MeshDrawing {
   }
 
   bool is_good(const Mesh& mesh) {
-    const auto broken = truth_.broken(mesh.vertices);
+    const auto broken = oracle_.broken(mesh.vertices);
     return std::all_of(broken.begin(), broken.end(), [](const auto& claims) { return claims.empty(); });
   }
 
@@ -249,10 +249,10 @@ class MeshDrawing {
     c_.kind += ", near a limit";
     Vec3& vertex = c_.volume.vertices[any_vertex()];
     Vec3 kept = vertex, broken = pick(c_.suspects);
-    if (!truth_.broken({kept})[0].empty()) return;
+    if (!oracle_.broken({kept})[0].empty()) return;
     for (int step = 0; step < 40; ++step) {
       const Vec3 between = (kept + broken) / 2;
-      (truth_.broken({between})[0].empty() ? kept : broken) = between;
+      (oracle_.broken({between})[0].empty() ? kept : broken) = between;
     }
     vertex = kept + random_.uniform(-3, 3) * random_.pick({1e-9, 1e-6, 1e-4}) * (kept - centre_).norm() *
                         (broken - vertex).stableNormalized();
@@ -404,7 +404,7 @@ class MeshDrawing {
 
   MeshCase& c_;
   Random& random_;
-  Truth truth_;
+  QueryOracle oracle_;
   Vec3 centre_;
   std::vector<Vec3> good_;
 };

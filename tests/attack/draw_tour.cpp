@@ -34,7 +34,7 @@ void add_mesh_box(vantage::Mesh& mesh, const Vec3& middle, const Vec3& half, con
   for (const auto& face : kFaces) mesh.triangles.push_back({first + face[0], first + face[1], first + face[2]});
 }
 
-struct House {
+struct Building {
   Vec3 middle = Vec3::Zero(), half = Vec3::Zero();
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 
@@ -74,14 +74,14 @@ class TourDrawing {
     drawn_.scene.object_of.resize(drawn_.scene.mesh.triangles.size(), object);
   }
 
-  House draw_house() {
-    House house;
-    house.half = {random_.uniform(3, 15), random_.uniform(3, 15), random_.magnitude(1.5, 25)};
-    house.middle = {random_.uniform(-size_, size_), random_.uniform(-size_, size_), house.half.z()};
+  Building draw_building() {
+    Building building;
+    building.half = {random_.uniform(3, 15), random_.uniform(3, 15), random_.magnitude(1.5, 25)};
+    building.middle = {random_.uniform(-size_, size_), random_.uniform(-size_, size_), building.half.z()};
     const double turn = random_.chance(0.5) ? 0 : random_.uniform(0, 2 * std::numbers::pi);
-    house.turn = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
-    if (random_.chance(0.1)) house.middle.z() += random_.uniform(3, 20);  // a bridge
-    return house;
+    building.turn = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+    if (random_.chance(0.1)) building.middle.z() += random_.uniform(3, 20);  // a bridge
+    return building;
   }
 
   void draw_town() {
@@ -95,19 +95,19 @@ class TourDrawing {
     }
     const int count = random_.integer(2, 12);
     for (int i = 0; i < count; ++i) {
-      House house;
+      Building building;
       bool is_free = false;
       for (int tries = 0; tries < 30 && !is_free; ++tries) {
-        house = draw_house();
-        is_free = std::none_of(houses_.begin(), houses_.end(), [&](const House& other) {
-          return (other.middle - house.middle).head<2>().norm() <
-                 other.half.head<2>().norm() + house.half.head<2>().norm() + 0.5;
+        building = draw_building();
+        is_free = std::none_of(buildings_.begin(), buildings_.end(), [&](const Building& other) {
+          return (other.middle - building.middle).head<2>().norm() <
+                 other.half.head<2>().norm() + building.half.head<2>().norm() + 0.5;
         });
       }
       if (!is_free) continue;
-      add_mesh_box(drawn_.scene.mesh, house.middle, house.half, house.turn);
+      add_mesh_box(drawn_.scene.mesh, building.middle, building.half, building.turn);
       end_object("house " + std::to_string(i), vantage::ObjectKind::building);
-      houses_.push_back(house);
+      buildings_.push_back(building);
     }
     drawn_.kind = std::to_string(count) + " houses" + (has_ground_ ? " on ground" : "");
   }
@@ -158,12 +158,12 @@ class TourDrawing {
     }
   }
 
-  /// Away from houses, and from zones to stay out of, at height 0.
+  /// Away from buildings, and from zones to stay out of, at height 0.
   std::optional<Vec3> free_place(double away_m) {
     for (int i = 0; i < 60; ++i) {
       const Vec3 p(random_.uniform(-size_, size_), random_.uniform(-size_, size_), 0);
-      const auto is_near = [&](const House& house) { return house.away(p) < away_m; };
-      if (std::none_of(houses_.begin(), houses_.end(), is_near)) return p;
+      const auto is_near = [&](const Building& building) { return building.away(p) < away_m; };
+      if (std::none_of(buildings_.begin(), buildings_.end(), is_near)) return p;
     }
     return std::nullopt;
   }
@@ -180,15 +180,16 @@ class TourDrawing {
   }
 
   std::vector<Vec3> target() {
-    const House& house = houses_[static_cast<std::size_t>(random_.integer(0, static_cast<int>(houses_.size()) - 1))];
+    const Building& building =
+        buildings_[static_cast<std::size_t>(random_.integer(0, static_cast<int>(buildings_.size()) - 1))];
     const double size = random_.uniform(0.1, 0.8);
     switch (random_.integer(0, 3)) {
       case 0:
-        return outline(house.at(0, 0, 1), size * house.half.x() * house.turn.col(0),
-                       size * house.half.y() * house.turn.col(1));
+        return outline(building.at(0, 0, 1), size * building.half.x() * building.turn.col(0),
+                       size * building.half.y() * building.turn.col(1));
       case 1:
-        return outline(house.at(1, 0, 0), size * house.half.y() * house.turn.col(1),
-                       size * house.half.z() * house.turn.col(2));
+        return outline(building.at(1, 0, 0), size * building.half.y() * building.turn.col(1),
+                       size * building.half.z() * building.turn.col(2));
       case 2: {  // in the air, upright
         const Vec3 along = random_.rotation() * Vec3::UnitX() * random_.uniform(0.5, 4);
         Vec3 middle = free_place(5).value_or(Vec3(0, 0, 200));
@@ -260,7 +261,7 @@ class TourDrawing {
 
   Random random_;
   DrawnTour drawn_;
-  std::vector<House> houses_;
+  std::vector<Building> buildings_;
   std::array<double, 2> agl_ = {0, 1};
   double size_ = 1;
   bool is_mission_ = true, has_ground_ = false, wants_agl_ = false;

@@ -35,7 +35,7 @@ Judgement from_text(const std::string& text) {
   int which = 0;
   Finding f;
   while (in >> which >> f.share >> f.place.x() >> f.place.y() >> f.place.z()) {
-    f.which = static_cast<Class>(which);
+    f.which = static_cast<FindingKind>(which);
     in.get();
     std::getline(in, f.detail);
     j.findings.push_back(f);

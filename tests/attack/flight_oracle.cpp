@@ -76,19 +76,19 @@ double distance_between_segments(const Vec3& a, const Vec3& b, const Vec3& c, co
 bool may_be_hidden_from_point(const Vec3& point, double radius, const Vec3& position, const Corners& triangle,
                               double aside) {
   const Vec3 along = position - point;
-  const auto room = [&](double share) {
+  const auto margin = [&](double share) {
     return (distance_to_triangle(point + share * along, triangle) - radius * (1 - share)) / share;
   };
   double low = 1e-9, high = 1;
   for (int i = 0; i < 120; ++i) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    if (room(a) < room(b)) {
+    if (margin(a) < margin(b)) {
       high = b;
     } else {
       low = a;
     }
   }
-  return std::min(room(low), room(1)) <= aside;
+  return std::min(margin(low), margin(1)) <= aside;
 }
 
 }  // namespace
@@ -113,13 +113,13 @@ OneTarget::OneTarget(const vantage::Scene& scene, const vantage::PreparedTarget&
     const Vec3 centre = prepared.frame(i).origin - blockers_.origin;
     views_.emplace_back(blockers_, parts_[i], strip_width(blockers_, parts_[i], range), centre);
   }
-  rooms_ = std::make_unique<SensorRooms>(sensor_, parts_);
+  margins_ = std::make_unique<SensorMargins>(sensor_, parts_);
 }
 
 std::string OneTarget::surely_not_seen(const Vec3& position, double rounding_m) const {
   const Vec3 at = local(position);
-  for (const Room& room : rooms_->at(at)) {
-    if (room.high < -rounding_m) return room.limit + " by " + std::to_string(-room.high) + " m";
+  for (const Margin& margin : margins_->at(at)) {
+    if (margin.high < -rounding_m) return margin.limit + " by " + std::to_string(-margin.high) + " m";
   }
   if (sensor_.link) {
     const auto entering = entering_zone(*sensor_.link, blockers_, parts_[0].corners[0], at);
@@ -140,16 +140,16 @@ std::vector<Vec3> OneTarget::places_beside(const Vec3& at, double aside_m) const
   return places;
 }
 
-bool OneTarget::surely_seen(const Vec3& position, double aside_m, double room_m) const {
+bool OneTarget::surely_seen(const Vec3& position, double aside_m, double margin_m) const {
   const Vec3 at = local(position);
-  for (const Room& room : rooms_->at(at)) {
-    if (!(room.low > room_m)) return false;
+  for (const Margin& margin : margins_->at(at)) {
+    if (!(margin.low > margin_m)) return false;
   }
   if (sensor_.link) {
     vantage::RadioLink wide = *sensor_.link;
     // More than twice too long a way; and that of the smallest part of a leg, which a short wave's zone is less than.
     const double excess = wide.clear * wide.clear * 0.299792458 / wide.frequency_ghz / 2;
-    wide.clear *= std::sqrt(2.25 + room_m / excess);
+    wide.clear *= std::sqrt(2.25 + margin_m / excess);
     for (const Vec3& place : places_beside(at, aside_m)) {
       if (entering_zone(wide, blockers_, parts_[0].corners[0], place)) return false;
     }
@@ -262,10 +262,10 @@ std::string FlightOracle::surely_not_seen(const Vec3& position, double rounding_
   return {};
 }
 
-bool FlightOracle::surely_seen(const Vec3& position, double aside_m, double room_m) const {
+bool FlightOracle::surely_seen(const Vec3& position, double aside_m, double margin_m) const {
   return std::all_of(lists_.begin(), lists_.end(), [&](const auto& list) {
     return std::any_of(list.begin(), list.end(),
-                       [&](const auto& target) { return target->surely_seen(position, aside_m, room_m); });
+                       [&](const auto& target) { return target->surely_seen(position, aside_m, margin_m); });
   });
 }
 

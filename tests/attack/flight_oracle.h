@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "flight_rooms.h"
+#include "flight_margins.h"
 #include "trial.h"
 #include "vantage/mission.h"
 #include "vantage/query.h"
@@ -30,9 +30,9 @@ class OneTarget {
 
   /// Why not all of it is seen from there, whatever the guarantee excepts (vantage/query.h); empty: it is not sure.
   std::string surely_not_seen(const Vec3& position, double rounding_m) const;
-  /// Whether all of it is seen with some room: neither a place `aside_m` beside nor an outline larger by that changes
+  /// Whether all of it is seen with some margin: neither a place `aside_m` beside nor an outline larger by that changes
   /// it. `link_share`: of the zone of a link, that must be free.
-  bool surely_seen(const Vec3& position, double aside_m, double room_m) const;
+  bool surely_seen(const Vec3& position, double aside_m, double margin_m) const;
   /// Whether a triangle of the object hides something from there, surely.
   bool surely_hidden_by(const Vec3& position, std::uint32_t object) const;
   /// Whether a triangle of the object hides something from the position, or from somewhere `aside_m` beside it.
@@ -43,7 +43,7 @@ class OneTarget {
   /// place between them tells all. Nothing where that would take too long.
   std::vector<HiddenPart> hidden_parts(const vantage::Leg& leg) const;
 
-  std::vector<Room> rooms(const Vec3& position) const { return rooms_->at(local(position)); }
+  std::vector<Margin> margins(const Vec3& position) const { return margins_->at(local(position)); }
   /// For each place on the way from the target to it, what is added by rounding of 1e-9 of the distance.
   double reach(const Vec3& position) const;
   const vantage::Sensor& sensor() const { return sensor_; }
@@ -60,7 +60,7 @@ class OneTarget {
   Blockers blockers_;
   std::vector<SeenTarget> parts_;
   std::deque<PartView> views_;
-  std::unique_ptr<SensorRooms> rooms_;
+  std::unique_ptr<SensorMargins> margins_;
 };
 
 /// One volume of a mission: a position sees, of each list, one target or more.
@@ -69,7 +69,7 @@ class FlightOracle {
   FlightOracle(const vantage::Mission& one_volume, const vantage::PreparedScene& scene);
 
   std::string surely_not_seen(const Vec3& position, double rounding_m) const;
-  bool surely_seen(const Vec3& position, double aside_m, double room_m) const;
+  bool surely_seen(const Vec3& position, double aside_m, double margin_m) const;
   /// The one target, where there is no other.
   const OneTarget* single() const;
   const std::vector<std::vector<std::unique_ptr<OneTarget>>>& lists() const { return lists_; }

@@ -18,9 +18,9 @@ constexpr const char* kNames[kClasses] = {
 
 }  // namespace
 
-const char* name_of(Class which) { return kNames[static_cast<int>(which)]; }
+const char* name_of(FindingKind which) { return kNames[static_cast<int>(which)]; }
 
-bool is_wrong(Class which) { return which < Class::shallow; }
+bool is_wrong(FindingKind which) { return which < FindingKind::shallow; }
 
 void Judgement::add(Finding finding) {
   for (Finding& f : findings) {
@@ -31,7 +31,7 @@ void Judgement::add(Finding finding) {
   findings.push_back(std::move(finding));
 }
 
-const Finding* Judgement::find(Class which) const {
+const Finding* Judgement::find(FindingKind which) const {
   const auto at = std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.which == which; });
   return at == findings.end() ? nullptr : &*at;
 }
@@ -56,16 +56,16 @@ bool PartView::surely_hides(std::size_t triangle, const Vec3& point) const {
   return std::all_of(inner.begin(), inner.end(), [&](const View& view) { return view.hides(triangle, point); });
 }
 
-std::optional<std::size_t> PartView::surely_hiding(const Vec3& point, Which which) const {
-  std::optional<std::size_t> found = inner[0].first_hiding(point, which);
-  while (found && !surely_hides(*found, point)) found = inner[0].first_hiding(point, which, *found + 1);
+std::optional<std::size_t> PartView::surely_hiding(const Vec3& point, TriangleFilter filter) const {
+  std::optional<std::size_t> found = inner[0].first_hiding(point, filter);
+  while (found && !surely_hides(*found, point)) found = inner[0].first_hiding(point, filter, *found + 1);
   return found;
 }
 
-std::optional<std::size_t> PartView::surely_hiding(const Corners& facet, Which which) const {
+std::optional<std::size_t> PartView::surely_hiding(const Corners& facet, TriangleFilter filter) const {
   std::optional<std::size_t> found;
   for (const View& view : inner) {
-    found = view.first_hiding(facet, which);
+    found = view.first_hiding(facet, filter);
     if (!found) break;
   }
   return found;
@@ -110,7 +110,7 @@ Judgement judge(const Case& c, const Answer& answer, const JudgeOptions& options
   if (answer.thrown) {
     result.status = answer.defect ? "defect" : "refused: " + answer.refusal;
     if (answer.defect) {
-      result.add({Class::defect, 0, Vec3::Zero(), answer.message});
+      result.add({FindingKind::defect, 0, Vec3::Zero(), answer.message});
     } else {
       judge_refusal(trial);
     }
@@ -128,7 +128,7 @@ Judgement judge(const Case& c, const Answer& answer, const JudgeOptions& options
   if (options.query && !c.sensor.link) judge_query(trial);
   if (options.reversed && c.parts.size() == 1 && !c.parts[0].is_point()) {
     const std::string differs = reversed_differs(c, answer.parts[0]);
-    if (!differs.empty()) result.add({Class::reversed, 0, Vec3::Zero(), differs});
+    if (!differs.empty()) result.add({FindingKind::reversed, 0, Vec3::Zero(), differs});
   }
   return result;
 }

@@ -9,7 +9,7 @@
 
 namespace attack {
 
-enum class Class {
+enum class FindingKind {
   // Wrong: the attack fails.
   over_claim,       ///< a point deeper inside than kDepth of its distance does not see all of the target
   thin_over_claim,  ///< likewise, and only triangles thinner than a nanometre hide it
@@ -37,16 +37,16 @@ enum class Class {
   lift_refusal,  ///< refused, though all is clear; something is over the target by less than the lift that is stated
   reversed,      ///< the target's corners in the other order give another volume, or comparing the two fails
 };
-inline constexpr int kClasses = static_cast<int>(Class::reversed) + 1;
+inline constexpr int kClasses = static_cast<int>(FindingKind::reversed) + 1;
 
-const char* name_of(Class which);
-bool is_wrong(Class which);
+const char* name_of(FindingKind which);
+bool is_wrong(FindingKind which);
 
 /// What the engine guarantees, in parts of the distance to the target's centre.
 inline constexpr double kDepth = 1e-6;
 
 struct Finding {
-  Class which;
+  FindingKind which;
   double share = 0;  ///< how deep, how far apart: in parts of the distance to the target's centre
   vantage::Vec3 place = vantage::Vec3::Zero();  ///< scene frame
   std::string detail;
@@ -66,7 +66,7 @@ struct Judgement {
   double worst_gap = 0;  ///< the greatest share of a line of sight that is not claimed
 
   void add(Finding finding);
-  const Finding* find(Class which) const;
+  const Finding* find(FindingKind which) const;
   bool wrong() const;
 };
 

@@ -18,16 +18,18 @@ class Claims {
   bool check_mesh() {
     const vantage::Volume& volume = trial_.answer.volume;
     const MeshFaults found = faults(volume.mesh);
-    if (found.bad_index) trial_.result.add({Class::bad_mesh, 0, Vec3::Zero(), "an index is out of range"});
+    if (found.bad_index) trial_.result.add({FindingKind::bad_mesh, 0, Vec3::Zero(), "an index is out of range"});
     if (found.open_edges > 0)
-      trial_.result.add({Class::bad_mesh, 0, Vec3::Zero(), std::to_string(found.open_edges) + " edges do not cancel"});
+      trial_.result.add(
+          {FindingKind::bad_mesh, 0, Vec3::Zero(), std::to_string(found.open_edges) + " edges do not cancel"});
     if (found.flat_facets > 0)
-      trial_.result.add({Class::flat_facets, 0, Vec3::Zero(), std::to_string(found.flat_facets) + " without area"});
+      trial_.result.add(
+          {FindingKind::flat_facets, 0, Vec3::Zero(), std::to_string(found.flat_facets) + " without area"});
     if (volume.cause_of.size() != volume.mesh.triangles.size())
-      trial_.result.add({Class::bad_causes, 0, Vec3::Zero(), "not one cause a facet"});
+      trial_.result.add({FindingKind::bad_causes, 0, Vec3::Zero(), "not one cause a facet"});
     for (const std::uint32_t cause : volume.cause_of) {
       if (cause >= volume.causes.size())
-        trial_.result.add({Class::bad_causes, 0, Vec3::Zero(), "cause " + std::to_string(cause)});
+        trial_.result.add({FindingKind::bad_causes, 0, Vec3::Zero(), "cause " + std::to_string(cause)});
     }
     trial_.result.facets = mesh_.size();
     return !found.bad_index && found.open_edges == 0;
@@ -110,28 +112,28 @@ class Claims {
     ++trial_.result.viewpoints;
     for (const PartView& part : trial_.parts) check(p, part);
     const std::string broken = limit_broken(trial_.to_scene(p));
-    if (!broken.empty()) report(Class::outside_limits, p, broken);
+    if (!broken.empty()) report(FindingKind::outside_limits, p, broken);
     const SeenTarget& target = trial_.parts[0].exact.target();
     const std::string of_sensor = sensor_limit_broken(trial_.c.sensor, target, p);
-    if (!of_sensor.empty()) report(Class::outside_limits, p, of_sensor);
+    if (!of_sensor.empty()) report(FindingKind::outside_limits, p, of_sensor);
     if (const auto& link = trial_.c.sensor.link) {
       const auto entering = entering_zone(*link, trial_.blockers, target.corners[0], p);
-      if (entering) report(Class::over_claim, p, trial_.object_of(*entering) + " enters the zone");
+      if (entering) report(FindingKind::over_claim, p, trial_.object_of(*entering) + " enters the zone");
     }
   }
 
   void check(const Vec3& p, const PartView& part) {
     const SeenTarget& target = part.exact.target();
-    if (!target.all_sides && target.height(p) < -trial_.noise()) report(Class::behind_target, p, "");
-    if (!part.exact.in_range(p, trial_.c.range)) report(Class::out_of_range, p, "");
+    if (!target.all_sides && target.height(p) < -trial_.noise()) report(FindingKind::behind_target, p, "");
+    if (!part.exact.in_range(p, trial_.c.range)) report(FindingKind::out_of_range, p, "");
     const auto hidden = part.exact.first_hiding(p);
     if (!hidden) return;
-    if (const auto solid = part.surely_hiding(p, Which::not_thin)) {
-      report(Class::over_claim, p, trial_.object_of(*solid), merged_by(*solid, p, part));
+    if (const auto solid = part.surely_hiding(p, TriangleFilter::not_thin)) {
+      report(FindingKind::over_claim, p, trial_.object_of(*solid), merged_by(*solid, p, part));
     } else if (const auto thin = part.surely_hiding(p)) {
-      report(Class::thin_over_claim, p, trial_.object_of(*thin), merged_by(*thin, p, part));
+      report(FindingKind::thin_over_claim, p, trial_.object_of(*thin), merged_by(*thin, p, part));
     } else {
-      report(Class::touching, p, trial_.object_of(*hidden));
+      report(FindingKind::touching, p, trial_.object_of(*hidden));
     }
   }
 
@@ -142,7 +144,7 @@ class Claims {
   }
 
   /// Only what lies deeper than the guarantee allows counts.
-  void report(Class which, const Vec3& p, const std::string& detail, double late = 0) {
+  void report(FindingKind which, const Vec3& p, const std::string& detail, double late = 0) {
     const double away = (p - trial_.parts[0].centre).norm();
     const double share = mesh_.distance(p) / away;
     if (share > kDepth + (trial_.rounding() + late) / away) {
@@ -150,8 +152,8 @@ class Claims {
     } else {
       const Vec3& centre = trial_.parts[0].centre;
       const Vec3 outer = centre + (p - centre) / (1 - kDepth);
-      if (which == Class::over_claim && mesh_.locate(outer) == Place::inside)
-        trial_.result.add({Class::shallow, share, trial_.to_scene(p), detail});
+      if (which == FindingKind::over_claim && mesh_.locate(outer) == Place::inside)
+        trial_.result.add({FindingKind::shallow, share, trial_.to_scene(p), detail});
     }
   }
 
@@ -210,7 +212,7 @@ class Claims {
 
   std::optional<std::size_t> hidden(const Corners& facet, const PartView& part, Level level) const {
     if (level == as_stored) return part.exact.first_hiding(facet);
-    return part.surely_hiding(facet, level == smaller ? Which::all : Which::not_thin);
+    return part.surely_hiding(facet, level == smaller ? TriangleFilter::all : TriangleFilter::not_thin);
   }
 
   // The theorem: let no triangle of the scene meet the interior of conv(facet, target), for every facet that faces away
@@ -264,7 +266,7 @@ class Claims {
     look_behind(i, 15);
     if (count() > before) return;
     const Corners facet = mesh_.corners(i);
-    trial_.result.add({level == as_stored ? Class::touching : Class::shallow, 0,
+    trial_.result.add({level == as_stored ? FindingKind::touching : FindingKind::shallow, 0,
                        trial_.to_scene((facet[0] + facet[1] + facet[2]) / 3), "facet " + std::to_string(i)});
   }
 

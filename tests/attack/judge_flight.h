@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "flight_margins.h"
 #include "flight_oracle.h"
-#include "flight_rooms.h"
 #include "flights.h"
 #include "random.h"
 #include "vantage/mission.h"
@@ -48,7 +48,7 @@ inline bool holds(const std::vector<FlightSpan>& spans, double at_m, double slac
   });
 }
 
-using RoomsAt = std::function<std::vector<Room>(const Vec3&)>;
+using MarginsAt = std::function<std::vector<Margin>(const Vec3&)>;
 
 class FlightJudge {
  public:
@@ -109,7 +109,7 @@ class FlightJudge {
   void miss(const FlightOracle& oracle, const FlightPlace& at, const vantage::TargetCheck& target);
 
   /// Of a tube places are tried: what is found is told, no more.
-  void miss_in_tube(const FlightOracle& oracle, const FlightPlace& at, double room);
+  void miss_in_tube(const FlightOracle& oracle, const FlightPlace& at, double margin);
 
   /// What triangles hide, told without samples: it may not meet what is claimed. Beside the ends places are judged.
   void add_hidden(const OneTarget& target, const vantage::TargetCheck& check, std::vector<FlightPlace>& judged);
@@ -123,8 +123,8 @@ class FlightJudge {
 
   void judge_hidden(const vantage::TargetCheck& check, const OneTarget& target);
 
-  /// Spans in which a limit is broken. `is_measured`: its room is a distance, so that it tells of tubes too.
-  void judge_limit(const std::string& limit, const std::vector<FlightSpan>& spans, const RoomsAt& rooms,
+  /// Spans in which a limit is broken. `is_measured`: its margin is a distance, so that it tells of tubes too.
+  void judge_limit(const std::string& limit, const std::vector<FlightSpan>& spans, const MarginsAt& margins,
                    bool is_measured, bool is_searched);
 
   // ---- navigation ----
@@ -134,7 +134,7 @@ class FlightJudge {
   bool has_agl(const std::string& limit) const;
 
   /// It is what the place says, and hardly less than elsewhere.
-  void judge_worst(const vantage::BrokenLimit& limit, const RoomsAt& rooms, bool is_measured);
+  void judge_worst(const vantage::BrokenLimit& limit, const MarginsAt& margins, bool is_measured);
 
   // ---- the rest ----
 

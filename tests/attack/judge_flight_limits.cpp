@@ -5,55 +5,56 @@
 
 namespace attack {
 
-void FlightJudge::judge_limit(const std::string& limit, const std::vector<FlightSpan>& spans, const RoomsAt& rooms,
+void FlightJudge::judge_limit(const std::string& limit, const std::vector<FlightSpan>& spans, const MarginsAt& margins,
                               bool is_measured, bool is_searched) {
-  const auto room_at = [&](const Vec3& p) {
-    for (const Room& room : rooms(p)) {
-      if (room.limit == limit) return room;
+  const auto margin_at = [&](const Vec3& p) {
+    for (const Margin& margin : margins(p)) {
+      if (margin.limit == limit) return margin;
     }
-    return Room{limit, 1, -1};  // not known
+    return Margin{limit, 1, -1};  // not known
   };
   for (const FlightPlace& at : places({&spans}, 6)) {
     result_.count("positions and limits");
-    const Room room = room_at(at.position);
+    const Margin margin = margin_at(at.position);
     const double rounding = rounding_of(at.position);
     const bool is_told = holds(spans, at.at_m, slack_m());
     if (!is_told) {
       const double least = is_measured ? radius_ : 0;
-      if (room.high < least - rounding - 1e-9 * radius_) {
-        wrong("limit", limit + " is not told at " + place_text(at.position) + ", where " + std::to_string(room.high) +
+      if (margin.high < least - rounding - 1e-9 * radius_) {
+        wrong("limit", limit + " is not told at " + place_text(at.position) + ", where " + std::to_string(margin.high) +
                            " m are left");
       }
       for (int i = 0; i < 2 && radius_ > 0; ++i) {
         const Vec3 beside = in_tube(at.position);
-        if (room_at(beside).high < -rounding) wrong("limit of a tube", limit + " is not told at " + place_text(beside));
+        if (margin_at(beside).high < -rounding)
+          wrong("limit of a tube", limit + " is not told at " + place_text(beside));
       }
     } else if (!is_near_end(spans, at.at_m) && (is_measured || !(radius_ > 0))) {
       double slack = 4 * rounding + 1e-9 * radius_;
       if (is_searched) slack += 2.5 * std::min(1e-3, 1e-5 * length(at.leg)) + 1e-6 * drawn_.scale;
-      if (room.low > radius_ + slack) {
-        wrong("limit without need",
-              limit + " is told at " + place_text(at.position) + ", where " + std::to_string(room.low) + " m are left");
+      if (margin.low > radius_ + slack) {
+        wrong("limit without need", limit + " is told at " + place_text(at.position) + ", where " +
+                                        std::to_string(margin.low) + " m are left");
       }
     }
   }
 }
 
 void FlightJudge::judge_navigation() {
-  const NavigationRooms limits(drawn_.mission.navigation);
-  const auto rooms = [&](const Vec3& p) { return limits.at(p); };
+  const NavigationMargins limits(drawn_.mission.navigation);
+  const auto margins = [&](const Vec3& p) { return limits.at(p); };
   std::map<std::string, const vantage::BrokenLimit*> told;
   for (const vantage::BrokenLimit& limit : check_.broken) told[limit.name] = &limit;
-  for (const Room& room : limits.at(leg(0).from)) {
-    const auto found = told.find(room.limit);
+  for (const Margin& margin : limits.at(leg(0).from)) {
+    const auto found = told.find(margin.limit);
     const std::vector<FlightSpan> none;
     // Above ground, heights count, not distances.
     const bool is_measured =
-        room.limit.find("agl") == std::string::npos && room.limit != "ground edge" && !has_agl(room.limit);
-    judge_limit(room.limit, found == told.end() ? none : found->second->spans, rooms, is_measured || !(radius_ > 0),
+        margin.limit.find("agl") == std::string::npos && margin.limit != "ground edge" && !has_agl(margin.limit);
+    judge_limit(margin.limit, found == told.end() ? none : found->second->spans, margins, is_measured || !(radius_ > 0),
                 false);
-    if (found != told.end()) judge_worst(*found->second, rooms, is_measured);
-    told.erase(room.limit);
+    if (found != told.end()) judge_worst(*found->second, margins, is_measured);
+    told.erase(margin.limit);
   }
   for (const auto& [name, limit] : told) wrong("limit", "there is none of the name " + name);
 }
@@ -67,11 +68,11 @@ bool FlightJudge::has_agl(const std::string& limit) const {
   return limit.starts_with("keep_out zone") ? has(navigation.keep_out) : limit == "keep_in" && has(navigation.keep_in);
 }
 
-void FlightJudge::judge_worst(const vantage::BrokenLimit& limit, const RoomsAt& rooms, bool is_measured) {
+void FlightJudge::judge_worst(const vantage::BrokenLimit& limit, const MarginsAt& margins, bool is_measured) {
   if (!is_measured || !std::isfinite(limit.worst)) return;
-  for (const Room& room : rooms(limit.worst_at)) {
-    if (room.limit != limit.name) continue;
-    const double there = std::max(0.0, radius_ - room.low);
+  for (const Margin& margin : margins(limit.worst_at)) {
+    if (margin.limit != limit.name) continue;
+    const double there = std::max(0.0, radius_ - margin.low);
     if (std::abs(limit.worst - there) > 1e-9 * drawn_.scale + 8 * rounding_of(limit.worst_at)) {
       wrong("worst", limit.name + " " + std::to_string(limit.worst) + " at " + place_text(limit.worst_at) +
                          ", where it is " + std::to_string(there));

@@ -83,10 +83,10 @@ void FlightJudge::miss(const FlightOracle& oracle, const FlightPlace& at, const 
   wrong("under-claim", place_text(at.position) + " of leg " + std::to_string(at.leg) + ", " + target.name + " is seen");
 }
 
-void FlightJudge::miss_in_tube(const FlightOracle& oracle, const FlightPlace& at, double room) {
-  const double larger = 1.02 * radius_ + room;
+void FlightJudge::miss_in_tube(const FlightOracle& oracle, const FlightPlace& at, double margin) {
+  const double larger = 1.02 * radius_ + margin;
   for (int i = 0; i < 40; ++i) {
-    if (!oracle.surely_seen(at.position + larger * random_.direction(), 0, room)) return;
+    if (!oracle.surely_seen(at.position + larger * random_.direction(), 0, margin)) return;
   }
   result_.count("not claimed, and nothing is found in the tube");
 }
@@ -125,25 +125,25 @@ std::vector<FlightSpan> FlightJudge::spans_of(const vantage::TargetCheck& check,
 void FlightJudge::judge_reasons(const vantage::TargetCheck& check, const OneTarget& target) {
   using Kind = vantage::NotSeen::Kind;
   if (!target.sensor().link) judge_hidden(check, target);
-  const auto rooms = [&](const Vec3& p) { return target.rooms(p); };
+  const auto margins = [&](const Vec3& p) { return target.margins(p); };
   const bool turns = target.sensor().camera && !target.sensor().mount.is_fixed();
-  for (const Room& room : target.rooms(leg(0).from)) {
-    const bool is_range = room.limit == "max_range", is_behind = room.limit == "behind";
-    const std::vector<std::string> names = is_range || is_behind   ? std::vector<std::string>{""}
-                                           : room.limit == "frame" ? std::vector<std::string>{"frame", "gimbal"}
-                                                                   : std::vector<std::string>{room.limit};
+  for (const Margin& margin : target.margins(leg(0).from)) {
+    const bool is_range = margin.limit == "max_range", is_behind = margin.limit == "behind";
+    const std::vector<std::string> names = is_range || is_behind     ? std::vector<std::string>{""}
+                                           : margin.limit == "frame" ? std::vector<std::string>{"frame", "gimbal"}
+                                                                     : std::vector<std::string>{margin.limit};
     const Kind kind = is_range ? Kind::out_of_range : is_behind ? Kind::behind : Kind::limit;
-    const bool is_measured = room.limit != "sun" && !(room.limit == "frame" && (turns || radius_ > 0));
-    judge_limit(room.limit, spans_of(check, kind, names), rooms, is_measured, turns && room.limit == "frame");
+    const bool is_measured = margin.limit != "sun" && !(margin.limit == "frame" && (turns || radius_ > 0));
+    judge_limit(margin.limit, spans_of(check, kind, names), margins, is_measured, turns && margin.limit == "frame");
   }
 }
 
 void FlightJudge::judge_hidden(const vantage::TargetCheck& check, const OneTarget& target) {
   const auto& objects = drawn_.mission.scene().objects;
   const auto is_in_view = [&](const Vec3& p) {
-    for (const Room& room : target.rooms(p)) {
-      const bool counts = room.limit == "max_range" || room.limit == "behind";
-      if (counts && room.low < rounding_of(p)) return false;
+    for (const Margin& margin : target.margins(p)) {
+      const bool counts = margin.limit == "max_range" || margin.limit == "behind";
+      if (counts && margin.low < rounding_of(p)) return false;
     }
     return true;
   };

@@ -75,7 +75,7 @@ class Losses {
     if (mesh_.size() > 0 && (mesh_.locate(place) != Place::outside ||
                              mesh_.distance(place) <= kDepth * (place - view_.centre).norm() + trial_.rounding()))
       return;
-    trial_.result.add({Class::under_claim, gap, trial_.to_scene(place), ""});
+    trial_.result.add({FindingKind::under_claim, gap, trial_.to_scene(place), ""});
   }
 
   Trial& trial_;
@@ -159,7 +159,7 @@ void judge_outcome(Trial& trial) {
   if (outcome == Outcome::blocked_at_once && is_beside_point(trial)) return;
   const double least = outcome == Outcome::blocked_at_once ? 0.1 * small_world(trial.c.range) : 0;
   const Vec3 p = find_clear(trial, grown_views(trial), least, 400);
-  if (p.allFinite()) trial.result.add({Class::bad_outcome, 0, trial.to_scene(p), trial.result.status});
+  if (p.allFinite()) trial.result.add({FindingKind::bad_outcome, 0, trial.to_scene(p), trial.result.status});
 }
 
 // A triangle that hides no part of the target may yet be refused where it is over it by less than the lift that the
@@ -173,7 +173,8 @@ void judge_refusal(Trial& trial) {
   const bool is_low = trial.answer.refusal == "pierced" &&
                       std::any_of(views.begin(), views.end(),
                                   [&](const View& view) { return lowest_over(trial, view.target()) < most_lift; });
-  trial.result.add({is_low ? Class::lift_refusal : Class::false_refusal, 0, trial.to_scene(p), trial.answer.message});
+  trial.result.add(
+      {is_low ? FindingKind::lift_refusal : FindingKind::false_refusal, 0, trial.to_scene(p), trial.answer.message});
 }
 
 }  // namespace attack

@@ -24,7 +24,7 @@ class Queries {
     std::string message;
     const auto answers = ask_query(trial_.c, part_, in_scene, message);
     if (!answers) {
-      trial_.result.add({Class::defect, 0, Vec3::Zero(), "query_points throws: " + message});
+      trial_.result.add({FindingKind::defect, 0, Vec3::Zero(), "query_points throws: " + message});
       return;
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -61,17 +61,17 @@ class Queries {
       const bool is_deep = answer.margin_m > step * away;
       if (height < 0 || !view_.exact.in_range(nearer, trial_.c.range) ||
           is_hidden_all_round(p, is_deep ? trial_.rounding() : step * away))
-        trial_.result.add({Class::query_over, place_margin, trial_.to_scene(p), ""});
+        trial_.result.add({FindingKind::query_over, place_margin, trial_.to_scene(p), ""});
       return;
     }
     // A point is computed as a small triangle about it.
     if (!target.is_point() && height > 0 && view_.exact.in_range(farther, trial_.c.range) && view_.exact.clear(farther))
-      trial_.result.add({Class::query_under, place_margin, trial_.to_scene(p), names(answer)});
+      trial_.result.add({FindingKind::query_under, place_margin, trial_.to_scene(p), names(answer)});
     if (!target.is_point() && height > 0) check_names(nearer, farther, answer);
   }
 
   bool is_surely_hidden(const Vec3& p) const {
-    return view_.exact.first_hiding(p) && view_.surely_hiding(p, Which::not_thin);
+    return view_.exact.first_hiding(p) && view_.surely_hiding(p, TriangleFilter::not_thin);
   }
 
   /// Whether the target is hidden from there, and from so far away in any of some directions: towards the centre and
@@ -107,11 +107,11 @@ class Queries {
     const std::set<std::string> named(answer.blocked_by.begin(), answer.blocked_by.end());
     for (const std::string& name : named) {
       if (!perhaps.contains(name))
-        trial_.result.add({Class::blocked_by, 0, trial_.to_scene(farther), name + " hides nothing"});
+        trial_.result.add({FindingKind::blocked_by, 0, trial_.to_scene(farther), name + " hides nothing"});
     }
     for (const std::string& name : surely) {
       if (!named.contains(name))
-        trial_.result.add({Class::blocked_by, 0, trial_.to_scene(farther), name + " is not named"});
+        trial_.result.add({FindingKind::blocked_by, 0, trial_.to_scene(farther), name + " is not named"});
     }
   }
 
@@ -127,7 +127,7 @@ class Queries {
     const double gap = (std::min(asked, in_range) - reached) / std::max(asked, reached);
     const double step = kDepth + trial_.rounding() / away;
     if (gap > 2 * step || reached > asked * (1 + step)) {
-      trial_.result.add({Class::query_mesh, std::max(gap, (reached - asked) / reached), trial_.to_scene(p),
+      trial_.result.add({FindingKind::query_mesh, std::max(gap, (reached - asked) / reached), trial_.to_scene(p),
                          gap > 0 ? "the mesh ends sooner" : "the mesh goes on"});
     }
   }

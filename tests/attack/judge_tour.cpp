@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "closed_mesh.h"
+#include "flight_margins.h"
 #include "flight_oracle.h"
-#include "flight_rooms.h"
 #include "tours.h"
 #include "vantage/error.h"
 
@@ -153,13 +153,14 @@ class TourJudge {
   }
 
   void judge_navigation() {
-    const NavigationRooms limits(drawn_.navigation);
+    const NavigationMargins limits(drawn_.navigation);
     for (std::size_t i = 0; i < tour_.flight.leg_count(); ++i) {
       for_each_place(i, [&](const Vec3& place) {
         result_.count("places before limits");
-        for (const Room& room : limits.at(place)) {
-          if (room.high < -kTourRoundingM)
-            wrong("limit", room.limit + " at " + tour_place_text(place) + " by " + std::to_string(-room.high) + " m");
+        for (const Margin& margin : limits.at(place)) {
+          if (margin.high < -kTourRoundingM)
+            wrong("limit",
+                  margin.limit + " at " + tour_place_text(place) + " by " + std::to_string(-margin.high) + " m");
         }
         const bool is_low = place.z() <= 0 && !drawn_.scene.objects.empty() &&
                             drawn_.scene.objects[0].kind == vantage::ObjectKind::ground;

@@ -154,7 +154,7 @@ class Attack {
     const Case c = draw_case(options_.seed, index);
     Judgement judgement;
     if (exit.crashed || exit.hung) {
-      judgement.add({exit.hung ? Class::hang : Class::crash, 0, Vec3::Zero(), exit.how});
+      judgement.add({exit.hung ? FindingKind::hang : FindingKind::crash, 0, Vec3::Zero(), exit.how});
     } else {
       judgement = from_text(exit.text);
     }
@@ -168,7 +168,7 @@ class Attack {
   }
 
   void write(std::size_t index, const Case& c, const Finding& f) {
-    const bool slow = f.which == Class::hang;
+    const bool slow = f.which == FindingKind::hang;
     const Case small =
         minimise(c, f, judge_options(index), slow ? options_.seconds / 4 : options_.seconds, slow ? 25 : 300);
     std::string folder = name_of(f.which);
@@ -186,7 +186,7 @@ class Attack {
 
   Options options_;
   Summary summary_;
-  std::map<Class, int> written_;
+  std::map<FindingKind, int> written_;
 };
 
 int judge_mission(const Options& options) {

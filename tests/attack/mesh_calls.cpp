@@ -137,13 +137,13 @@ Verdicts prove(const MeshCase& c) {
   return verdicts;
 }
 
-struct Truth::Data {
+struct QueryOracle::Data {
   std::vector<TargetFrame> frames;
   std::vector<PointQuery> sides;
   Sensor sensor;
 };
 
-Truth::Truth(const MeshCase& c) : data_(std::make_shared<Data>()) {
+QueryOracle::QueryOracle(const MeshCase& c) : data_(std::make_shared<Data>()) {
   const PreparedScene scene(c.scene);
   for (const Target& side : sides_of(c)) {
     const PreparedTarget target(scene, side, c.sensor);
@@ -153,7 +153,7 @@ Truth::Truth(const MeshCase& c) : data_(std::make_shared<Data>()) {
   data_->sensor = c.sensor;
 }
 
-std::vector<std::vector<std::string>> Truth::broken(const std::vector<Vec3>& points) {
+std::vector<std::vector<std::string>> QueryOracle::broken(const std::vector<Vec3>& points) {
   std::vector<std::vector<PointAnswer>> answers;
   for (PointQuery& side : data_->sides) answers.push_back(side.answer(points));
   std::vector<std::vector<std::string>> broken;

@@ -62,9 +62,9 @@ struct Verdicts {
 Verdicts prove(const MeshCase& c);
 
 /// Which claims a point breaks, as query_points sees it. Not for meshes: of lines of sight and limits alone.
-class Truth {
+class QueryOracle {
  public:
-  explicit Truth(const MeshCase& c);
+  explicit QueryOracle(const MeshCase& c);
 
   /// Names of claims, for each point. Of both sides: of the one that it is in front of.
   std::vector<std::vector<std::string>> broken(const std::vector<Vec3>& points);

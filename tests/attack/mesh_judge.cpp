@@ -38,7 +38,7 @@ double layer_of(const Report& report) {
 class MeshJudge {
  public:
   MeshJudge(const MeshCase& c, const Verdicts& verdicts)
-      : c_(c), verdicts_(verdicts), mesh_(c.volume), truth_(c), random_(c.seed) {
+      : c_(c), verdicts_(verdicts), mesh_(c.volume), oracle_(c), random_(c.seed) {
     for (std::size_t i = 0; i < c.target.parts.size(); ++i) {
       const vantage::TargetFrame frame = vantage::make_target_frame(c.target, i);
       centres_.push_back(frame.origin);
@@ -85,7 +85,7 @@ class MeshJudge {
         }
       }
     }
-    const auto broken = truth_.broken(about);
+    const auto broken = oracle_.broken(about);
     return std::all_of(broken.begin(), broken.end(), [&](const auto& claims) { return has(claims, claim); });
   }
 
@@ -163,7 +163,7 @@ class MeshJudge {
       if (turns(point) != 0) inside.push_back(point);
     }
     result.inside = inside.size();
-    const auto broken = truth_.broken(inside);
+    const auto broken = oracle_.broken(inside);
     std::map<std::string, int> found, tried;
     constexpr int kMostTried = 20;  // most of what is near a limit is so by less than what is allowed
     for (std::size_t i = 0; i < inside.size(); ++i) {
@@ -197,7 +197,7 @@ class MeshJudge {
         }
       }
     }
-    const auto broken = truth_.broken(there);
+    const auto broken = oracle_.broken(there);
     if (std::any_of(broken.begin(), broken.end(), [](const auto& of) { return has(of, "sight"); })) return "";
     return "the volume does not wind round it, to a depth of " + std::to_string(view.depth_m);
   }
@@ -237,7 +237,7 @@ class MeshJudge {
       }
     }
     if (there.empty()) return "the volume does not wind round it, by " + std::to_string(claim.broken_by_m);
-    const auto broken = truth_.broken(there);
+    const auto broken = oracle_.broken(there);
     const bool holds = std::any_of(broken.begin(), broken.end(), [&](const auto& of) { return has(of, claim.name); });
     return holds ? "" : "the limit is kept there, by " + std::to_string(claim.broken_by_m);
   }
@@ -245,7 +245,7 @@ class MeshJudge {
   const MeshCase& c_;
   const Verdicts& verdicts_;
   ClosedMesh mesh_;
-  Truth truth_;
+  QueryOracle oracle_;
   Random random_;
   std::vector<Vec3> centres_;
   double tolerance_ = 0, margin_ = 0, largest_ = 0, layer_ = 0;

@@ -104,7 +104,7 @@ class Minimiser {
   }
 
   Case best_;
-  Class which_;
+  FindingKind which_;
   double least_;
   JudgeOptions options_;
   unsigned seconds_;
@@ -118,7 +118,7 @@ Judgement judge_isolated(const Case& c, const JudgeOptions& options, unsigned se
   if (!exit.crashed && !exit.hung) return from_text(exit.text);
   Judgement judgement;
   judgement.status = exit.hung ? "hang" : "crash";
-  judgement.add({exit.hung ? Class::hang : Class::crash, 0, vantage::Vec3::Zero(), exit.how});
+  judgement.add({exit.hung ? FindingKind::hang : FindingKind::crash, 0, vantage::Vec3::Zero(), exit.how});
   return judgement;
 }
 

@@ -134,9 +134,9 @@ bool View::hides(std::size_t i, const Vec3& point) const {
   return false;
 }
 
-std::optional<std::size_t> View::first_hiding(const Vec3& point, Which which, std::size_t begin) const {
+std::optional<std::size_t> View::first_hiding(const Vec3& point, TriangleFilter filter, std::size_t begin) const {
   for (std::size_t i = begin; i < blockers_.triangles.size(); ++i) {
-    if (which == Which::not_thin && blockers_.triangles[i].thin) continue;
+    if (filter == TriangleFilter::not_thin && blockers_.triangles[i].thin) continue;
     if (hides(i, point)) return i;
   }
   return std::nullopt;
@@ -162,9 +162,9 @@ bool View::facet_clear(std::size_t i, const Corners& facet) const {
   return true;
 }
 
-std::optional<std::size_t> View::first_hiding(const Corners& facet, Which which) const {
+std::optional<std::size_t> View::first_hiding(const Corners& facet, TriangleFilter filter) const {
   for (std::size_t i = 0; i < blockers_.triangles.size(); ++i) {
-    if (which == Which::not_thin && blockers_.triangles[i].thin) continue;
+    if (filter == TriangleFilter::not_thin && blockers_.triangles[i].thin) continue;
     if (!facet_clear(i, facet)) return i;
   }
   return std::nullopt;

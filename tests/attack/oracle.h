@@ -35,7 +35,7 @@ struct Blockers {
 };
 
 /// Which triangles to ask.
-enum class Which { all, not_thin };
+enum class TriangleFilter { all, not_thin };
 
 /// One target before one scene. Keeps a reference to the blockers.
 class View {
@@ -48,13 +48,14 @@ class View {
   /// Of a point target: whether the line of sight passes through the triangle.
   bool hides(std::size_t triangle, const Vec3& point) const;
   /// The first that hides, from index `begin` on.
-  std::optional<std::size_t> first_hiding(const Vec3& point, Which which = Which::all, std::size_t begin = 0) const;
+  std::optional<std::size_t> first_hiding(const Vec3& point, TriangleFilter filter = TriangleFilter::all,
+                                          std::size_t begin = 0) const;
   bool clear(const Vec3& point) const { return !first_hiding(point); }
 
   /// Whether every point of the facet sees all of the target past the triangle: the interior of their convex hull is
   /// free of it.
   bool facet_clear(std::size_t triangle, const Corners& facet) const;
-  std::optional<std::size_t> first_hiding(const Corners& facet, Which which = Which::all) const;
+  std::optional<std::size_t> first_hiding(const Corners& facet, TriangleFilter filter = TriangleFilter::all) const;
 
   /// Whether all corners are within `range`.
   bool in_range(const Vec3& point, double range) const;

@@ -158,33 +158,34 @@ class WrongAnswers {
     return "";
   }
 
-  void must_find(Class which, const std::string& what, const Answer& answer, const Case* other = nullptr) {
+  void must_find(FindingKind which, const std::string& what, const Answer& answer, const Case* other = nullptr) {
     JudgeOptions options;
     options.query = false;
     const Judgement judgement = judge(other ? *other : case_, answer, options);
     expect(judgement.find(which) != nullptr, name_ + ": lets pass: " + what);
-    if (which == Class::over_claim) expect(judgement.unproved > 0, name_ + ": proves: " + what);
+    if (which == FindingKind::over_claim) expect(judgement.unproved > 0, name_ + ": proves: " + what);
   }
 
   void put_volumes() {
     for (const char* object : {"tower", "block", "pole", "awning"})
-      must_find(Class::over_claim, std::string("a volume without the ") + object, ask_engine(without(case_, object)));
-    must_find(Class::over_claim, "a volume larger by 1e-5", scaled(right_, 1 + 1e-5));
-    must_find(Class::out_of_range, "a volume larger by 1e-2", scaled(right_, 1.01));
-    must_find(Class::under_claim, "a volume smaller by 1e-3", scaled(right_, 1 - 1e-3));
+      must_find(FindingKind::over_claim, std::string("a volume without the ") + object,
+                ask_engine(without(case_, object)));
+    must_find(FindingKind::over_claim, "a volume larger by 1e-5", scaled(right_, 1 + 1e-5));
+    must_find(FindingKind::out_of_range, "a volume larger by 1e-2", scaled(right_, 1.01));
+    must_find(FindingKind::under_claim, "a volume smaller by 1e-3", scaled(right_, 1 - 1e-3));
     Case small_target = case_;
     small_target.parts[0].parts[0].erase(small_target.parts[0].parts[0].begin() + 2);
-    must_find(Class::over_claim, "a target that has lost a corner", ask_engine(small_target));
+    must_find(FindingKind::over_claim, "a target that has lost a corner", ask_engine(small_target));
     Case limited = case_;
     const double height = case_.parts[0].parts[0][0].z();
     limited.navigation.altitude = {height + case_.scale, height + 3 * case_.scale};
-    must_find(Class::outside_limits, "a volume that was not cut", right_, &limited);
+    must_find(FindingKind::outside_limits, "a volume that was not cut", right_, &limited);
     Case two = case_;
     two.parts.push_back(two.parts[0]);
     for (Vec3& v : two.parts[1].parts[0]) v.x() += 0.5 * case_.scale;
     Answer one_part = right_;
     one_part.parts.push_back(right_.parts[0]);
-    must_find(Class::over_claim, "a volume of the first part alone", one_part, &two);
+    must_find(FindingKind::over_claim, "a volume of the first part alone", one_part, &two);
   }
 
   /// Volumes that were not cut to a limit of the sensor, and those that were.
@@ -192,7 +193,7 @@ class WrongAnswers {
     Case wanted = case_;
     const auto try_limit = [&](const char* limit, const vantage::Sensor& sensor) {
       wanted.sensor = sensor;
-      must_find(Class::outside_limits, std::string("a volume that is not cut to ") + limit, right_, &wanted);
+      must_find(FindingKind::outside_limits, std::string("a volume that is not cut to ") + limit, right_, &wanted);
       const Judgement judgement = judge(wanted, ask_engine(wanted));
       expect(judgement.status == "computed" && !judgement.wrong(), name_ + ": objects to " + limit);
     };
@@ -213,7 +214,8 @@ class WrongAnswers {
     const Answer link = ask_engine(wanted);
     expect(!sight.thrown && !link.thrown, name_ + ": the link: " + sight.message + link.message);
     if (sight.thrown || link.thrown) return;
-    expect(judge(wanted, sight).find(Class::over_claim) != nullptr, name_ + ": lets pass: a link without its zone");
+    expect(judge(wanted, sight).find(FindingKind::over_claim) != nullptr,
+           name_ + ": lets pass: a link without its zone");
     const Judgement judgement = judge(wanted, link);
     expect(judgement.status == "computed" && !judgement.wrong(), name_ + ": objects to a link");
   }
@@ -222,16 +224,16 @@ class WrongAnswers {
     Answer answer = right_;
     answer.volume.mesh.triangles.pop_back();
     answer.volume.cause_of.pop_back();
-    must_find(Class::bad_mesh, "an open mesh", answer);
+    must_find(FindingKind::bad_mesh, "an open mesh", answer);
     answer = right_;
     std::swap(answer.volume.mesh.triangles[0][0], answer.volume.mesh.triangles[0][1]);
-    must_find(Class::bad_mesh, "a facet that is turned round", answer);
+    must_find(FindingKind::bad_mesh, "a facet that is turned round", answer);
     answer = right_;
     answer.volume.mesh.triangles[0][0] = 1u << 30;
-    must_find(Class::bad_mesh, "an index out of range", answer);
+    must_find(FindingKind::bad_mesh, "an index out of range", answer);
     answer = right_;
     answer.volume.cause_of[0] = 99;
-    must_find(Class::bad_causes, "a cause out of range", answer);
+    must_find(FindingKind::bad_causes, "a cause out of range", answer);
     answer = right_;
     Mesh& mesh = answer.volume.mesh;  // a facet without area, and its edges cancelled
     const auto v = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -240,21 +242,21 @@ class WrongAnswers {
     mesh.triangles.push_back({a, b, v});
     mesh.triangles.push_back({b, a, v});
     answer.volume.cause_of.resize(mesh.triangles.size(), 0);
-    must_find(Class::flat_facets, "facets without area", answer);
+    must_find(FindingKind::flat_facets, "facets without area", answer);
   }
 
   void put_refusals() {
     Answer answer;
     answer.thrown = true;
     answer.refusal = "pierced";
-    must_find(Class::false_refusal, "a refusal of what is clear", answer);
+    must_find(FindingKind::false_refusal, "a refusal of what is clear", answer);
     answer.defect = true;
-    must_find(Class::defect, "an internal error", answer);
+    must_find(FindingKind::defect, "an internal error", answer);
     answer = right_;
     answer.volume = answer.parts[0] = vantage::Volume();
     answer.volume.outcome = answer.parts[0].outcome = Outcome::out_of_range;
     answer.parts[0].frame = right_.parts[0].frame;
-    must_find(Class::bad_outcome, "no volume where there is one", answer);
+    must_find(FindingKind::bad_outcome, "no volume where there is one", answer);
   }
 
   Case case_;

@@ -46,13 +46,13 @@ void Summary::Row::add(const Judgement& j) {
   refused += is_refused;
   empty += !is_computed && !is_refused && !j.status.empty();
   wrong += j.wrong();
-  touching += j.find(Class::touching) || j.find(Class::shallow);
-  query += j.find(Class::query_under) || j.find(Class::query_mesh) || j.find(Class::blocked_by);
+  touching += j.find(FindingKind::touching) || j.find(FindingKind::shallow);
+  query += j.find(FindingKind::query_under) || j.find(FindingKind::query_mesh) || j.find(FindingKind::blocked_by);
   viewpoints += j.viewpoints;
   proved += j.proved;
   smaller += j.proved_smaller;
   unproved += j.unproved;
-  losing += j.find(Class::under_claim) != nullptr;
+  losing += j.find(FindingKind::under_claim) != nullptr;
   if (!is_computed) return;
   ++measured;
   lost += j.lost;

@@ -30,7 +30,7 @@ class Summary {
   std::map<double, Row> by_scale_;
   std::map<std::string, Row> by_thing_, by_target_;
   std::map<std::string, std::size_t> statuses_;
-  std::map<Class, std::size_t> classes_;
+  std::map<FindingKind, std::size_t> classes_;
   Row all_;
   std::size_t wrong_ = 0;
 };

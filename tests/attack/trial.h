@@ -24,10 +24,10 @@ struct PartView {
         margin(strip) {}
 
   /// A triangle that hides all of `inner` from there: it does so whatever is excepted.
-  std::optional<std::size_t> surely_hiding(const Vec3& point, Which which = Which::all) const;
+  std::optional<std::size_t> surely_hiding(const Vec3& point, TriangleFilter filter = TriangleFilter::all) const;
   bool surely_hides(std::size_t triangle, const Vec3& point) const;
   /// A triangle between the facet and the target, whichever of `inner` is taken for it.
-  std::optional<std::size_t> surely_hiding(const Corners& facet, Which which = Which::all) const;
+  std::optional<std::size_t> surely_hiding(const Corners& facet, TriangleFilter filter = TriangleFilter::all) const;
 
   View exact;                 ///< as given, and lifted
   std::array<View, 3> inner;  ///< moved in by the margin; and raised by it, and lowered

@@ -8,7 +8,7 @@
 
 #include "fuzz/bytes.h"
 #include "fuzz/files.h"
-#include "live/gate.h"
+#include "live/access_control.h"
 #include "live/request.h"
 
 namespace vantage::fuzzing {
@@ -78,13 +78,14 @@ void knock(std::string_view text) {
     return first;
   };
   const std::string_view target = line(), host = line(), origin = line();
-  static const live::Gate gate("0123456789abcdef0123456789abcdef");
-  if (gate.opens(target, "/socket")) require(target == "/socket?token=" + gate.token(), "the token alone opens");
-  if (live::Gate::is_own_host(host)) {
+  static const live::AccessControl access("0123456789abcdef0123456789abcdef");
+  if (access.allows(target, "/socket")) require(target == "/socket?token=" + access.token(), "the token alone opens");
+  if (live::AccessControl::is_own_host(host)) {
     const std::string_view name = host.substr(0, host.find(':'));
     require(name == "127.0.0.1" || name == "localhost", "the host is this machine");
   }
-  if (live::Gate::is_own_origin(origin, host)) require(origin == "http://" + std::string(host), "the page is its own");
+  if (live::AccessControl::is_own_origin(origin, host))
+    require(origin == "http://" + std::string(host), "the page is its own");
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
 // What the page is about: a scene, a mission in it, and its volume, which follows.
-import { placeOf, toldBy, type Engine, type Volume } from "./engine/client";
+import { errorText, placeOf, type Engine, type Volume } from "./engine/client";
 import { Stopped } from "./engine/transport";
 import type { Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh } from "./engine/messages";
 import { Flights } from "./flights";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
 import { faultOf } from "./model/polygon";
-import { hasBadNews, metres, resay, say, unsay } from "./ui/page";
-import { seenFrom } from "./ui/results";
+import { metres } from "./model/quantity";
+import { emptyText, pointText, proofText } from "./model/volume";
+import { clearMessage, replaceMessage, showMessage, showsError } from "./ui/page";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView, ZonesView } from "./view/marks";
 import { Stage } from "./view/stage";
@@ -108,7 +109,7 @@ export class App {
   private readonly proofListeners: ((text: string, volume: Volume, proof?: Proof) => void)[] = [];
 
   constructor(readonly engine: Engine, readonly stage: Stage) {
-    engine.onWaits = () => resay(this.lateWords, LATE, LATE_FIRST, WAITING);
+    engine.onWaits = () => replaceMessage(this.lateWords, LATE, LATE_FIRST, WAITING);
     this.city = new City(stage.scene);
     this.volumeView = new VolumeView(stage.scene, this.city);
     this.target = new TargetView(stage.scene, this.city);
@@ -219,7 +220,7 @@ export class App {
     if (!mission) return;
     this.mission = mission;
     this.dragged = null;
-    say("");
+    showMessage("");
     this.showMission();
     void this.compute();
   }
@@ -279,7 +280,7 @@ export class App {
   private async run(turn: number, mission: Mission, isDraft: boolean): Promise<void> {
     const { target } = mission;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
-    const tell = () => turn === this.turn && say(this.lateWords);
+    const tell = () => turn === this.turn && showMessage(this.lateWords);
     try {
       if (fault) throw new Error(`${fault.reason}; the volume shown is that of the last valid target`);
       const volume = await this.late(this.engine.compute(missionText(mission, isDraft)), tell);
@@ -289,7 +290,7 @@ export class App {
     } catch (error) {
       if (turn >= this.since && this.isNews(turn)) this.fail(error);
     } finally {
-      if (turn === this.turn) unsay(LATE, LATE_FIRST, WAITING);
+      if (turn === this.turn) clearMessage(LATE, LATE_FIRST, WAITING);
       this.settle();
     }
   }
@@ -347,14 +348,14 @@ export class App {
   private async restore(): Promise<void> {
     const { shownOf } = this;
     if (!shownOf) return;
-    const tell = () => this.shownOf === shownOf && say(RESTORING);
+    const tell = () => this.shownOf === shownOf && showMessage(RESTORING);
     try {
       const volume = await this.late(this.engine.compute(missionText(shownOf)), tell);
       if (volume && this.shownOf === shownOf) this.putAgain(volume, shownOf);
     } catch {
       this.hasRestoreFailed = true; // it stays as it is: a draft, or one that the engine answers nothing about
     } finally {
-      unsay(RESTORING);
+      clearMessage(RESTORING);
     }
   }
 
@@ -370,10 +371,10 @@ export class App {
 
   /** The last volume stays. */
   private fail(error: unknown): void {
-    this.failure = toldBy(error);
+    this.failure = errorText(error);
     this.isStopped = error instanceof Stopped;
     this.failurePlace = placeOf(error);
-    say(this.failure, true);
+    showMessage(this.failure, true);
     this.flights.setOld("the mission has no volume");
     this.showMission();
     this.changed();
@@ -407,7 +408,7 @@ export class App {
     this.showOutline(null);
     this.showMission();
     this.changed();
-    say("");
+    showMessage("");
   }
 
   /** The volume that is shown is that of the mission. */
@@ -415,8 +416,8 @@ export class App {
     this.failure = "";
     this.showMission();
     void this.flights.follow();
-    if (volume.info.outcome !== "computed") say(`No position sees ${seenFrom(volume.info)}: ${volume.info.reason}. ${volume.info.hint}`, true);
-    else if (hasBadNews()) say("");
+    if (volume.info.outcome !== "computed") showMessage(`${emptyText(volume.info)} ${volume.info.hint}`, true);
+    else if (showsError()) showMessage("");
   }
 
   setProbe(at: Point | null): void {
@@ -450,21 +451,14 @@ export class App {
     try {
       [answer] = await this.engine.query([at]);
     } catch (error) {
-      if (this.isEngineHere() || this.hasRestoreFailed) say(toldBy(error), true);
+      if (this.isEngineHere() || this.hasRestoreFailed) showMessage(errorText(error), true);
       return;
     }
     if (!answer || this.probe?.at !== at || !this.volume || !this.isEngineHere()) return;
     this.probe.inside = answer.inside;
     this.city.light(answer.blocked_by);
     if (!this.isEye()) this.probeView.show(at, this.volume.info.target.flat(), answer.inside);
-    const why = [
-      answer.blocked_by.length > 0 ? `hidden by ${answer.blocked_by.join(", ")}` : "",
-      answer.out_of_range ? "out of range" : "",
-      answer.behind_target ? "behind the target" : "",
-      answer.outside_of.length > 0 ? `outside of ${answer.outside_of.join(", ")}` : "",
-    ].filter((text) => text !== "");
-    const what = answer.inside ? `Inside: this position sees ${seenFrom(this.volume.info)}` : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
-    say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly; Esc, or Look, ends it" : ""}`);
+    showMessage(`${pointText(this.volume.info, answer)} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly; Esc, or Look, ends it" : ""}`);
     this.stage.request();
     this.changed();
   }
@@ -485,11 +479,9 @@ export class App {
     let proof: Proof;
     try {
       proof = await this.late(this.engine.prove());
-      const { verdict } = proof;
-      text = verdict === "proved" ? `Proved: every position of this volume sees ${seenFrom(volume.info)}.`
-        : `The proof says: ${verdict.replaceAll("_", " ")}`;
+      text = proofText(volume.info, proof);
     } catch (error) {
-      if (volume === this.volume) this.tellProof(toldBy(error), volume);
+      if (volume === this.volume) this.tellProof(errorText(error), volume);
       return;
     }
     if (volume === this.volume && this.isEngineHere()) this.tellProof(text, volume, proof);
@@ -537,7 +529,7 @@ export class App {
   /** The view is that of the probe, towards the target, until it is called again. It flies when the view is turned. */
   toggleEye(): void {
     if (this.isEye()) return this.endEye();
-    if (!this.probe || !this.volume) return say("First probe a position", true);
+    if (!this.probe || !this.volume) return showMessage("First probe a position", true);
     const camera = this.engine.about.cameras.find(({ name }) => name === this.mission.camera);
     this.stage.beginEye(this.city.toView(this.probe.at), this.city.toView(this.volume.info.center), camera?.fov_deg[1]);
     this.stage.onEye = (eye) => this.setProbe(this.city.toScene(eye));
@@ -550,7 +542,7 @@ export class App {
     if (!this.isEye()) return;
     this.stage.endEye();
     this.volumeView.setVisible(true);
-    say("");
+    showMessage("");
     if (this.probe) void this.askProbe();
     this.changed();
   }

@@ -1,10 +1,11 @@
 // The flight that is shown: where it comes from, where on it the vehicle is, and that it follows the mission.
 import type { App } from "./app";
-import { toldBy } from "./engine/client";
+import { errorText } from "./engine/client";
 import type { ServedFlight } from "./engine/messages";
 import { boundsOf, flightFrom, momentAt, type Flight, type Moment } from "./model/flight";
 import { missionText } from "./model/mission";
-import { metres, say } from "./ui/page";
+import { metres } from "./model/quantity";
+import { showMessage } from "./ui/page";
 import { FlightView } from "./view/flight";
 import { TargetVolumesView } from "./view/target_volumes";
 
@@ -152,11 +153,11 @@ export class Flights {
       if (asked !== this.asked || !this.hasVolumes || app.engine.last !== volume) return;
       this.volumesView.show(mesh);
       const empty = volumes.filter(({ reason }) => reason !== "");
-      if (empty.length > 0) say(empty.map(({ name, reason }) => `${name} has no volume: ${reason}`).join("; "), true);
+      if (empty.length > 0) showMessage(empty.map(({ name, reason }) => `${name} has no volume: ${reason}`).join("; "), true);
     } catch (error) {
       if (asked !== this.asked) return;
       this.hideVolumes();
-      say(toldBy(error), true);
+      showMessage(errorText(error), true);
     }
     this.tell(true);
   }
@@ -229,7 +230,7 @@ export class Flights {
       this.setOld("");
       if (this.hasVolumes) void this.showVolumes();
     } catch (error) {
-      if (asked === this.asked) this.setOld(toldBy(error));
+      if (asked === this.asked) this.setOld(errorText(error));
     }
     this.tell(true);
   }

@@ -1,12 +1,13 @@
 import { App } from "./app";
-import { Engine, toldBy } from "./engine/client";
+import { Engine, errorText } from "./engine/client";
 import { RecordedTransport } from "./engine/recorded_transport";
 import { SocketTransport } from "./engine/socket_transport";
 import type { Transport } from "./engine/transport";
 import { WorkerTransport } from "./engine/worker_transport";
+import { metres } from "./model/quantity";
 import { Files } from "./ui/files";
 import { FlightPanel } from "./ui/flight_panel";
-import { button, element, metres, say } from "./ui/page";
+import { button, element, showMessage } from "./ui/page";
 import { Panel } from "./ui/panel";
 import { makeReport } from "./ui/report";
 import { Results } from "./ui/results";
@@ -120,7 +121,7 @@ function listenToButtons(app: App): void {
 async function transportOfPage(): Promise<Transport> {
   const { vantageData, vantageLive, vantageReport } = window;
   if (vantageReport) return RecordedTransport.start(vantageReport);
-  if (vantageLive) return SocketTransport.start(vantageLive.socket, (reason) => say(reason, true));
+  if (vantageLive) return SocketTransport.start(vantageLive.socket, (reason) => showMessage(reason, true));
   if (!vantageData) throw new Error("this page is a part of the program: 'vantage report' fills it");
   return WorkerTransport.start(vantageData.worker, vantageData.wasm);
 }
@@ -149,9 +150,9 @@ async function start(): Promise<void> {
   window.vantage = app;
   document.body.classList.toggle("served", isServed);
   document.body.classList.toggle("report", Boolean(window.vantageReport));
-  if (served) say("");
+  if (served) showMessage("");
   await files.start(served);
   if (served && window.vantageReport) makeReport(app, served.hello, window.vantageReport["made"] ?? "");
 }
 
-start().catch((error: unknown) => say(toldBy(error), true));
+start().catch((error: unknown) => showMessage(errorText(error), true));

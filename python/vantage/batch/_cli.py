@@ -11,6 +11,10 @@ from typing import Any
 
 from .._errors import CancelledError, Error, input_error
 from .._requests import Navigation, Sensor
+from ._manifest import REPORT
+from ._run import run
+from ._scenes import request_of
+from ._store import Store
 
 _EXAMPLES = """\
 examples:
@@ -84,11 +88,6 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from ._manifest import REPORT
-    from ._run import run
-    from ._scenes import request_of
-    from ._store import Store
-
     keys: dict[str, Any] = {"center": options.center, "radius": options.radius, "bbox": options.bbox,
                             "terrain": options.terrain, **(options.scene_keys or {})}
     if options.without:
@@ -99,7 +98,7 @@ def _run(options: argparse.Namespace) -> int:
                  navigation=_made(Navigation, options.navigation, "navigation"), tolerance=options.tolerance,
                  work_limit=options.work_limit, crs=options.crs, volumes=options.volumes, workers=options.workers, cluster=options.dask,
                  shard_rows=options.shard_rows, attempts=options.attempts, storage_options=options.storage,
-                 progress=None if options.quiet else _Line().tell)
+                 progress=None if options.quiet else _ProgressLine().tell)
     if options.json:
         print((Store(options.output, options.storage).read(REPORT) or b"").decode(), end="")
     elif not options.quiet:
@@ -117,7 +116,7 @@ def _summary(report: Any) -> str:
     return "\n".join([*lines, f"{report.output.rstrip('/')}/results.parquet"])
 
 
-class _Line:
+class _ProgressLine:
     """Progress: a line that is written anew on a terminal, a line every ten seconds elsewhere."""
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from .._errors import Error, input_error
 from .._extras import require
-from ._pool import Died, Outcome, attempt
+from ._pool import LostTask, Outcome, attempt
 from ._work import Job, Task
 
 _AHEAD = 2
@@ -57,7 +57,7 @@ class DaskWorkers:
             try:
                 answer = future.result()
             except (self._killed, self._lost):
-                answer = Died(task)
+                answer = LostTask(task)
             if isinstance(answer, Error):
                 raise answer
             told.append(answer)

@@ -46,7 +46,7 @@ def _converter(source: str, to: str) -> Any:
                           "write an EPSG code: 'EPSG:25832'") from None
 
 
-class Places:
+class CrsTransform:
     """How positions of a table become those of a scene. Corners are moved, one by one; sides stay straight."""
 
     def __init__(self, scene: Scene, crs: str | None):
@@ -90,7 +90,7 @@ class Places:
         return np.column_stack(self._back.transform(corners[:, 0], corners[:, 1]))
 
 
-def targets_of(row: Row, places: Places) -> list[Target]:
+def targets_of(row: Row, transform: CrsTransform) -> list[Target]:
     """What a row asks for: one target, or several that must all be seen. Beside another column that says where the target is,
     a geometry is only what the results show.
 
@@ -114,7 +114,7 @@ def targets_of(row: Row, places: Places) -> list[Target]:
         geometry = shapely.from_wkb(row.geometry)
     except shapely.errors.ShapelyError as error:
         raise input_error("value-syntax", f"the geometry cannot be read: {error}", "geometry", "write it anew") from None
-    return [target for part in _polygons(geometry) for target in _of_part(part, keys, places)]
+    return [target for part in _polygons(geometry) for target in _of_part(part, keys, transform)]
 
 
 def name_of(row: Row) -> str | None:
@@ -136,13 +136,13 @@ def _polygons(geometry: Any) -> list[Any]:
                       "targets are polygons, or points with a z")
 
 
-def _of_part(part: Any, keys: dict[str, Any], places: Places) -> list[Target]:
+def _of_part(part: Any, keys: dict[str, Any], transform: CrsTransform) -> list[Target]:
     if part.geom_type == "Point":
         if not part.has_z:
             raise input_error("missing-key", "the point has no height", "geometry", "give it a z")
-        x, y = places.to_scene(np.array([[part.x, part.y]]))[0]
-        return [Target(**keys, point=[x, y, float(places.heights(np.array(part.z)))])]
-    rings = [_ring(ring, places) for ring in (part.exterior, *part.interiors)]
+        x, y = transform.to_scene(np.array([[part.x, part.y]]))[0]
+        return [Target(**keys, point=[x, y, float(transform.heights(np.array(part.z)))])]
+    rings = [_ring(ring, transform) for ring in (part.exterior, *part.interiors)]
     if not part.has_z:
         holes = [ring.tolist() for ring in rings[1:]] or None
         return [Target(**keys, outline=rings[0].tolist(), holes=holes)]
@@ -151,7 +151,7 @@ def _of_part(part: Any, keys: dict[str, Any], places: Places) -> list[Target]:
     return [Target(**keys, parts=_triangles(rings))]
 
 
-def _ring(ring: Any, places: Places) -> Corners:
+def _ring(ring: Any, transform: CrsTransform) -> Corners:
     """Open, without corners that stand twice in a row, in the frame."""
     corners = np.array(ring.coords, float)[:-1]
     if not np.isfinite(corners).all():
@@ -159,7 +159,7 @@ def _ring(ring: Any, places: Places) -> Corners:
                           "write finite numbers")
     kept = (corners != np.roll(corners, 1, axis=0)).any(axis=1)
     corners = corners[kept] if kept.any() else corners[:1]
-    return np.column_stack([places.to_scene(corners[:, :2]), places.heights(corners[:, 2:])])
+    return np.column_stack([transform.to_scene(corners[:, :2]), transform.heights(corners[:, 2:])])
 
 
 def _turns_one_way(ring: Corners) -> bool:
@@ -185,28 +185,28 @@ def _triangles(rings: list[Corners]) -> list[list[list[float]]]:
 # ---- for the results
 
 
-def footprint(row: Row, parts: list[Corners] | None, places: Places) -> bytes | None:
+def footprint(row: Row, parts: list[Corners] | None, transform: CrsTransform) -> bytes | None:
     """The geometry of a row's result, as WKB: the table's own, or else the target that was found."""
     if row.geometry is None and not parts:
         return None
     shapely = require("shapely", "geo")
     if row.geometry is not None:
         try:
-            return bytes(shapely.to_wkb(_moved(shapely.from_wkb(row.geometry), places)))
+            return bytes(shapely.to_wkb(_moved(shapely.from_wkb(row.geometry), transform)))
         except (Error, shapely.errors.ShapelyError):
             return None
     assert parts is not None
     shapes = []
     for part in parts:
-        corners = np.column_stack([places.from_scene(part[:, :2]), part[:, 2]])
+        corners = np.column_stack([transform.from_scene(part[:, :2]), part[:, 2]])
         shapes.append(shapely.Point(corners[0]) if len(corners) == 1 else shapely.Polygon(corners))
     return bytes(shapely.to_wkb(shapes[0] if len(shapes) == 1 else shapely.MultiPolygon(shapes)))
 
 
-def _moved(geometry: Any, places: Places) -> Any:
+def _moved(geometry: Any, transform: CrsTransform) -> Any:
     shapely = require("shapely", "geo")
 
     def of(corners: Corners) -> Corners:
-        return np.column_stack([places.to_output(corners[:, :2]), places.heights(corners[:, 2:])])
+        return np.column_stack([transform.to_output(corners[:, :2]), transform.heights(corners[:, 2:])])
 
     return shapely.transform(geometry, of, include_z=geometry.has_z)

@@ -19,20 +19,20 @@ from .._errors import Error, make
 from .._folders import remove_abandoned
 from . import _scenes, _work
 from ._store import UNFINISHED
-from ._work import Done, Job, Task
+from ._work import Job, Task, TaskResult
 
 
 _SECONDS_TO_END = 3.0
 """A worker that has not ended itself by then is killed."""
 
 
-class Died(NamedTuple):
+class LostTask(NamedTuple):
     """The worker of a task ended before the task did."""
 
     task: Task
 
 
-Outcome = Union[Done, Died]
+Outcome = Union[TaskResult, LostTask]
 
 
 class Workers(Protocol):
@@ -136,7 +136,7 @@ class LocalWorkers:
             except (EOFError, OSError):
                 worker.end()
                 self._workers[i] = _Worker(self._job)
-                answer = Died(task)
+                answer = LostTask(task)
             if isinstance(answer, Error):
                 raise answer
             told.append(answer)

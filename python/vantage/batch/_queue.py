@@ -7,9 +7,9 @@ import dataclasses
 from collections.abc import Callable, Iterable
 
 from .._errors import make
-from ._pool import Died, Workers
+from ._pool import LostTask, Workers
 from ._table import Id
-from ._work import Done, Task
+from ._work import Task, TaskResult
 
 _DEATHS_OF_A_SHARD = 2
 """After so many its targets are tried alone, to find out which of them ends workers."""
@@ -24,25 +24,25 @@ class Queue:
         self._probes: collections.deque[Task] = collections.deque()
         self._attempts = attempts
         self._deaths: collections.Counter[tuple[int, Id | None]] = collections.Counter()
-        self._tried: dict[int, _Tried] = {}
+        self._tried: dict[int, _IsolatedShard] = {}
         self._in_a_row = 0
         self.deaths = 0
 
-    def run(self, team: Workers, done: Callable[[Done], None], tell: Callable[[], None]) -> None:
+    def run(self, pool: Workers, done: Callable[[TaskResult], None], tell: Callable[[], None]) -> None:
         """Gives all of it to workers; `done` is called for each task, `tell` now and then.
 
         Raises:
             Error: of a task that failed; workers die and nothing gets done.
         """
-        while self._shards or self._probes or team.busy():
-            while self._shards and team.room():
-                team.give(self._shards.popleft())
+        while self._shards or self._probes or pool.busy():
+            while self._shards and pool.room():
+                pool.give(self._shards.popleft())
             # Where tasks share workers it must be clear which one it was: one at a time, and nothing else.
-            while self._probes and not self._shards and team.room() and not (team.shares_workers and team.busy()):
-                team.give(self._probes.popleft())
-            for outcome in team.ended(0.5):
-                if isinstance(outcome, Died):
-                    self._died(outcome.task)
+            while self._probes and not self._shards and pool.room() and not (pool.shares_workers and pool.busy()):
+                pool.give(self._probes.popleft())
+            for outcome in pool.ended(0.5):
+                if isinstance(outcome, LostTask):
+                    self._lost(outcome.task)
                 else:
                     self._in_a_row = 0
                     done(outcome)
@@ -50,7 +50,7 @@ class Queue:
                         self._found(outcome.number, outcome.tried, 0)
             tell()
 
-    def _died(self, task: Task) -> None:
+    def _lost(self, task: Task) -> None:
         self.deaths += 1
         self._in_a_row += 1
         if self._in_a_row > 4 * self._attempts + 8:
@@ -67,7 +67,7 @@ class Queue:
         elif times < _DEATHS_OF_A_SHARD:
             self._shards.append(task)
         elif task.number not in self._tried:
-            self._tried[task.number] = _Tried(task)
+            self._tried[task.number] = _IsolatedShard(task)
             self._probes.extend(Task(task.number, [row], alone=True) for row in task.rows)
         elif times < _DEATHS_OF_A_SHARD + self._attempts:
             self._shards.append(task)
@@ -77,19 +77,19 @@ class Queue:
                        "look at what workers print, and at their memory; pass fewer shard_rows, and an empty folder", None)
 
     def _found(self, number: int, id: Id, deaths: int) -> None:
-        """Of a target that was tried alone."""
+        """What came of a target that was tried alone."""
         tried = self._tried[number]
         tried.left -= 1
         if deaths:
-            tried.doomed[id] = deaths
+            tried.excluded[id] = deaths
         if not tried.left:
-            self._shards.append(dataclasses.replace(tried.shard, doomed=tried.doomed))
+            self._shards.append(dataclasses.replace(tried.shard, excluded=tried.excluded))
 
 
-class _Tried:
+class _IsolatedShard:
     """A shard whose targets are tried alone."""
 
     def __init__(self, shard: Task):
         self.shard = shard
         self.left = len(shard.rows)
-        self.doomed: dict[Id, int] = {}
+        self.excluded: dict[Id, int] = {}

@@ -14,17 +14,17 @@ from .._core import version
 from .._errors import Error, make
 from .._extras import require
 from .._requests import Navigation, Path, Sensor
-from .._result import _sensor
+from .._result import sensor_keys
 from .._progress import Listener, Progress, listener
 from .._scene import Scene
-from . import _geometry, _manifest, _parquet, _rows, _scenes, _seals, _table, _work
+from . import _checksums, _geometry, _manifest, _parquet, _rows, _scenes, _table, _work
 from ._dask import DaskWorkers
 from ._lock import Lock
 from ._manifest import REPORT, RESULTS
 from ._pool import LocalWorkers, Workers
 from ._queue import Queue
 from ._store import Store
-from ._work import Done, Job, Task
+from ._work import Job, Task, TaskResult
 
 
 @dataclasses.dataclass
@@ -116,30 +116,30 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
         report = vt.batch.run(squares, "city.osm.pbf", "results/", max_range=300)
         report.table()[["id", "outcome", "volume_m3"]]
     """
-    started, heard = time.perf_counter(), listener(progress)
+    started, notify = time.perf_counter(), listener(progress)
     _check_choices(volumes, workers, shard_rows, attempts)
     table = _table.read(targets, crs=crs, options=storage_options)
-    asked = {"sensor": _sensor(sensor, max_range), "navigation": navigation, "method": method, "tolerance": tolerance,
+    asked = {"sensor": sensor_keys(sensor, max_range), "navigation": navigation, "method": method, "tolerance": tolerance,
              "spheres": spheres}
     if work_limit is not None:  # without one a folder of an older version is gone on with
         asked["work_limit"] = work_limit
     store = Store(output, storage_options)
-    job = _job(table, scene, store, asked, volumes, shard_rows, heard)
+    job = _job(table, scene, store, asked, volumes, shard_rows, notify)
     with Lock(store):
         _claim(job, scene)
         shards = [Task(number, rows) for number, rows in _table.shards(table.rows, int(job.metadata["shard_rows"]))]
-        told = _Told(job, shards, started)
-        missing = _missing(job, shards, told, heard)
+        state = _RunState(job, shards, started)
+        missing = _missing(job, shards, state, notify)
         if missing:
             count = min(workers or len(os.sched_getaffinity(0)), len(missing))
-            team: Workers = LocalWorkers(job, count) if cluster is None else DaskWorkers(job, cluster)
+            pool: Workers = LocalWorkers(job, count) if cluster is None else DaskWorkers(job, cluster)
             try:
                 queue = Queue(missing, attempts)
-                queue.run(team, told.done, lambda: told.tell(heard))
-                told.deaths = queue.deaths
+                queue.run(pool, state.done, lambda: state.tell(notify))
+                state.deaths = queue.deaths
             finally:
-                team.close()
-        return told.finished(_merge(job, shards))
+                pool.close()
+        return state.finished(_merge(job, shards))
 
 
 def results(output: Path, storage_options: Mapping[str, Any] | None = None) -> Any:
@@ -191,18 +191,18 @@ def _job(table: _table.Table, scene: _scenes.AnyScene, store: Store, asked: Mapp
 def _claim(job: Job, scene: _scenes.AnyScene) -> None:
     """Makes the folder one of this run, or finds that it is."""
     job.metadata.update(_manifest.agree(job.store, job.metadata, job.scene))
-    job.store.tidy()
+    job.store.remove_unfinished()
     if isinstance(scene, Scene):
         _scenes.save(scene, job.store)
 
 
 def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
     """Raises an error that is not of a target, but of what is asked for all of them."""
-    places = _geometry.Places(scene, job.crs)
+    transform = _geometry.CrsTransform(scene, job.crs)
     told = []
     for row in rows[:3]:
         try:
-            _work.resolved(job, scene, places, row)
+            _work.resolved(job, scene, transform, row)
             return
         except Error as error:
             told.append(error)
@@ -212,7 +212,7 @@ def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
         raise told[0]
 
 
-def _missing(job: Job, shards: list[Task], told: _Told, progress: Listener) -> list[Task]:
+def _missing(job: Job, shards: list[Task], state: _RunState, progress: Listener) -> list[Task]:
     """The shards that are not there, whole and with all volumes."""
     there = set(job.store.names("rows"))
     missing = []
@@ -222,35 +222,35 @@ def _missing(job: Job, shards: list[Task], told: _Told, progress: Listener) -> l
         if rows is None or rows[0] != [row.id for row in shard.rows]:
             missing.append(shard)
         else:
-            told.found(len(shard.rows), rows[1])
-        told.tell(progress)
+            state.found(len(shard.rows), rows[1])
+        state.tell(progress)
     return missing
 
 
 def _rows_of(job: Job, name: str) -> Any:
     """A shard's rows, as a table of pyarrow; None where they are not those that were written. They are only read where
     their hash is right."""
-    content, seals = job.store.read(name), _seals.read(job.store, name)
-    if content is None or seals is None or not _seals.is_right(content, seals[0]):
+    content, checksums = job.store.read(name), _checksums.read(job.store, name)
+    if content is None or checksums is None or not _checksums.matches(content, checksums[0]):
         return None
     table = _rows.of_bytes(content)
     if table is None:
         return None
     _manifest.check_shard(table.schema.metadata or {}, job.metadata, job.store.where(name))
     named = {file for file in table["volume_file"].to_pylist() if file is not None}
-    return table if named <= set(seals[1]) else None
+    return table if named <= set(checksums[1]) else None
 
 
 def _ids_of(job: Job, name: str) -> tuple[list[Any], int] | None:
     """The ids of a shard's file, and how many are errors; None where it, or a volume of it, is not whole."""
-    table, seals = _rows_of(job, name), _seals.read(job.store, name)
-    if table is None or seals is None or not _seals.are_volumes_right(job.store, seals[1]):
+    table, checksums = _rows_of(job, name), _checksums.read(job.store, name)
+    if table is None or checksums is None or not _checksums.volumes_match(job.store, checksums[1]):
         return None
     return table["id"].to_pylist(), table["outcome"].to_pylist().count("error")
 
 
-class _Told:
-    """What is done so far."""
+class _RunState:
+    """What is done so far, for progress and the report."""
 
     def __init__(self, job: Job, shards: Iterable[Task], started: float):
         self._job, self._started = job, started
@@ -260,11 +260,11 @@ class _Told:
         self.deaths = 0
 
     def found(self, rows: int, errors: int) -> None:
-        """Of an earlier run."""
+        """Counts rows of an earlier run."""
         self._there += rows
         self._errors += errors
 
-    def done(self, done: Done) -> None:
+    def done(self, done: TaskResult) -> None:
         self._computed += done.count
         self._errors += done.errors
         worker = self._workers.setdefault(done.worker, WorkerReport())
@@ -290,7 +290,7 @@ class _Told:
                         keys["scene_hash"], keys["mission_hash"], version)
         text = json.dumps({**dataclasses.asdict(report), "rows_per_s": report.rows_per_s}, indent=2) + "\n"
         self._job.store.put(REPORT, text.encode())
-        self._job.store.tidy()
+        self._job.store.remove_unfinished()
         return report
 
 

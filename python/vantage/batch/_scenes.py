@@ -16,10 +16,11 @@ import numpy as np
 from .._errors import input_error, make
 from .._extras import require
 from .._folders import Folder
+from .._objects import SceneObject
 from .._requests import Path
 from .._place import Georeference
 from .._progress import Progress
-from .._scene import Scene, SceneObject
+from .._scene import Scene
 from ._store import Store
 
 AnyScene = Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]]

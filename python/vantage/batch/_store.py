@@ -113,7 +113,7 @@ class Store:
                 with open(local, "rb") as file:
                     os.fsync(file.fileno())
                 os.replace(local, target)
-                _settle(os.path.dirname(target))
+                _sync_folder(os.path.dirname(target))
             return
         with self.writing(name):
             if self.protocol in _PUT_IS_WHOLE:
@@ -122,14 +122,17 @@ class Store:
                 self._put_beside(name, lambda beside: self.files.put_file(os.fspath(local), beside))
 
     def scratch(self) -> Folder:
-        """A local folder for files that `put_file` will move, on the same disk where the store is local; for `with`. Those
-        that others left there are for `tidy`: workers of the same run may be on machines whose locks are not seen here."""
+        """A local folder for files that `put_file` will move, on the same disk where the store is local; for `with`.
+
+        `remove_unfinished` removes those that others left there: workers of the same run may be on machines whose locks are
+        not seen here.
+        """
         with self.writing(""):
             if self.is_local:
                 os.makedirs(self.root, exist_ok=True)
             return Folder(UNFINISHED, self.root if self.is_local else None, removes_others=not self.is_local)
 
-    def tidy(self) -> None:
+    def remove_unfinished(self) -> None:
         """Removes what killed processes left unfinished, and nothing that only looks like it. Call it while nobody else
         writes: with the folder's lock, and before work begins or after all is done."""
         if not self.is_local:
@@ -159,22 +162,22 @@ class Store:
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(beside, target)
-            _settle(os.path.dirname(target))
+            _sync_folder(os.path.dirname(target))
         except BaseException:
             if os.path.exists(beside):
                 os.unlink(beside)
             raise
 
-    def writing(self, name: str) -> _Told:
+    def writing(self, name: str) -> _WriteErrors:
         """For `with`: what the system says of writing that file is raised as an Error."""
-        return _Told(self.where(name))
+        return _WriteErrors(self.where(name))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Store, (self.url, self.options)
 
 
-class _Told:
-    """What the system says of writing, as an Error."""
+class _WriteErrors:
+    """For `with`: an exception of the system becomes an Error."""
 
     def __init__(self, where: str):
         self._where = where
@@ -197,7 +200,7 @@ def unwritable(error: Exception, where: str) -> Error:
     return make("output", "output-unwritable", f"the results cannot be written: {said}", where, fix, None)
 
 
-def _settle(folder: str) -> None:
+def _sync_folder(folder: str) -> None:
     """Brings a new name to the disk. Not every file system lets a folder be synchronised; the file is whole either way."""
     try:
         opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)

@@ -15,7 +15,7 @@ from typing import Any
 from .._errors import Error, OutputError, make
 from .._result import Mission, Result
 from .._scene import Scene
-from . import _geometry, _rows, _scenes, _seals, _volumes
+from . import _checksums, _geometry, _rows, _scenes, _volumes
 from ._store import Store, unwritable
 from ._table import Id, Row
 
@@ -47,12 +47,12 @@ class Task:
     rows: list[Row]
     alone: bool = False
     """one row, which is only tried: does the worker live?"""
-    doomed: Mapping[Id, int] = dataclasses.field(default_factory=dict)
+    excluded: Mapping[Id, int] = dataclasses.field(default_factory=dict)
     """rows that end workers, and how often they did: they are errors"""
 
 
 @dataclasses.dataclass(frozen=True)
-class Done:
+class TaskResult:
     """What a worker says of a task."""
 
     number: int
@@ -71,7 +71,7 @@ def shard_name(number: int) -> str:
     return f"rows/{number:06d}.parquet"
 
 
-def run(job: Job, task: Task) -> Done:
+def run(job: Job, task: Task) -> TaskResult:
     """Computes a task. One target that is wrong is an error in its row.
 
     Raises:
@@ -79,44 +79,44 @@ def run(job: Job, task: Task) -> Done:
     """
     started, began = time.perf_counter(), time.process_time()
     scene = _scenes.kept(job.scene, job.scene_hash, job.store)
-    places = _geometry.Places(scene, job.crs)
+    transform = _geometry.CrsTransform(scene, job.crs)
     if task.alone:
-        _die_if_told(task.rows[0])
-        compute(job, scene, places, task.rows[0])
+        _kill_for_tests(task.rows[0])
+        compute(job, scene, transform, task.rows[0])
         return _done(task, 0, 0, started, began, task.rows[0].id)
     rows, results = [], []
-    seals: dict[str, _seals.Seal] = {}
+    checksums: dict[str, _checksums.Checksum] = {}
     for row in task.rows:
-        if row.id in task.doomed:
-            found, result = died(row, task.doomed[row.id], places), None
+        if row.id in task.excluded:
+            found, result = lost_row(row, task.excluded[row.id], transform), None
         else:
-            _die_if_told(row)
-            found, result = compute(job, scene, places, row)
+            _kill_for_tests(row)
+            found, result = compute(job, scene, transform, row)
         if job.volumes == "ply" and result is not None and not result.empty:
             name = ply_name(task.number, row)
-            found["volume_file"], seals[name] = name, _put_ply(job.store, name, result)
+            found["volume_file"], checksums[name] = name, _put_ply(job.store, name, result)
         rows.append(found)
         results.append(result if job.volumes == "zarr" else None)
     if job.volumes == "zarr":
-        seals.update(write_zarr(job, task.number, rows, results))
+        checksums.update(write_zarr(job, task.number, rows, results))
     content = _rows.to_bytes(rows, _rows.schema(job.is_number, job.metadata, job.is_on_earth))
     job.store.put(shard_name(task.number), content)
-    _seals.write(job.store, shard_name(task.number), content, seals)
+    _checksums.write(job.store, shard_name(task.number), content, checksums)
     errors = sum(row["outcome"] == "error" for row in rows)
     return _done(task, len(rows), errors, started, began)
 
 
-def _done(task: Task, count: int, errors: int, started: float, began: float, tried: Id | None = None) -> Done:
-    return Done(task.number, count, errors, time.perf_counter() - started, time.process_time() - began, worker_name(),
+def _done(task: Task, count: int, errors: int, started: float, began: float, tried: Id | None = None) -> TaskResult:
+    return TaskResult(task.number, count, errors, time.perf_counter() - started, time.process_time() - began, worker_name(),
                 peak_mib(), tried)
 
 
-def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple[dict[str, Any], Result | None]:
+def compute(job: Job, scene: Scene, transform: _geometry.CrsTransform, row: Row) -> tuple[dict[str, Any], Result | None]:
     """The row of one target, and what came of it."""
     started = time.perf_counter()
     result, parts, failure = None, None, None
     try:
-        result = resolved(job, scene, places, row).run(threads=1)
+        result = resolved(job, scene, transform, row).run(threads=1)
         parts = result.mission.target_parts
         found = _rows.of_result(row.id, result, time.perf_counter() - started)
     except MemoryError:
@@ -131,25 +131,25 @@ def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple
                        "this is a defect of vantage: please report it with the target", None)
     if failure is not None:
         found = _rows.of_error(row.id, _geometry.name_of(row), failure, time.perf_counter() - started)
-    found["geometry"] = _geometry.footprint(row, parts, places)
+    found["geometry"] = _geometry.footprint(row, parts, transform)
     return found, result
 
 
-def resolved(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> Mission:
+def resolved(job: Job, scene: Scene, transform: _geometry.CrsTransform, row: Row) -> Mission:
     """What a row asks for, in the scene."""
-    targets = _geometry.targets_of(row, places)
+    targets = _geometry.targets_of(row, transform)
     return Mission.of(scene, targets[0] if len(targets) == 1 else targets, **job.asked)
 
 
-def died(row: Row, times: int, places: _geometry.Places) -> dict[str, Any]:
+def lost_row(row: Row, times: int, transform: _geometry.CrsTransform) -> dict[str, Any]:
     """The row of a target that ended its worker again and again."""
     problem = f"the worker died {times} times while it computed this target"
     error = make("internal", "internal-defect", problem, "", "look for a lack of memory; else compute it alone, and report it",
                  None)
-    return {**_rows.of_error(row.id, _geometry.name_of(row), error, 0.0), "geometry": _geometry.footprint(row, None, places)}
+    return {**_rows.of_error(row.id, _geometry.name_of(row), error, 0.0), "geometry": _geometry.footprint(row, None, transform)}
 
 
-def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[Result | None]) -> dict[str, _seals.Seal]:
+def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[Result | None]) -> dict[str, _checksums.Checksum]:
     """The shard's volumes; their rows get its name."""
     name = f"volumes/{number:06d}.zarr.zip"
     held = [(str(row["id"]), result) for row, result in zip(rows, results) if result is not None and not result.empty]
@@ -158,7 +158,7 @@ def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[
     for row, result in zip(rows, results):
         if result is not None and not result.empty:
             row["volume_file"] = name
-    return {name: _seals.seal_of(content)}
+    return {name: _checksums.checksum_of(content)}
 
 
 def ply_name(number: int, row: Row) -> str:
@@ -169,7 +169,7 @@ def ply_name(number: int, row: Row) -> str:
     return f"volumes/{number:06d}/{name}.ply"
 
 
-def _put_ply(store: Store, path: str, result: Result) -> _seals.Seal:
+def _put_ply(store: Store, path: str, result: Result) -> _checksums.Checksum:
     with store.scratch() as folder:
         try:
             local = os.path.join(folder, "volume.ply")
@@ -182,7 +182,7 @@ def _put_ply(store: Store, path: str, result: Result) -> _seals.Seal:
                 store.put(path, content)
         except (OSError, OutputError) as error:
             raise unwritable(error, store.where(path)) from error
-    return _seals.seal_of(content)
+    return _checksums.checksum_of(content)
 
 
 # ---- about the process
@@ -207,7 +207,7 @@ def peak_mib() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
-def _die_if_told(row: Row) -> None:
+def _kill_for_tests(row: Row) -> None:
     """For tests: VANTAGE_BATCH_KILL=ID ends the process at that target, ID:FILE only if it can make the file."""
     told = os.environ.get("VANTAGE_BATCH_KILL", "")
     id, _, marker = told.partition(":")

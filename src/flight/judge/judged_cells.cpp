@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kMostCorners = 40'000'000;   // of one certificate: some 10 GB at the very most
 constexpr std::size_t kMostIndices = 400'000'000;  // of one cell
 
-Whole height_over(const std::array<int, 3>& normal, const Whole& offset, const Corners::Corner& corner) {
-  Whole height = -(offset * corner.under);
+BigInteger height_over(const std::array<int, 3>& normal, const BigInteger& offset, const Corners::Corner& corner) {
+  BigInteger height = -(offset * corner.under);
   for (std::size_t k = 0; k < 3; ++k) {
     if (normal[k] > 0) height += corner.over[k];
     if (normal[k] < 0) height -= corner.over[k];
@@ -20,29 +20,30 @@ Whole height_over(const std::array<int, 3>& normal, const Whole& offset, const C
 }
 
 /// Between two corners on both sides of a plane, where the line between them meets it.
-std::pair<WholePoint, Whole> between(const Corners::Corner& a, const Whole& at_a, const Corners::Corner& b,
-                                     const Whole& at_b) {
-  const Whole of_a = at_b.abs(), of_b = at_a.abs();
+std::pair<WholePoint, BigInteger> between(const Corners::Corner& a, const BigInteger& at_a, const Corners::Corner& b,
+                                          const BigInteger& at_b) {
+  const BigInteger of_a = at_b.abs(), of_b = at_a.abs();
   WholePoint over;
   for (std::size_t k = 0; k < 3; ++k) over[k] = a.over[k] * of_a + b.over[k] * of_b;
-  Whole under = a.under * of_a + b.under * of_b;
-  Whole divisor = under;
-  for (const Whole& x : over) divisor = common_divisor(divisor, x);
-  for (Whole& x : over) x = floor_divided(x, divisor);
+  BigInteger under = a.under * of_a + b.under * of_b;
+  BigInteger divisor = under;
+  for (const BigInteger& x : over) divisor = common_divisor(divisor, x);
+  for (BigInteger& x : over) x = floor_divided(x, divisor);
   return {over, floor_divided(under, divisor)};
 }
 
 }  // namespace
 
-Whole dot(const Direction& direction, const WholePoint& point) {
-  return Whole(direction[0]) * point[0] + Whole(direction[1]) * point[1] + Whole(direction[2]) * point[2];
+BigInteger dot(const Direction& direction, const WholePoint& point) {
+  return BigInteger(direction[0]) * point[0] + BigInteger(direction[1]) * point[1] +
+         BigInteger(direction[2]) * point[2];
 }
 
-std::uint32_t Corners::add(WholePoint over, Whole under) {
+std::uint32_t Corners::add(WholePoint over, BigInteger under) {
   if (corners_.size() >= kMostCorners) throw std::length_error("too many corners");
   Corner corner;
   for (std::size_t k = 0; k < 3; ++k) {
-    corner.rounded[k] = under == Whole(1) ? over[k] : floor_divided(over[k], under);
+    corner.rounded[k] = under == BigInteger(1) ? over[k] : floor_divided(over[k], under);
     corner.near_m[k] = corner.rounded[k].scaled_down(bits_);
   }
   corner.over = std::move(over);
@@ -63,7 +64,7 @@ Cell::Cell(Corners& corners, std::size_t region, std::vector<std::uint32_t> poly
   points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
 }
 
-const Whole& Cell::least(const Direction& direction) {
+const BigInteger& Cell::least(const Direction& direction) {
   demand(!is_empty(), "a part of a region is empty");
   const auto known = known_.find(direction);
   if (known != known_.end()) return known->second;
@@ -81,30 +82,30 @@ const Whole& Cell::least(const Direction& direction) {
     const auto [value, error] = about(point);
     most = std::min(most, value + error);
   }
-  std::optional<Whole> least;
+  std::optional<BigInteger> least;
   for (const std::uint32_t point : points_) {
     const auto [value, error] = about(point);
     if (value - error > most) continue;
-    Whole exact = dot(direction, corners_[point].rounded);
+    BigInteger exact = dot(direction, corners_[point].rounded);
     if (!least || exact < *least) least = std::move(exact);
   }
   if (is_cut_) {  // what rounding down may hide
-    for (const std::int64_t x : direction) *least -= Whole(std::abs(x));
+    for (const std::int64_t x : direction) *least -= BigInteger(std::abs(x));
   }
   return known_.emplace(direction, std::move(*least)).first->second;
 }
 
-std::array<Cell*, 2> Cell::cut(const std::array<int, 3>& normal, const Whole& offset) {
+std::array<Cell*, 2> Cell::cut(const std::array<int, 3>& normal, const BigInteger& offset) {
   auto [place, is_new] = parts_.try_emplace(std::pair(normal, offset));
   std::array<std::unique_ptr<Cell>, 2>& parts = place->second;
   if (is_new) parts = {side(normal, offset, 1), side(normal, offset, -1)};
   return {parts[0].get(), parts[1].get()};
 }
 
-std::unique_ptr<Cell> Cell::side(const std::array<int, 3>& normal, const Whole& offset, int side) {
-  std::map<std::uint32_t, Whole> heights;
+std::unique_ptr<Cell> Cell::side(const std::array<int, 3>& normal, const BigInteger& offset, int side) {
+  std::map<std::uint32_t, BigInteger> heights;
   for (const std::uint32_t point : points_) {
-    const Whole height = height_over(normal, offset, corners_[point]);
+    const BigInteger height = height_over(normal, offset, corners_[point]);
     heights.emplace(point, side > 0 ? height : -height);
   }
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> met;  // edges belong to two triangles
@@ -114,7 +115,7 @@ std::unique_ptr<Cell> Cell::side(const std::array<int, 3>& normal, const Whole& 
     const std::size_t first = kept.size();
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t a = polygons_[i], b = polygons_[i == begin ? end - 1 : i - 1];
-      const Whole &at_a = heights.at(a), &at_b = heights.at(b);
+      const BigInteger &at_a = heights.at(a), &at_b = heights.at(b);
       if (at_a.sign() * at_b.sign() < 0) {
         const auto [place, is_new] = met.try_emplace({std::min(a, b), std::max(a, b)});
         if (is_new) {

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "flight/judge/whole_number.h"
+#include "flight/judge/big_integer.h"
 
 namespace vantage::internal::flight::judge {
 
@@ -34,9 +34,9 @@ inline constexpr std::int64_t kUnit = std::int64_t{1} << 30;  // of vectors: 1
 /// Whole, in units of 1 / kUnit: of certificates none is longer than 1, so that sums of four stay far from overflowing.
 using Direction = std::array<std::int64_t, 3>;
 
-using WholePoint = std::array<Whole, 3>;
+using WholePoint = std::array<BigInteger, 3>;
 
-Whole dot(const Direction& direction, const WholePoint& point);
+BigInteger dot(const Direction& direction, const WholePoint& point);
 
 /// Corners that cells share.
 class Corners {
@@ -45,12 +45,12 @@ class Corners {
 
   struct Corner {
     WholePoint over;  ///< with `under` > 0: the point over / under
-    Whole under = 1;
+    BigInteger under = 1;
     WholePoint rounded;                        ///< down
     std::array<double, 3> near_m = {0, 0, 0};  ///< rounded, to a relative 2^-52
   };
 
-  std::uint32_t add(WholePoint over, Whole under);
+  std::uint32_t add(WholePoint over, BigInteger under);
   const Corner& operator[](std::uint32_t corner) const { return corners_[corner]; }
 
  private:
@@ -70,21 +70,21 @@ class Cell {
 
   /// Not more than direction . point of any point of it, in units of lengths times those of vectors; of a cell that was
   /// not cut exactly the least. Throws Refusal for an empty cell.
-  const Whole& least(const Direction& direction);
+  const BigInteger& least(const Direction& direction);
 
   /// What is above the plane normal . x = offset, and below it; both with what lies in it. Kept: the same again for the
   /// same plane. Throws std::length_error where all cells together would take too much memory.
-  std::array<Cell*, 2> cut(const std::array<int, 3>& normal, const Whole& offset);
+  std::array<Cell*, 2> cut(const std::array<int, 3>& normal, const BigInteger& offset);
 
  private:
-  std::unique_ptr<Cell> side(const std::array<int, 3>& normal, const Whole& offset, int side);
+  std::unique_ptr<Cell> side(const std::array<int, 3>& normal, const BigInteger& offset, int side);
 
   Corners& corners_;
   std::size_t region_;
   std::vector<std::uint32_t> polygons_, ends_, points_;
   bool is_cut_;
-  std::map<Direction, Whole> known_;
-  std::map<std::pair<std::array<int, 3>, Whole>, std::array<std::unique_ptr<Cell>, 2>> parts_;
+  std::map<Direction, BigInteger> known_;
+  std::map<std::pair<std::array<int, 3>, BigInteger>, std::array<std::unique_ptr<Cell>, 2>> parts_;
 };
 
 }  // namespace vantage::internal::flight::judge

@@ -44,17 +44,17 @@ bool has_all_places(const JudgedTour& tour, const std::vector<Cell*>& stops) {
 }
 
 /// Where the vector stays the same, it does not matter where along the track the stop is.
-Whole turning_of(const JudgedTour& tour, const std::vector<Stop>& stops) {
+BigInteger turning_of(const JudgedTour& tour, const std::vector<Stop>& stops) {
   std::vector<Stop> turns;
   for (const Stop& stop : stops) {
     if (stop.before != stop.behind || tour.is_place[stop.cell->region()]) turns.push_back(stop);
   }
-  std::vector<Whole> rooms;  // before each
+  std::vector<BigInteger> rooms;  // before each
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const Stop& last = turns[(k + turns.size() - 1) % turns.size()];
     rooms.push_back(room_between(*last.cell, *turns[k].cell, turns[k].before));
   }
-  Whole total;
+  BigInteger total;
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const auto& [cell, before, behind] = turns[k];
     if (tour.is_place[cell->region()]) continue;
@@ -64,12 +64,12 @@ Whole turning_of(const JudgedTour& tour, const std::vector<Stop>& stops) {
 }
 
 /// A stop with a dwell is two points, with a leg between that counts as so long at least.
-Whole leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::vector<Direction>& vectors) {
+BigInteger leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::vector<Direction>& vectors) {
   std::vector<Cell*> points;
-  std::vector<Whole> stays;  // on the leg behind each
+  std::vector<BigInteger> stays;  // on the leg behind each
   for (Cell* cell : stops) {
     demand(!cell->is_empty(), "a part of a region is empty");
-    const Whole& stay = tour.dwell[cell->region()];
+    const BigInteger& stay = tour.dwell[cell->region()];
     if (stay.sign() > 0) {
       points.push_back(cell);
       stays.push_back(stay);
@@ -79,7 +79,7 @@ Whole leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::v
   }
   const std::size_t none = !tour.closed || points.size() == 1 ? 1 : 0;
   demand(vectors.size() + none == points.size(), "there are vectors for another number of legs");
-  Whole total;
+  BigInteger total;
   std::vector<Stop> around;
   for (std::size_t k = 0; k < points.size() && !vectors.empty(); ++k) {
     const bool has_before = k > 0 || tour.closed, has_behind = k < vectors.size();
@@ -90,7 +90,7 @@ Whole leaf_of_insertion(const JudgedTour& tour, const Stops& stops, const std::v
   if (tour.turn_radius.sign() > 0 && has_all_places(tour, stops)) total += turning_of(tour, around);
   for (std::size_t k = 0; k < vectors.size(); ++k) {
     // A stay may be longer than the way between its points: what the vector leaves of it counts.
-    if (stays[k].sign() > 0) total += stays[k] * Whole(kUnit - root_up(square_of(vectors[k])));
+    if (stays[k].sign() > 0) total += stays[k] * BigInteger(kUnit - root_up(square_of(vectors[k])));
   }
   return total;
 }
@@ -99,7 +99,7 @@ class InsertionJudge {
  public:
   InsertionJudge(JudgedTour& tour, const core::ProgressReporter& progress) : tour_(tour), progress_(progress) {}
 
-  std::optional<Whole> least(const Json& proof) {
+  std::optional<BigInteger> least(const Json& proof) {
     constexpr const char* kKeys[] = {"kind", "root", "tree"};
     demand_keys(proof, kKeys, "the proof has keys too many or too few");
     begin(proof["root"]);
@@ -132,7 +132,7 @@ class InsertionJudge {
     const auto& kind = node.at(0).get_ref<const std::string&>();
     if (kind == "leaf") {
       list_of(node, 2);
-      Whole length = leaf_of_insertion(tour_, stops, vectors_of(node[1]));
+      BigInteger length = leaf_of_insertion(tour_, stops, vectors_of(node[1]));
       if (!least_ || length < *least_) least_ = std::move(length);
     } else if (kind == "insert") {
       list_of(node, 2);
@@ -176,7 +176,7 @@ class InsertionJudge {
   JudgedTour& tour_;
   const core::ProgressReporter& progress_;
   std::vector<Stops> waiting_;
-  std::optional<Whole> least_;
+  std::optional<BigInteger> least_;
 };
 
 }  // namespace
@@ -193,7 +193,8 @@ std::vector<Direction> vectors_of(const Json& numbers) {
   return vectors;
 }
 
-std::optional<Whole> proved_by_insertion(JudgedTour& tour, const Json& proof, const core::ProgressReporter& progress) {
+std::optional<BigInteger> proved_by_insertion(JudgedTour& tour, const Json& proof,
+                                              const core::ProgressReporter& progress) {
   return InsertionJudge(tour, progress).least(proof);
 }
 

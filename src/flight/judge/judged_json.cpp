@@ -11,13 +11,13 @@ const Json& list_of(const Json& json, std::optional<std::size_t> count) {
   return json;
 }
 
-Whole whole_of(const Json& json, int bits) {
+BigInteger whole_of(const Json& json, int bits) {
   constexpr double kLargest = 1e15;
   demand(json.is_number(), "there is no number where one should be");
   const auto value = json.get<double>();  // integers up to 1e15 are exact
   demand(std::abs(value) <= kLargest, "a number is too large, or none");
   demand(fraction_bits(value) <= bits, "a number is too fine");
-  return Whole::scaled(value, bits);
+  return BigInteger::scaled(value, bits);
 }
 
 std::size_t index_of(const Json& json, std::size_t end) {

@@ -21,9 +21,9 @@ Edge edge_of(std::size_t i, std::size_t j) { return {std::min(i, j), std::max(i,
 
 /// The numbers of a leaf.
 struct Duals {
-  std::vector<std::vector<Whole>> of_edge_at;
-  std::vector<Whole> of_region;
-  std::vector<std::pair<Whole, std::set<std::size_t>>> of_set;
+  std::vector<std::vector<BigInteger>> of_edge_at;
+  std::vector<BigInteger> of_region;
+  std::vector<std::pair<BigInteger, std::set<std::size_t>>> of_set;
 };
 
 /// A branch of the tree: edges that are in the tour, and out of it.
@@ -36,7 +36,7 @@ class PairsJudge {
   PairsJudge(JudgedTour& tour, const core::ProgressReporter& progress)
       : tour_(tour), progress_(progress), count_(tour.cells.size() + (tour.closed ? 0 : 1)) {}
 
-  std::optional<Whole> least(const Json& proof) {
+  std::optional<BigInteger> least(const Json& proof) {
     constexpr const char* kKeys[] = {"kind", "origin", "vectors", "tree"};
     demand_keys(proof, kKeys, "the proof has keys too many or too few");
     read_vectors(proof["vectors"]);
@@ -87,14 +87,14 @@ class PairsJudge {
     demand(kind == "leaf", "a node is of no known kind");
     list_of(node, 5);
     const Rows& rows = sets_[index_of(node[1], sets_.size())];
-    std::optional<Whole> length = leaf(branch, rows, duals_of(node));
+    std::optional<BigInteger> length = leaf(branch, rows, duals_of(node));
     if (length && (!least_ || *length < *least_)) least_ = std::move(length);
   }
 
-  Whole dual(const Json& number) const { return whole_of(number, tour_.bits) * Whole(kUnit); }
+  BigInteger dual(const Json& number) const { return whole_of(number, tour_.bits) * BigInteger(kUnit); }
 
-  std::vector<Whole> duals(const Json& numbers) const {
-    std::vector<Whole> result;
+  std::vector<BigInteger> duals(const Json& numbers) const {
+    std::vector<BigInteger> result;
     for (const Json& number : list_of(numbers, count_)) result.push_back(dual(number));
     return result;
   }
@@ -107,7 +107,7 @@ class PairsJudge {
       list_of(entry, 2);
       std::set<std::size_t> members;
       for (const Json& member : list_of(entry[1])) members.insert(index_of(member, count_));
-      Whole value = dual(entry[0]);
+      BigInteger value = dual(entry[0]);
       demand(value.sign() >= 0 && !members.empty() && members.size() < count_, "there is no set, or less than 0");
       result.of_set.emplace_back(std::move(value), std::move(members));
     }
@@ -121,13 +121,13 @@ class PairsJudge {
   }
 
   /// The least that region i adds between its neighbours, about the origin.
-  Whole cost(const Rows& rows, std::size_t i, std::size_t j, std::size_t k) const {
+  BigInteger cost(const Rows& rows, std::size_t i, std::size_t j, std::size_t k) const {
     if (i == tour_.cells.size()) return {};
     const Direction a = vector_between(rows, i, j), b = vector_between(rows, i, k);
     const Direction both = {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
     Cell& cell = *tour_.cells[i];
-    Whole least =
-        tour_.dwell[i].sign() > 0 ? cell.least(a) + cell.least(b) + tour_.dwell[i] * Whole(kUnit) : cell.least(both);
+    BigInteger least = tour_.dwell[i].sign() > 0 ? cell.least(a) + cell.least(b) + tour_.dwell[i] * BigInteger(kUnit)
+                                                 : cell.least(both);
     const bool turns = tour_.turn_radius.sign() > 0 && tour_.dwell[i].sign() == 0 && !tour_.is_place[i];
     if (turns && std::max(j, k) < tour_.cells.size()) {
       least += turning_at(tour_.turn_radius, a, vector_between(rows, k, i), room_between(*tour_.cells[j], cell, a),
@@ -137,9 +137,9 @@ class PairsJudge {
   }
 
   /// Nothing: no tour has the edges that are fixed.
-  std::optional<Whole> leaf(const Branch& branch, const Rows& rows, const Duals& duals) const {
-    Whole total;
-    for (const Whole& d : duals.of_region) total += d + d;
+  std::optional<BigInteger> leaf(const Branch& branch, const Rows& rows, const Duals& duals) const {
+    BigInteger total;
+    for (const BigInteger& d : duals.of_region) total += d + d;
     for (const auto& [s, members] : duals.of_set) total += s + s;
     bool is_possible = true;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -150,12 +150,12 @@ class PairsJudge {
         beside.push_back(j);
         if (branch.inside.contains(edge_of(i, j))) must.push_back(j);
       }
-      std::optional<Whole> least = least_between(rows, duals.of_edge_at[i], i, beside, must);
+      std::optional<BigInteger> least = least_between(rows, duals.of_edge_at[i], i, beside, must);
       is_possible = is_possible && least;
       if (least) total += *least;
       for (const std::size_t j : beside) {
         if (j >= i) continue;
-        Whole left = duals.of_edge_at[i][j] + duals.of_edge_at[j][i] - duals.of_region[i] - duals.of_region[j];
+        BigInteger left = duals.of_edge_at[i][j] + duals.of_edge_at[j][i] - duals.of_region[i] - duals.of_region[j];
         for (const auto& [s, members] : duals.of_set) {
           if (members.contains(i) != members.contains(j)) left -= s;
         }
@@ -166,17 +166,17 @@ class PairsJudge {
     return is_possible ? std::optional(std::move(total)) : std::nullopt;
   }
 
-  std::optional<Whole> least_between(const Rows& rows, const std::vector<Whole>& p, std::size_t i,
-                                     const std::vector<std::size_t>& beside,
-                                     const std::vector<std::size_t>& must) const {
-    std::optional<Whole> least;
+  std::optional<BigInteger> least_between(const Rows& rows, const std::vector<BigInteger>& p, std::size_t i,
+                                          const std::vector<std::size_t>& beside,
+                                          const std::vector<std::size_t>& must) const {
+    std::optional<BigInteger> least;
     for (std::size_t a = 0; a < beside.size(); ++a) {
       for (std::size_t b = a + 1; b < beside.size(); ++b) {
         const std::size_t j = beside[a], k = beside[b];
         const bool has_all =
             std::all_of(must.begin(), must.end(), [&](std::size_t edge) { return edge == j || edge == k; });
         if (!has_all) continue;
-        Whole value = cost(rows, i, j, k) - p[j] - p[k];
+        BigInteger value = cost(rows, i, j, k) - p[j] - p[k];
         if (!least || value < *least) least = std::move(value);
       }
     }
@@ -189,12 +189,12 @@ class PairsJudge {
   std::vector<Rows> sets_;
   WholePoint origin_;
   std::vector<Branch> waiting_;
-  std::optional<Whole> least_;
+  std::optional<BigInteger> least_;
 };
 
 }  // namespace
 
-std::optional<Whole> proved_by_pairs(JudgedTour& tour, const Json& proof, const core::ProgressReporter& progress) {
+std::optional<BigInteger> proved_by_pairs(JudgedTour& tour, const Json& proof, const core::ProgressReporter& progress) {
   return PairsJudge(tour, progress).least(proof);
 }
 

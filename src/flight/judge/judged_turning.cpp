@@ -10,13 +10,13 @@
 namespace vantage::internal::flight::judge {
 namespace {
 
-const Whole& unit() {
-  static const Whole kOne(kUnit);
+const BigInteger& unit() {
+  static const BigInteger kOne(kUnit);
   return kOne;
 }
 
-const Whole& square_unit() {
-  static const Whole kSquare = Whole(kUnit) * Whole(kUnit);
+const BigInteger& square_unit() {
+  static const BigInteger kSquare = BigInteger(kUnit) * BigInteger(kUnit);
   return kSquare;
 }
 
@@ -24,41 +24,41 @@ std::int64_t level_square(const Direction& u) { return u[0] * u[0] + u[1] * u[1]
 
 /// Half of the angle between two level vectors, or less, in units of 1 / kUnit: from the sine of a quarter of it.
 /// `norms`: the product of their lengths, rounded down.
-Whole half_angle(const Direction& a, const Direction& b, const Whole& norms) {
+BigInteger half_angle(const Direction& a, const Direction& b, const BigInteger& norms) {
   const std::int64_t along = a[0] * b[0] + a[1] * b[1];
-  const Whole over = along < 0 ? norms + Whole(1) : norms;
-  const Whole cosine = std::min(square_unit(), -floor_divided(-(square_unit() * Whole(along)), over));
-  const Whole half_cosine = root_down(floor_divided(square_unit() + cosine, Whole(2)));
-  const Whole left = std::max(Whole(), unit() - Whole(1) - half_cosine);
-  const Whole sine = root_down(floor_divided(unit() * left, Whole(2)));
-  const Whole cube = sine * sine * sine;
-  return sine + sine + floor_divided(cube, Whole(3) * square_unit()) +
-         floor_divided(Whole(3) * cube * sine * sine, Whole(20) * square_unit() * square_unit());
+  const BigInteger over = along < 0 ? norms + BigInteger(1) : norms;
+  const BigInteger cosine = std::min(square_unit(), -floor_divided(-(square_unit() * BigInteger(along)), over));
+  const BigInteger half_cosine = root_down(floor_divided(square_unit() + cosine, BigInteger(2)));
+  const BigInteger left = std::max(BigInteger(), unit() - BigInteger(1) - half_cosine);
+  const BigInteger sine = root_down(floor_divided(unit() * left, BigInteger(2)));
+  const BigInteger cube = sine * sine * sine;
+  return sine + sine + floor_divided(cube, BigInteger(3) * square_unit()) +
+         floor_divided(BigInteger(3) * cube * sine * sine, BigInteger(20) * square_unit() * square_unit());
 }
 
 /// a - sin a, or less.
-Whole swung(const Whole& angle) {
-  const Whole square = angle * angle;
-  return floor_divided(square * angle * (Whole(20) * square_unit() - square),
-                       Whole(120) * square_unit() * square_unit());
+BigInteger swung(const BigInteger& angle) {
+  const BigInteger square = angle * angle;
+  return floor_divided(square * angle * (BigInteger(20) * square_unit() - square),
+                       BigInteger(120) * square_unit() * square_unit());
 }
 
 }  // namespace
 
-Whole room_between(Cell& from, Cell& to, const Direction& direction) {
+BigInteger room_between(Cell& from, Cell& to, const Direction& direction) {
   return from.least({-direction[0], -direction[1], 0}) + to.least({direction[0], direction[1], 0});
 }
 
-Whole turning_at(const Whole& radius, const Direction& before, const Direction& behind, const Whole& room_before,
-                 const Whole& room_behind) {
-  const Whole norms = root_down(Whole(level_square(before)) * Whole(level_square(behind)));
+BigInteger turning_at(const BigInteger& radius, const Direction& before, const Direction& behind,
+                      const BigInteger& room_before, const BigInteger& room_behind) {
+  const BigInteger norms = root_down(BigInteger(level_square(before)) * BigInteger(level_square(behind)));
   if (radius.sign() == 0 || norms.sign() == 0) return {};
-  const Whole half = half_angle(before, behind, norms);
-  Whole cost = swung(half) + swung(half);
-  for (const Whole& room : {room_before, room_behind}) {
-    cost = std::min(cost, swung(std::min(half + half, floor_divided(std::max(Whole(), room), radius + radius))));
+  const BigInteger half = half_angle(before, behind, norms);
+  BigInteger cost = swung(half) + swung(half);
+  for (const BigInteger& room : {room_before, room_behind}) {
+    cost = std::min(cost, swung(std::min(half + half, floor_divided(std::max(BigInteger(), room), radius + radius))));
   }
-  const Whole weight = root_down(Whole(std::min(level_square(before), level_square(behind))));
+  const BigInteger weight = root_down(BigInteger(std::min(level_square(before), level_square(behind))));
   return floor_divided(weight * cost * radius, unit());
 }
 

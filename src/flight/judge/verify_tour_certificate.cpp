@@ -58,18 +58,18 @@ class CertificateJudge {
     for (const Json& region : list_of(json["regions"])) read_region(region);
     make_cells();
     read_ends(json);
-    const Whole bound = whole_of(json["bound_m"], tour_.bits) * Whole(kUnit);
+    const BigInteger bound = whole_of(json["bound_m"], tour_.bits) * BigInteger(kUnit);
     check_.bound_m = json["bound_m"].get<double>();
     const Json& proof = json["proof"];
     check_.kind = proof.at("kind").get<std::string>();
     check_.nodes = list_of(proof.at("tree")).size();
     progress_.begin("proof of the bound");
     demand(check_.kind == "insertion" || check_.kind == "pairs", "it has a proof of no known kind");
-    const std::optional<Whole> proved = check_.kind == "insertion" ? proved_by_insertion(tour_, proof, progress_)
-                                                                   : proved_by_pairs(tour_, proof, progress_);
+    const std::optional<BigInteger> proved = check_.kind == "insertion" ? proved_by_insertion(tour_, proof, progress_)
+                                                                        : proved_by_pairs(tour_, proof, progress_);
     progress_.finish();
     // No tour is shorter than 0, and none at all is shorter than anything.
-    const Whole most = proved ? std::max(*proved, Whole()) : std::max(bound, Whole());
+    const BigInteger most = proved ? std::max(*proved, BigInteger()) : std::max(bound, BigInteger());
     check_.proved_m = proved ? most.scaled_down(tour_.bits + kUnitBits) : std::numeric_limits<double>::infinity();
     demand(bound <= most, "less is proved than it says");
   }
@@ -145,9 +145,9 @@ class CertificateJudge {
       if (number[vertex] == kNone) {
         WholePoint point;
         for (std::size_t k = 0; k < 3; ++k) {
-          point[k] = Whole::scaled(mesh.vertices[vertex][static_cast<Eigen::Index>(k)], tour_.bits);
+          point[k] = BigInteger::scaled(mesh.vertices[vertex][static_cast<Eigen::Index>(k)], tour_.bits);
         }
-        number[vertex] = corners_->add(std::move(point), Whole(1));
+        number[vertex] = corners_->add(std::move(point), BigInteger(1));
       }
       polygons.push_back(number[vertex]);
     };

@@ -137,7 +137,7 @@ constexpr std::array kUnits = {Unit{"metres", Measure::length, 1},
                                Unit{"m", Measure::length, 1}};
 
 /// A column that is used.
-struct Use {
+struct UsedColumn {
   std::size_t index;
   KnownColumn known;
   double factor;
@@ -145,7 +145,7 @@ struct Use {
 
 /// What a title says.
 struct Title {
-  std::optional<Use> use;
+  std::optional<UsedColumn> use;
   bool has_unknown_unit = false;  ///< it is the name of a known column, and something behind it
 };
 
@@ -182,14 +182,14 @@ Title read_title(std::string_view title, std::size_t index) {
   std::string name;
   for (const char c : title)
     name += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (const auto whole = known_column(name)) return {Use{index, *whole, 1}};
+  if (const auto whole = known_column(name)) return {UsedColumn{index, *whole, 1}};
   for (const Unit& unit : kUnits) {
     for (const std::string& end :
          {"(" + std::string(unit.name) + ")", "[" + std::string(unit.name) + "]", "_" + std::string(unit.name)}) {
       const bool ends_so = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
       if (!ends_so) continue;
       const auto column = known_column(std::string_view{name}.substr(0, name.size() - end.size()));
-      if (column && measure_of(column->column) == unit.measure) return {Use{index, *column, unit.factor}};
+      if (column && measure_of(column->column) == unit.measure) return {UsedColumn{index, *column, unit.factor}};
     }
   }
   const std::size_t last = name.find_last_of("_([");
@@ -259,29 +259,30 @@ class PlanTable {
     if (!is_geographic && !(find(Column::x) && find(Column::y) && find(Column::z))) {
       fail_header("the table has no longitude and latitude, and no x, y and z: " + in_quotes(line), place);
     }
-    // Of several heights the first whose level is known.
-    for (const Use& use : uses_) {
+    // If there are several heights, the first whose level is known.
+    for (const UsedColumn& use : uses_) {
       if (use.known.column != Column::height) continue;
       if (!height_ || (height_->known.datum == HeightDatum::unknown && use.known.datum != HeightDatum::unknown)) {
         height_ = use;
       }
     }
     if (is_geographic && !height_) height_ = find(Column::z);
-    const bool is_litchi = std::any_of(uses_.begin(), uses_.end(), [](const Use& use) {
+    const bool is_litchi = std::any_of(uses_.begin(), uses_.end(), [](const UsedColumn& use) {
       return use.known.name == "curvesize" || use.known.name == "altitudemode";
     });
     if (is_litchi && height_ && height_->known.datum == HeightDatum::unknown) height_->known.datum = HeightDatum::home;
   }
 
-  std::optional<Use> find(Column column) const {
-    for (const Use& use : uses_) {
+  std::optional<UsedColumn> find(Column column) const {
+    for (const UsedColumn& use : uses_) {
       if (use.known.column == column) return use;
     }
     return std::nullopt;
   }
 
   /// Not a number where the field is empty or the column is missing.
-  static double value(const std::optional<Use>& use, const std::vector<std::string>& fields, const std::string& where) {
+  static double value(const std::optional<UsedColumn>& use, const std::vector<std::string>& fields,
+                      const std::string& where) {
     if (!use || use->index >= fields.size() || fields[use->index].empty()) return std::nan("");
     const std::string& field = fields[use->index];
     const ParsedNumber number = parse_number(field);
@@ -322,8 +323,8 @@ class PlanTable {
   const PlanSource& source_;
   char separator_ = ',';
   std::size_t columns_ = 0;
-  std::vector<Use> uses_;
-  std::optional<Use> height_;
+  std::vector<UsedColumn> uses_;
+  std::optional<UsedColumn> height_;
   bool is_in_scene_frame_ = false;
 };
 

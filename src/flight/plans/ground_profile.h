@@ -11,7 +11,7 @@
 
 namespace vantage::internal::flight::plans {
 
-/// Of a polyline over a line: `share` 0 is its beginning, 1 its end; z in metres.
+/// A point of a polyline over a line: `share` 0 is its beginning, 1 its end; z in metres.
 struct ProfilePoint {
   double share, z_m;
 };

@@ -70,7 +70,7 @@ class KmlTracks {
     return false;
   }
 
-  /// Of its placemark: <Data name="..."><value>, or <SimpleData name="...">.
+  /// Adds what the placemark says: <Data name="..."><value>, or <SimpleData name="...">.
   void add_details(XmlTree::Node placemark, std::size_t point) {
     const XmlTree::Node data = xml_.child(placemark, "ExtendedData");
     if (data == XmlTree::kNone) return;

@@ -54,7 +54,7 @@ enum MissionFrame : int {
 struct MissionItem {
   int command = 0, frame = kMission;
   std::array<double, 7> parameters{};  ///< NaN: not given
-  /// Of a height that QGroundControl computes from its terrain: that above ground, where its height above sea level is
+  /// For a height that QGroundControl computes from its terrain: that above ground, where its height above sea level is
   /// missing.
   double above_ground_m = std::numeric_limits<double>::quiet_NaN();
   long long id = -1;  ///< what DO_JUMP names; below 0: none

@@ -36,7 +36,7 @@ struct PlanSource {
 /// Longitude and latitude, checked to be on the earth; `where` as place() makes it. Throws Error(input).
 Eigen::Vector2d checked_lonlat(double longitude_deg, double latitude_deg, const std::string& where);
 
-/// Of several that a file may have.
+/// One of several tracks that a file may have.
 struct PlanTrack {
   std::string name;   ///< may be empty
   std::string place;  ///< within the file: "line 12"

@@ -14,7 +14,8 @@
 
 namespace vantage::internal::flight::plans {
 
-/// Of all volumes in a KML file: it takes 300 bytes for each, and must be no larger than what is read (kMostPlanBytes).
+/// The triangles of all volumes in a KML file: it takes 300 bytes for each, and must be no larger than what is read
+/// (kMostPlanBytes).
 inline constexpr std::size_t kMostKmlTriangles = 150'000;
 
 /// How many of the flight's volumes a KML file draws: the first ones that it has room for.

@@ -68,7 +68,7 @@ json position_of_json(const PlanWriter& writer, const Vec3& position) {
   return {at.x(), at.y(), writer.height(position)};
 }
 
-/// Of circles only the ends of chords where something is done.
+/// Whether a point is written: of circles only the ends of chords where something is done.
 bool is_listed(const OutPoint& point) {
   const CameraAngles angles = camera_angles(point);
   return !point.is_of_circle || point.hold_s > 0 || point.action.photo || point.action.video || angles.yaw_deg ||

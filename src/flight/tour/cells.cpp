@@ -141,7 +141,7 @@ std::vector<std::size_t> Cells::three_far_apart() const {
   return three;
 }
 
-/// Of the true cell: the plane is moved back by more than all that rounding does to corners and heights. So the cell
+/// Cuts the true cell: the plane is moved back by more than all that rounding does to corners and heights. So the cell
 /// that is kept holds the true one, but for how far its points were rounded along the way: Hull::moved_m.
 std::unique_ptr<Cell> Cells::cut(std::size_t number, const CellPlane& plane) const {
   const Cell& cell = *cells_[number];

@@ -50,7 +50,7 @@ bool weights_of(const std::array<Vec3, 4>& corners, int count, std::array<double
   return first > 0;
 }
 
-/// Of a convex set that is given by its lowest points.
+/// The nearest point of a convex set that is given by its lowest points.
 template <typename Lowest>
 Vec3 nearest_to_origin(const Vec3& start, double tolerance_m, const Lowest& lowest) {
   std::vector<Vec3> simplex = {start};

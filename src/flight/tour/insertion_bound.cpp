@@ -124,7 +124,7 @@ class InsertionSearch {
     });
   }
 
-  /// Of the points of a sequence, the last one of a stop.
+  /// The last of a stop's points in a sequence.
   std::size_t last_point(const std::vector<std::uint32_t>& sequence, std::size_t stop) const {
     std::size_t point = 0;
     for (std::size_t s = 0; s <= stop; ++s) point += points_of(sequence[s]);

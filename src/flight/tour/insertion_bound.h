@@ -53,7 +53,7 @@ struct InsertionBound {
   InsertionTree tree;
   std::size_t solved = 0, cells = 0;
   bool stopped = false;  ///< by a limit, before enough_m was reached
-  /// Of shortest polylines that meet all regions: orders to try. Without first and last.
+  /// The orders of the shortest polylines that meet all regions: to be tried. Without first and last.
   std::vector<std::vector<std::size_t>> orders;
 };
 

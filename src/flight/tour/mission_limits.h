@@ -19,7 +19,7 @@ double least_width_m(const Navigation& navigation);
 /// as wide in each direction as the smallest circle, whatever its course is.
 void check_room_to_turn(const Mission& mission, const TourSettings& settings);
 
-/// Of an open flight of a fixed wing in such zones, which cannot turn round in them: throws Error(input) where no
+/// For an open flight of a fixed wing in such zones, which cannot turn round in them: throws Error(input) where no
 /// target is visited, and returns a note where some are left out. Nothing else.
 std::optional<std::string> note_of_narrow_zones(const Mission& mission, const TourSettings& settings, const Tour& tour);
 

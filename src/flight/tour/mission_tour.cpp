@@ -35,7 +35,7 @@ namespace tour = internal::flight::tour;
 using tour::each_of;
 using tour::is_volume;
 
-/// Of positions to hover at: the tour comes within 8.7 mm of them (view_from).
+/// The slack of positions to hover at: the tour comes within 8.7 mm of them (view_from).
 constexpr double kHoverSlackM = 0.01;
 
 using Json = nlohmann::ordered_json;
@@ -61,7 +61,7 @@ Json positions_json(const MissionTour& of) {
           {"found", std::move(found)}};
 }
 
-/// Of all corners.
+/// The mean of all corners.
 Vec3 middle_of(const Target& target) {
   Vec3 sum = Vec3::Zero();
   std::size_t corners = 0;

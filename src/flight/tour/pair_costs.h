@@ -78,7 +78,7 @@ class PairCosts {
   }
 
   std::size_t count() const { return count_; }
-  /// Of region i between j and k, but for rounding.
+  /// The cost of region i between j and k, but for rounding.
   double operator()(std::size_t i, std::size_t j, std::size_t k) const { return costs_[i][j * count_ + k]; }
   /// All rounding of the costs of a tour: as for touring_bound, at every region.
   double error_m() const { return error_; }
@@ -92,7 +92,7 @@ class PairCosts {
   Vec3 vector(std::size_t i, std::size_t j) const {
     return j < i ? vector_of(vectors_[i][j]) : Vec3(-vector_of(vectors_[j][i]));
   }
-  /// Of the leg from one region to another.
+  /// The direction of the leg from one region to another.
   Direction between(std::size_t from, std::size_t to) const {
     if (from < to) return vectors_[to][from];
     Direction back = vectors_[from][to];

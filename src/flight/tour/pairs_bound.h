@@ -60,7 +60,7 @@ struct PairsBound {
   double bound_m = 0;
   PairsProof proof;
   std::size_t nodes = 0, columns = 0;
-  /// Of tours that the program suggests: orders to try. Without first and last.
+  /// The orders of tours that the program suggests: to be tried. Without first and last.
   std::vector<std::vector<std::size_t>> orders;
 };
 

@@ -115,7 +115,7 @@ const HoverCandidate* PositionSearch::known(const Group& group) const {
 // ---- candidates
 
 std::vector<Vec3> PositionSearch::random_points() const {
-  Draw draw(1);
+  SplitMix64 draw(1);
   std::vector<Vec3> points;
   for (const auto& region : regions_) {
     const Box& box = region->depth.bounds();
@@ -248,7 +248,7 @@ std::vector<Group> PositionSearch::cover() const {
   return groups;
 }
 
-/// Of a group without a common position: what is left when all that can be is taken out. It becomes a conflict.
+/// What is left of a group without a common position when all that can be is taken out. It becomes a conflict.
 void PositionSearch::learn_conflict(const Group& group) {
   Group kept = group;
   for (const std::size_t member : group) {

@@ -80,7 +80,7 @@ std::vector<Vec3> anchors_of(const Cells& cells, const Incumbent& incumbent) {
   return anchors;
 }
 
-/// Of all regions that are not ends: the start of a closed tour stands at its beginning.
+/// The order of all regions that are not ends: the start of a closed tour stands at its beginning.
 std::vector<std::size_t> order_of(const Incumbent& incumbent, const TourBound& result) {
   std::vector<std::size_t> order = incumbent.order;
   if (!order.empty() && result.space.closed && result.regions.size() > order.size()) order.push_back(order.size());

@@ -22,7 +22,7 @@ struct BoundProblem {
   /// In each region a stretch of this length is flown (speed times dwell), and no stretch serves two regions: only for
   /// targets that are viewed one at a time. Empty: 0.
   std::vector<double> dwell_m;
-  /// Of a fixed wing: the track over ground curves no tighter, but where the tour begins and ends. 0: it turns on the
+  /// For a fixed wing: the track over ground curves no tighter, but where the tour begins and ends. 0: it turns on the
   /// spot.
   double turn_radius_m = 0;
   bool closed = true;          ///< ends where it begins

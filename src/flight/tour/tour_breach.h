@@ -21,7 +21,7 @@ std::vector<Breach> breaches_of_legs(const Tour& tour, const TourRequest& reques
 /// Where a tour without visits breaks a limit nothing can be left out: throws Error(internal_defect).
 void check_has_visits(const Tour& tour);
 
-/// Of the target that is viewed on a leg, or next, else last; or that is visited. Of a tour with a visit.
+/// The problem of the target that is viewed on a leg, or next, else last; or that is visited. For a tour with a visit.
 TourProblem problem_of(const Tour& tour, const Breach& breach, const TourRequest& request, double deviation_m);
 
 }  // namespace vantage::internal::flight::tour

@@ -28,7 +28,7 @@ Vec3 nearest_on_leg(const Vec3& a, const Vec3& b, const Vec3& point) {
 }
 
 /// Shortens a way between fixed ends: leaves out bends, cuts corners, pulls bends towards the straight line.
-void pull_tight(std::vector<Vec3>& points, const Airspace& airspace, Draw& draw) {
+void pull_tight(std::vector<Vec3>& points, const Airspace& airspace, SplitMix64& draw) {
   const auto allows = [&](const Vec3& a, const Vec3& b) { return airspace.allows({a, b}, 0); };
   const auto leave_out = [&] {
     for (std::size_t i = 1; i + 1 < points.size();) {
@@ -179,7 +179,7 @@ std::optional<std::vector<Vec3>> way_over(const Airspace& airspace, const Leg& l
 }
 
 /// A place in the spheroid with its foci at the ends of the leg, inside the bounds.
-Vec3 draw_about(const Leg& leg, double reach, const Box& bounds, Draw& draw) {
+Vec3 draw_about(const Leg& leg, double reach, const Box& bounds, SplitMix64& draw) {
   Vec3 middle = (leg.from + leg.to) / 2;
   for (int i = 0; i < 64; ++i) {
     const Vec3 offset(draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1));
@@ -191,8 +191,8 @@ Vec3 draw_about(const Leg& leg, double reach, const Box& bounds, Draw& draw) {
 
 class ClearFlight {
  public:
-  ClearFlight(const Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
-              const std::function<bool()>& is_late)
+  ClearFlight(const Course& course, const CourseLimits& limits, SplitMix64& draw,
+              const core::ProgressReporter& progress, const std::function<bool()>& is_late)
       : course_(course), limits_(limits), draw_(draw), progress_(progress), is_late_(is_late) {}
 
   FlownCourse run() {
@@ -293,7 +293,7 @@ class ClearFlight {
 
   Course course_;
   const CourseLimits& limits_;
-  Draw& draw_;
+  SplitMix64& draw_;
   const core::ProgressReporter& progress_;
   const std::function<bool()>& is_late_;
   std::map<std::array<double, 6>, std::optional<std::vector<Vec3>>> ways_;  ///< by their ends
@@ -354,7 +354,7 @@ bool improve_stop(Course& course, const CourseLimits& limits, std::size_t i) {
 
 }  // namespace
 
-std::optional<std::vector<Vec3>> find_way(const Airspace& airspace, const Leg& leg, Draw& draw,
+std::optional<std::vector<Vec3>> find_way(const Airspace& airspace, const Leg& leg, SplitMix64& draw,
                                           const core::ProgressReporter& progress, Effort effort) {
   std::optional<std::vector<Vec3>> best = way_over(airspace, leg);
   if (best) pull_tight(*best, airspace, draw);
@@ -402,8 +402,8 @@ void shorten(Course& course, const CourseLimits& limits) {
   }
 }
 
-void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
-                    const std::function<bool()>& is_over) {
+void draw_ways_anew(Course& course, const CourseLimits& limits, SplitMix64& draw,
+                    const core::ProgressReporter& progress, const std::function<bool()>& is_over) {
   std::vector<Stop>& stops = course.stops;
   for (std::size_t i = 0; i < stops.size() && !is_over(); ++i) {
     std::size_t next = i + 1;
@@ -451,7 +451,7 @@ void join_bends(Course& course, const CourseLimits& limits) {
   }
 }
 
-FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,
+FlownCourse fly_clear(const Course& course, const CourseLimits& limits, SplitMix64& draw,
                       const core::ProgressReporter& progress, const std::function<bool()>& is_late) {
   return ClearFlight(course, limits, draw, progress, is_late).run();
 }

@@ -19,7 +19,7 @@ enum class Effort { full, little };
 /// are drawn about the straight way, in a space that grows; of the graph of their neighbours the shortest way is taken
 /// whose legs are allowed, asked only as needed (R. Bohlin and L. E. Kavraki, "Path planning using lazy PRM", 2000).
 /// Then it is shortened. Nothing where none was found. Without the ends.
-std::optional<std::vector<Vec3>> find_way(const Airspace& airspace, const Leg& leg, Draw& draw,
+std::optional<std::vector<Vec3>> find_way(const Airspace& airspace, const Leg& leg, SplitMix64& draw,
                                           const core::ProgressReporter& progress, Effort effort = Effort::full);
 
 /// What a course is to keep.
@@ -41,14 +41,14 @@ struct FlownCourse {
 /// Moves stops to allowed places, puts bends in where legs are not allowed, leaves out what cannot be reached, and
 /// shortens the rest. Home must be allowed. Ways are looked for with little effort where it `is_late`. On a call to
 /// stop it throws Error(cancelled).
-FlownCourse fly_clear(const Course& course, const CourseLimits& limits, Draw& draw,
+FlownCourse fly_clear(const Course& course, const CourseLimits& limits, SplitMix64& draw,
                       const core::ProgressReporter& progress, const std::function<bool()>& is_late);
 
 /// Draws the bends between stops anew, keeps those that make the way shorter, and shortens the course; between two
 /// stops it asks whether time is up. There must be an airspace. On a call to stop it throws Error(cancelled); all legs
 /// are allowed then, too.
-void draw_ways_anew(Course& course, const CourseLimits& limits, Draw& draw, const core::ProgressReporter& progress,
-                    const std::function<bool()>& is_over);
+void draw_ways_anew(Course& course, const CourseLimits& limits, SplitMix64& draw,
+                    const core::ProgressReporter& progress, const std::function<bool()>& is_over);
 
 /// Makes one bend of two where the way gets little longer, by a thousandth in all at most: the vehicle brakes at each.
 void join_bends(Course& course, const CourseLimits& limits);

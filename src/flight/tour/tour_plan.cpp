@@ -58,7 +58,7 @@ Tour::End end_of(SearchEnd end) {
                                        : Tour::End::time_limit;
 }
 
-/// Of different lengths: the same flight may serve its targets in several orders.
+/// Courses of different lengths: the same flight may serve its targets in several orders.
 std::vector<Course> different(const std::vector<Course>& courses) {
   std::vector<Course> result;
   for (const Course& course : courses) {
@@ -155,7 +155,7 @@ class MultirotorPlan {
     const CourseLimits limits = {regions_, request_.airspace.get()};
     std::optional<FlownCourse> flown;
     try {
-      Draw draw(request_.seed);
+      SplitMix64 draw(request_.seed);
       const auto is_late = [this] { return is_over(); };
       flown = fly_clear(course, limits, draw, is_over() ? core::ProgressReporter() : progress_, is_late);
       draw_ways(flown->course, draw);
@@ -164,11 +164,11 @@ class MultirotorPlan {
       end_ = Tour::End::cancelled;
     }
     if (flown || !must) return flown;
-    Draw draw(request_.seed);
+    SplitMix64 draw(request_.seed);
     return fly_clear(course, limits, draw, {}, [] { return true; });
   }
 
-  void draw_ways(Course& course, Draw& draw) const {
+  void draw_ways(Course& course, SplitMix64& draw) const {
     if (!request_.airspace) return;
     const CourseLimits limits = {regions_, request_.airspace.get()};
     int idle = 0;
@@ -232,7 +232,7 @@ class MultirotorPlan {
     }
     if (tour.order.empty()) return tour;
     if (flown.course.closed && points.size() > 1) points.push_back(points.front());
-    const Way way(points);
+    const Polyline way(points);
     std::vector<Viewing> viewings;
     for (std::size_t i = 0; i < stops.size(); ++i) {
       if (stops[i].region < 0) continue;

@@ -8,10 +8,10 @@
 
 namespace vantage::internal::flight::tour {
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
-class Draw {
+/// Steele, Lea and Flood 2014: Fast splittable pseudorandom number generators.
+class SplitMix64 {
  public:
-  explicit Draw(std::uint64_t seed) : state_(seed) {}
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t bits() {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);

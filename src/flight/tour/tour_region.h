@@ -102,7 +102,8 @@ class TourRegion {
 
 using Regions = std::vector<std::unique_ptr<const TourRegion>>;
 
-/// Of all targets of a tour, `margin_m` deep. Throws as TourRegion does, for the first target that is wrong.
+/// The regions of all targets of a tour, `margin_m` deep. Throws as TourRegion does, for the first target that is
+/// wrong.
 Regions make_regions(const std::vector<TourTarget>& targets, double margin_m, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::flight::tour

@@ -109,7 +109,7 @@ double turning_seconds(const TourRequest& request, const Scheduled& from, const 
 
 }  // namespace
 
-Way::Way(std::vector<Vec3> points) : points_(std::move(points)) {
+Polyline::Polyline(std::vector<Vec3> points) : points_(std::move(points)) {
   stations_.push_back(0);
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
     const double before = stations_.back(), station = before + (points_[i + 1] - points_[i]).norm();
@@ -118,7 +118,7 @@ Way::Way(std::vector<Vec3> points) : points_(std::move(points)) {
   }
 }
 
-Vec3 Way::at(double station_m) const {
+Vec3 Polyline::at(double station_m) const {
   const auto after = std::upper_bound(stations_.begin(), stations_.end(), station_m);
   if (after == stations_.begin()) return points_.front();
   if (after == stations_.end()) return points_.back();
@@ -127,7 +127,7 @@ Vec3 Way::at(double station_m) const {
   return points_[i - 1] + share * (points_[i] - points_[i - 1]);
 }
 
-std::vector<Stretch> stretches_in(const TourRegion& region, const Way& way) {
+std::vector<Stretch> stretches_in(const TourRegion& region, const Polyline& way) {
   std::vector<Stretch> found;
   bool goes_on = false;  // the last one ends at the end of a leg
   for (std::size_t i = 0; i + 1 < way.points().size(); ++i) {
@@ -151,7 +151,7 @@ std::vector<Stretch> stretches_in(const TourRegion& region, const Way& way) {
   return found;
 }
 
-std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Way& way, const TourTarget& target,
+std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Polyline& way, const TourTarget& target,
                                         const TourSettings& settings) {
   if (!target.look_at) return stretches;
   std::vector<Stretch> slow;
@@ -212,7 +212,7 @@ double multirotor_seconds(const Flight& flight, const TourSettings& settings) {
   return seconds;
 }
 
-Scheduling flight_of(const Way& way, const std::vector<Scheduled>& scheduled, const TourRequest& request) {
+Scheduling flight_of(const Polyline& way, const std::vector<Scheduled>& scheduled, const TourRequest& request) {
   const TourSettings& settings = request.settings;
   // Stations of all points of the flight, without repeats.
   std::vector<std::pair<double, Vec3>> stations;

@@ -13,9 +13,9 @@ namespace vantage::internal::flight::tour {
 
 /// A polyline, with where it is after each point. Points that differ are at different stations, also where they are
 /// nearer to each other than rounding of a long way.
-class Way {
+class Polyline {
  public:
-  explicit Way(std::vector<Vec3> points);
+  explicit Polyline(std::vector<Vec3> points);
 
   const std::vector<Vec3>& points() const { return points_; }
   double length_m() const { return stations_.back(); }
@@ -32,10 +32,10 @@ struct Stretch {
 };
 
 /// The parts of the way that are in a region for sure. Sorted.
-std::vector<Stretch> stretches_in(const TourRegion& region, const Way& way);
+std::vector<Stretch> stretches_in(const TourRegion& region, const Polyline& way);
 
-/// Of those, what is flown so slowly, at the vehicle's speed, that the camera can follow the target.
-std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Way& way, const TourTarget& target,
+/// Those of the stretches that are flown so slowly, at the vehicle's speed, that the camera can follow the target.
+std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Polyline& way, const TourTarget& target,
                                         const TourSettings& settings);
 
 /// A target to be viewed, and where its stop is.
@@ -58,7 +58,8 @@ std::vector<Scheduled> schedule(const std::vector<Viewing>& viewings, const Tour
 /// Seconds that a vehicle takes from rest to rest over `length_m`: it speeds up, keeps its speed, slows down.
 double seconds_from_rest(double length_m, double speed_m_s, double acceleration_m_s2);
 
-/// Of a multirotor's flight: from rest to rest between the points where it holds or turns by more than 1e-3 radians.
+/// The duration of a multirotor's flight: from rest to rest between the points where it holds or turns by more than
+/// 1e-3 radians.
 double multirotor_seconds(const Flight& flight, const TourSettings& settings);
 
 /// The flight along the way, with a point wherever a view begins and ends, and the visits. Where turning the camera
@@ -67,6 +68,6 @@ struct Scheduling {
   Flight flight;
   std::vector<TourVisit> visits;
 };
-Scheduling flight_of(const Way& way, const std::vector<Scheduled>& scheduled, const TourRequest& request);
+Scheduling flight_of(const Polyline& way, const std::vector<Scheduled>& scheduled, const TourRequest& request);
 
 }  // namespace vantage::internal::flight::tour

@@ -238,7 +238,7 @@ class OrderSearch {
   const CourseKind& kind_;
   const SearchOptions& options_;
   const core::ProgressReporter& progress_;
-  Draw draw_;
+  SplitMix64 draw_;
   core::Stopwatch watch_;
   SearchResult result_;
 };

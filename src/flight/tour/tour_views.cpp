@@ -42,16 +42,16 @@ ViewPlace place_of(const TourVisit& visit, const Flight& flight) {
   return place;
 }
 
-/// Of the camera's axis, of unit length.
+/// The direction of the camera's axis, of unit length.
 Vec3 camera_axis(const Aim& aim) {
   constexpr double kRadian = std::numbers::pi / 180;
   const double yaw = aim.yaw_deg * kRadian, pitch = aim.pitch_deg * kRadian;
   return {std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
 }
 
-class Photographer {
+class PhotoActions {
  public:
-  Photographer(const MissionTour& of, const Mission& mission)
+  PhotoActions(const MissionTour& of, const Mission& mission)
       : of_(of), each_(each_of(mission)), is_wing_(of.settings.vehicle.kind == TourVehicle::Kind::fixed_wing) {}
 
   FlightAction action_at(const Vec3& position, std::size_t number) const {
@@ -88,7 +88,7 @@ class Photographer {
 }  // namespace
 
 void add_views(const MissionTour& of, const Mission& mission, FlightOut& out) {
-  const Photographer photographer(of, mission);
+  const PhotoActions photos(of, mission);
   const std::vector<FlightPoint>& points = of.tour.flight.points;
   std::vector<ViewPlace> places;
   for (const TourVisit& visit : of.tour.visits) places.push_back(place_of(visit, of.tour.flight));
@@ -108,8 +108,8 @@ void add_views(const MissionTour& of, const Mission& mission, FlightOut& out) {
     }
     const double share_s = here.hold_s / static_cast<double>(std::max<std::ptrdiff_t>(1, next - first));
     for (auto place = first; place != next; ++place) {
-      const FlightAction action = photographer.action_at(here.position, place->visit->target);
-      here.hold_s = std::max(share_s, place == first ? 0 : photographer.turn_s(out.actions.back(), action));
+      const FlightAction action = photos.action_at(here.position, place->visit->target);
+      here.hold_s = std::max(share_s, place == first ? 0 : photos.turn_s(out.actions.back(), action));
       out.flight.points.push_back(here);
       out.actions.push_back(action);
     }
@@ -118,7 +118,7 @@ void add_views(const MissionTour& of, const Mission& mission, FlightOut& out) {
       point.position = points[i].position + next->share * (points[i + 1].position - points[i].position);
       point.hold_s = 0;
       out.flight.points.push_back(point);
-      out.actions.push_back(photographer.action_at(point.position, next->visit->target));
+      out.actions.push_back(photos.action_at(point.position, next->visit->target));
     }
   }
 }

@@ -213,7 +213,7 @@ class WingPlan {
     return candidate;
   }
 
-  /// Of two places between which there is no way, the later one that is not home.
+  /// Leaves out one of two places between which there is no way: the later one that is not home.
   void leave_out(std::vector<int>& order, std::size_t blocked, Candidate& candidate) const {
     const std::size_t first = request_.home ? 1 : 0;
     const auto region_at = [&](std::size_t place) -> std::optional<std::size_t> {
@@ -384,7 +384,7 @@ class WingPlan {
   /// enough.
   std::optional<std::vector<TourVisit>> views_of(const WingCourse& course) const {
     const Layout layout = layout_of(course, space_);
-    const Way way(layout.points);
+    const Polyline way(layout.points);
     std::vector<TourVisit> visits;
     std::vector<Stretch> taken;
     const double dwell = request_.settings.dwell_s;
@@ -412,7 +412,7 @@ class WingPlan {
   }
 
   /// Whole chords in the region, as long as the dwell, while no other target is viewed.
-  std::optional<TourVisit> passing(int region, const Way& way, const std::vector<Stretch>& taken) const {
+  std::optional<TourVisit> passing(int region, const Polyline& way, const std::vector<Stretch>& taken) const {
     const auto target = static_cast<std::size_t>(region);
     for (const Stretch& stretch : stretches_in(*regions_[target], way)) {
       constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
@@ -460,7 +460,7 @@ class WingPlan {
         if (is_asked && !is_told) problems.push_back(problem);
       };
       std::for_each(next.problems.begin(), next.problems.end(), add);
-      // Of these no view was drawn in the last attempt, or its time was over before it told why.
+      // For these no view was drawn in the last attempt, or its time was over before it told why.
       for (const int region : order) {
         const auto target = static_cast<std::size_t>(region);
         if (choices_[target].empty()) add({TourProblem::Kind::no_place, target, std::nullopt, ""});
@@ -518,7 +518,7 @@ class WingPlan {
   core::Stopwatch watch_;
   Regions regions_;
   WingSpace space_;
-  Draw draw_;
+  SplitMix64 draw_;
   std::vector<std::vector<View>> choices_;  ///< of each target
   std::vector<TourProblem> no_place_;
   std::optional<Candidate> best_;

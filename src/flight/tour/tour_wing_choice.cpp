@@ -100,7 +100,7 @@ struct Steps {
 
 class Refinement {
  public:
-  Refinement(WingCourse& course, const WingSpace& space, Draw& draw, const core::ProgressReporter& progress,
+  Refinement(WingCourse& course, const WingSpace& space, SplitMix64& draw, const core::ProgressReporter& progress,
              const std::function<bool(const WingCourse&)>& keeps, const IsOver& is_over)
       : course_(course), space_(space), draw_(draw), progress_(progress), keeps_(keeps), is_over_(is_over) {}
 
@@ -205,7 +205,7 @@ class Refinement {
 
   WingCourse& course_;
   const WingSpace& space_;
-  Draw& draw_;
+  SplitMix64& draw_;
   const core::ProgressReporter& progress_;
   const std::function<bool(const WingCourse&)>& keeps_;
   const IsOver& is_over_;
@@ -257,7 +257,7 @@ Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const
   return {std::nullopt, blocked, false};
 }
 
-void refine(WingCourse& course, const WingSpace& space, Draw& draw, const core::ProgressReporter& progress,
+void refine(WingCourse& course, const WingSpace& space, SplitMix64& draw, const core::ProgressReporter& progress,
             const std::function<bool(const WingCourse&)>& keeps, const IsOver& is_over) {
   Refinement refinement(course, space, draw, progress, keeps, is_over);
   refinement.choose_again();

@@ -20,7 +20,7 @@ struct WingCourse {
   std::size_t next(std::size_t i) const { return (i + 1) % views.size(); }
 };
 
-/// Of the paths and the views.
+/// The length of the paths and the views.
 double length_m(const WingCourse& course, const WingSpace& space);
 
 /// Views to choose from, for each place of the order.
@@ -44,7 +44,7 @@ Choice choose(const Choices& choices, bool cyclic, const WingSpace& space, const
 
 /// Draws views near those of the course and chooses again, nearer each time; then moves and turns single views while
 /// that shortens the course, all paths staying clear, until the time is over. `keeps` is asked of each shorter course.
-void refine(WingCourse& course, const WingSpace& space, Draw& draw, const core::ProgressReporter& progress,
+void refine(WingCourse& course, const WingSpace& space, SplitMix64& draw, const core::ProgressReporter& progress,
             const std::function<bool(const WingCourse&)>& keeps, const IsOver& is_over);
 
 }  // namespace vantage::internal::flight::tour

@@ -20,7 +20,7 @@ Vec3 direction_of_flight(const SpacePose& pose) {
   return {cosine * level, sine * level, rise};
 }
 
-double bell(Draw& draw) { return draw.unit() + draw.unit() + draw.unit() + draw.unit() - 2; }  // -2 to 2
+double bell(SplitMix64& draw) { return draw.unit() + draw.unit() + draw.unit() + draw.unit() - 2; }  // -2 to 2
 
 }  // namespace
 
@@ -109,7 +109,7 @@ bool WingSpace::can_follow(int region, const std::vector<Vec3>& points, const Ve
   return true;
 }
 
-View WingSpace::drawn(int region, const ViewHint& hint, Draw& draw) const {
+View WingSpace::drawn(int region, const ViewHint& hint, SplitMix64& draw) const {
   const TourRegion& shape = *regions_[static_cast<std::size_t>(region)];
   View view;
   view.region = region;
@@ -128,7 +128,7 @@ View WingSpace::drawn(int region, const ViewHint& hint, Draw& draw) const {
   return view;
 }
 
-std::vector<View> WingSpace::draw_views(int region, const ViewHint& hint, std::size_t count, Draw& draw) const {
+std::vector<View> WingSpace::draw_views(int region, const ViewHint& hint, std::size_t count, SplitMix64& draw) const {
   std::vector<View> views;
   const std::size_t most = 30 * count;
   for (std::size_t i = 0; i < most && views.size() < count; ++i) {

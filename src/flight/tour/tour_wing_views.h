@@ -45,7 +45,7 @@ class WingSpace {
   /// Whether it is in its region and in the airspace, and slow enough for the camera.
   bool is_valid(const View& view) const;
   /// Up to `count` valid views. Straight ones, and circles where there are none. None: no room was found.
-  std::vector<View> draw_views(int region, const ViewHint& hint, std::size_t count, Draw& draw) const;
+  std::vector<View> draw_views(int region, const ViewHint& hint, std::size_t count, SplitMix64& draw) const;
 
   /// From the end of one view to the beginning of another; its length, infinite where there is none.
   std::optional<DubinsAirplanePath> path(const View& from, const View& to) const;
@@ -62,7 +62,7 @@ class WingSpace {
  private:
   bool is_allowed(const std::vector<Vec3>& points, double deviation) const;
   int circle_pieces() const;
-  View drawn(int region, const ViewHint& hint, Draw& draw) const;
+  View drawn(int region, const ViewHint& hint, SplitMix64& draw) const;
 
   const TourRequest& request_;
   const Regions& regions_;

@@ -121,8 +121,8 @@ class Solver {
     return points[(leg + 1) % points.size()] - points[leg];
   }
 
-  /// Of the legs, as they are after the next step of Newton's method, by its own linear system: these, not the
-  /// gradients at the points, are in balance to the last digits, even where legs are short.
+  /// The directions of the legs as they are after the next step of Newton's method, by its own linear system: these,
+  /// not the gradients at the points, are in balance to the last digits, even where legs are short.
   std::vector<Direction> directions() {
     if (!free_) strength_ = kOfPoints * size_;
     assemble();
@@ -361,7 +361,7 @@ double touring_part(const Hull& hull, const Direction* before, const Direction* 
 double touring_bound_of(std::span<const double> parts, double reach_m, double moved_m) {
   double sum = 0;
   for (const double part : parts) sum += part;
-  // Of each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest()
+  // For each point: |direction|_1 <= 2 sqrt(3), the product and its sum have 5 roundings, 2 more are in what lowest()
   // may overlook, each of 2 sqrt(3) R at most. The sum of the m terms adds m roundings of 2 sqrt(3) R each.
   const double m = static_cast<double>(parts.size());
   return sum - (4 * m + 40) * kRounding * reach_m - 2.001 * moved_m;

@@ -47,9 +47,9 @@ struct TouringSolution {
   std::vector<std::pair<std::size_t, HalfSpace>> half_spaces;
 };
 
-/// Of the size of all hulls together (the diagonal of their box): however small TouringOptions::in_hull is, points may
-/// lie so far outside of the hulls. Barriers need an inside, so that flat hulls are made half as thick: a point of one
-/// may lie a quarter of this off it.
+/// A part of the size of all hulls together (the diagonal of their box): however small TouringOptions::in_hull is,
+/// points may lie so far outside of the hulls. Barriers need an inside, so that flat hulls are made half as thick: a
+/// point of one may lie a quarter of this off it.
 constexpr double kOutsideOfSize = 2e-6;
 
 struct TouringOptions {
@@ -74,7 +74,7 @@ double touring_part(const Hull& hull, const Direction* before, const Direction* 
 /// `reach_m`, `moved_m`: sums of those of the hulls.
 double touring_bound_of(std::span<const double> parts, double reach_m, double moved_m);
 
-/// Of a polyline through these points.
+/// The length of a polyline through these points.
 double touring_length(const TouringProgram& program, std::span<const Vec3> points);
 
 }  // namespace vantage::internal::flight::tour

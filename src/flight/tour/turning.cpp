@@ -9,7 +9,7 @@
 namespace vantage::internal::flight::tour {
 namespace {
 
-/// Of the radius, at each stop: more than rounding loses here, and more than whole numbers of 2^-30 lose where a
+/// A part of the radius, at each stop: more than rounding loses here, and more than whole numbers of 2^-30 lose where a
 /// certificate is judged (tools/check_tour.py has the formula in them).
 constexpr double kTurnRounding = 3e-8;
 constexpr double kSumRounding = 0x1p-48;  // of coordinates: more than sums of three products lose

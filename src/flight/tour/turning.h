@@ -25,8 +25,8 @@ double turning_part(const Direction& before, const Direction& behind, double bef
 /// How far `to` is at least from `from`, along what of the vector is level: rounded down, 0 or more.
 double level_distance_m(const Hull& from, const Hull& to, const Direction& direction);
 
-/// Of a whole sequence: this may be added to touring_bound of the same vectors, if all points are among its stops. At
-/// points, where a flight begins and ends, it may head in another direction.
+/// A bound for a whole sequence: it may be added to touring_bound of the same vectors, if all points are among its
+/// stops. At points, where a flight begins and ends, it may head in another direction.
 double turning_bound(const TouringProgram& program, std::span<const Direction> directions, double radius_m);
 
 /// Vectors for which both together are larger, if such are found: where a tour hardly turns at a stop, the vectors of a

@@ -40,8 +40,8 @@ struct BuildingForm {
   std::optional<double> roof_direction_deg;  ///< compass: where the roof's main face falls to; across the ridge
   bool roof_across = false;                  ///< roof:orientation=across: the ridge runs along the shorter side
 
-  /// Of a roof whose height the tags leave open: it follows from the outline's width (`settled`), and `roof_m` is 0
-  /// until then.
+  /// The pitch of a roof whose height the tags leave open: it follows from the outline's width (`settled`), and
+  /// `roof_m` is 0 until then.
   struct Pitch {
     double angle_deg = 0;
     bool on_top = false;    ///< the roof comes on top of `top_m`; else `top_m` stays, and the walls give way

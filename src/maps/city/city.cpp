@@ -67,7 +67,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   result.report.notes = notes_on(extract);
   result.report.read_seconds = stopwatch.lap();
 
-  // Of a part of a map all that was read is looked at, so that nothing depends on the region.
+  // For a part of a map all that was read is looked at, so that nothing depends on the region.
   const internal::osm::RegionFilter filter(options.frame ? std::nullopt : region);
   internal::city::Site site = internal::city::make_site(extract, filter, frame, options);
   if (options.frame) internal::city::leave_out_beyond(region, frame, site);

@@ -91,7 +91,7 @@ class LinkedRings {
     }
   }
 
-  /// Of the sides that come in at `at`, the first counter-clockwise from the direction to `out`; its beginning.
+  /// The beginning of the side that comes in at `at` first, counter-clockwise from the direction to `out`.
   std::size_t incoming(const GridPoint& at, const std::vector<std::size_t>& here, const GridPoint& out) const {
     // Counter-clockwise from `out`: less than half a turn first.
     const auto half = [&](const GridPoint& p) {

@@ -36,7 +36,8 @@ struct Repairs {
 /// Rounds to the grid, removes spikes and repeated points, resolves crossings. Empty when nothing with an area is left.
 std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repairs);
 
-/// Of the footprints of an object; those of others that lie elsewhere cost nothing. Slivers are left out as in `clean`.
+/// Set operations on the footprints of an object; those of others that lie elsewhere cost nothing. Slivers are left out
+/// as in `clean`.
 std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::vector<Footprint>& what);
 std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b);
 

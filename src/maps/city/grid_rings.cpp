@@ -55,7 +55,7 @@ class Sides {
 
 int sign(std::int64_t value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); }
 
-/// Of two sides in one line: whether they have more than a point in common.
+/// Whether two sides in one line have more than a point in common.
 bool overlap(const Sides::Side& a, const Sides::Side& b) {
   const std::int64_t x = std::min(a.high_x, b.high_x) - std::max(a.low_x, b.low_x);
   const std::int64_t y = std::min(a.high_y, b.high_y) - std::max(a.low_y, b.low_y);

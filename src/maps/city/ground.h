@@ -23,7 +23,7 @@ class Ground {
                           const Vec2& max, double max_error_m, std::vector<std::string>& notes,
                           const Progress& progress);
 
-  /// Of the ground under some footprints (at least one), z in metres.
+  /// The range of the ground under some footprints (at least one), z in metres.
   scene::TriangulatedTerrain::Range range(const std::vector<Footprint>& footprints) const;
   double height(const Vec2& at) const;
 

@@ -42,18 +42,18 @@ struct Shape {
   std::optional<Tree> tree;
 };
 
-/// Of a line: walls, tree rows, bridges. `points`: in scene metres, of a closed line the first repeated at the end.
-/// `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in one.
-/// Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height.
-/// Empty, with a remark, for what has no length.
+/// The shapes of a line: walls, tree rows, bridges. `points`: in scene metres, of a closed line the first repeated at
+/// the end. `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in one.
+/// Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height. Empty, with a remark, for
+/// what has no length.
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 
-/// Of a point: towers (regular 16-gons) and trees.
+/// The shapes of a point: towers (regular 16-gons) and trees.
 std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
                                    std::vector<TagRemark>& remarks);
 
-/// Of an area, cleaned: towers, bridges, and walls drawn as areas.
+/// The shapes of an area, cleaned: towers, bridges, and walls drawn as areas.
 std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 

@@ -12,8 +12,8 @@
 namespace vantage::internal::city {
 namespace {
 
-/// Of the space that a ring goes round an odd number of times, by summing up slabs between the heights at which
-/// something happens. Cost: O(n^2 + n k) for k crossings. Nothing where that takes seconds.
+/// The area of the space that a ring goes round an odd number of times, by summing up slabs between the heights at
+/// which something happens. Cost: O(n^2 + n k) for k crossings. Nothing where that takes seconds.
 std::optional<double> even_odd_area(const GridRing& ring) {
   std::vector<Vec2> points;
   for (const GridPoint& p : ring) points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));

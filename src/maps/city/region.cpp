@@ -50,7 +50,7 @@ bool overlap(const Bounds& a, const Bounds& b) {
   return longitudes(a).meets(longitudes(b)) && a[1] <= b[3] && b[1] <= a[3];
 }
 
-/// Of what lies round a pole, up to the pole.
+/// The bounds of what lies round a pole, up to the pole.
 Bounds with_pole(const Bounds& b) {
   if (longitudes(b).width_deg() <= 180) return b;
   return {-180, b[1] > 0 ? b[1] : -90, 180, b[1] > 0 ? 90 : b[3]};

@@ -51,7 +51,7 @@ RoofFrame least_rectangle(const Ring& hull) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const RoofFrame frame = frame_along(hull, (hull[(i + 1) % hull.size()] - hull[i]).normalized());
     const double area = frame.half_length * frame.half_width;
-    // Of equal ones the first, though rounding differs.
+    // If areas are equal, the first one is taken, though rounding differs.
     if (area < least * (1 - 1e-9)) {
       least = area;
       best = frame;

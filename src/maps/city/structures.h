@@ -25,7 +25,7 @@ struct Structure {
   std::vector<std::size_t> parts;      ///< of a building: the structures that lie in it
 };
 
-/// Of the areas those that are buildings or parts, in the frame's metres.
+/// Those of the areas that are buildings or parts, in the frame's metres.
 std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const geo::LocalFrame& frame);
 
 /// The rings of an area, projected. Not cleaned.

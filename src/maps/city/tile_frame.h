@@ -14,7 +14,7 @@ namespace vantage::internal::city {
 /// Throws Error(input) for a frame with numbers that are out of range, and for terrain beside it.
 void check_frame(const CityOptions& options);
 
-/// Of the whole map's ground, at z = 0.
+/// The bounds of the whole map's ground, at z = 0.
 Box bounds_of_whole(const CityFrame& frame);
 
 /// A rectangle of the frame that holds a region: larger than need be by 2 m, and by what the samples of its sides may

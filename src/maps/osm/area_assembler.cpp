@@ -84,7 +84,7 @@ double twice_signed_area(const NodeLocations& ring) {
   return sum;
 }
 
-/// Of places in the plane, turned as is asked for.
+/// A ring of places in the plane, turned as is asked for.
 Ring to_ring(NodeLocations places, bool counter_clockwise, const AssemblyPlane& plane) {
   if ((twice_signed_area(places) > 0) != counter_clockwise) std::reverse(places.begin(), places.end());
   Ring ring;

@@ -20,7 +20,8 @@ class AssemblyPlane {
   /// Whether coordinates differ from longitude and latitude.
   bool moves() const { return kind_ != Kind::as_it_is; }
   osmium::Location to_plane(osmium::Location location) const;
-  /// Of a place that to_plane gave: the very position that it came from. Of others to about the unit of the file.
+  /// The position of a place: of one that to_plane gave, the very position that it came from; of others to about the
+  /// unit of the file.
   LonLat from_plane(osmium::Location location) const;
 
  private:

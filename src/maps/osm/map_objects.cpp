@@ -35,7 +35,7 @@ struct Kept {
   bool wanted = false;
 };
 
-/// Of what was kept, the current versions, one of each, by id.
+/// The current versions of what was kept, one of each, by id.
 template <class Table>
 std::vector<Kept> current_of(std::vector<Kept> kept, const Table& versions) {
   std::erase_if(kept, [&versions](const Kept& one) { return !versions.is_current(one.id, one.version); });

@@ -15,8 +15,8 @@ namespace format = osmium::io::detail::OSMFormat;
 using protozero::pbf_wire_type;
 using protozero::tag_and_type;
 
-// Of libosmium's objects, rounded up: an object with its user's name and the heads of its lists, a node of a way, a
-// member without its role.
+// The sizes of libosmium's objects, rounded up: an object with its user's name and the heads of its lists, a node of a
+// way, a member without its role.
 constexpr std::uint64_t kObject = 96, kWayNode = 16, kMember = 24;
 
 class BlockSize {

@@ -50,7 +50,7 @@ struct GdalLibrary {
 #undef VANTAGE_MEMBER
 };
 
-/// Of flags and enumerations.
+/// Values of GDAL's flags and enumerations.
 namespace gdal_values {
 inline constexpr unsigned kOpenRaster = 0x02, kOpenVerbose = 0x40;  // GDAL_OF_RASTER, GDAL_OF_VERBOSE_ERROR
 inline constexpr int kRead = 0;                                     // GDALRWFlag

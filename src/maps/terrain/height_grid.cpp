@@ -151,7 +151,7 @@ PixelWindow pixels_of(const HeightGrid& grid, const Window& window) {
   return pixels;
 }
 
-/// Of a raster that goes round the earth, columns beyond its ends are those at its other end.
+/// Reads from a raster that goes round the earth: columns beyond its ends are those at its other end.
 std::vector<float> read_round(const RasterFile& raster, const PixelWindow& pixels,
                               const std::function<void(int)>& done) {
   const int all = raster.columns(), first = ((pixels.first_column % all) + all) % all;

@@ -91,7 +91,7 @@ class Tin {
   std::priority_queue<Worst> queue_;
   std::uint32_t last_ = 0;  ///< a facet near the last insertion
 
-  // Of one insertion.
+  // For one insertion.
   std::vector<std::uint32_t> cavity_, mark_, fan_;
   std::uint32_t round_ = 0;
   std::vector<Edge> rim_;

@@ -87,8 +87,8 @@ Samples sample(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen
   return samples;
 }
 
-/// Of the sides of the cells between inner posts, and of their higher diagonals: there the surface is not known, and is
-/// taken to run straight from post to post. `first`: index of the first inner post among the candidates.
+/// The middles of the sides of the cells between inner posts, and of their higher diagonals: there the surface is not
+/// known, and is taken to run straight from post to post. `first`: index of the first inner post among the candidates.
 std::vector<Tin::Middle> middles(const HeightGrid& grid, const Samples& samples, std::uint32_t first) {
   std::vector<Tin::Middle> middles;
   const auto columns = static_cast<std::size_t>(grid.columns);

@@ -3,7 +3,7 @@ import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Secti
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
-export function toldBy(error: unknown, isOfFile = false): string {
+export function errorText(error: unknown, isOfFile = false): string {
   if (!(error instanceof EngineFailure)) return error instanceof Error ? error.message : String(error);
   const { problem, fix } = error.told;
   const where = placeOf(error) ? "" : partsOf(error.told.where, isOfFile).join(", "); // places in the scene are shown

@@ -16,7 +16,7 @@ function heightAt(p: ArrayLike<number>, a: number, b: number, c: number, x: numb
 }
 
 /** The places by squares, so that each triangle is held against those near it alone. */
-class Squares {
+class Grid {
   private readonly cells = new Map<number, number[]>();
   private readonly low: [number, number] = [Infinity, Infinity];
   private readonly high: [number, number] = [-Infinity, -Infinity];
@@ -58,7 +58,7 @@ const ROUNDING = 0.05;
 /** z for each place (x, y, z); NaN: nothing lies below it. Triangles and places are in the same frame. */
 export function heightsBelow({ positions: p, triangles }: Triangles, places: readonly (readonly number[])[]): Float64Array {
   const heights = new Float64Array(places.length).fill(NaN);
-  const squares = new Squares(places);
+  const squares = new Grid(places);
   for (let i = 0; i < triangles.length; i += 3) {
     const [a, b, c] = [3 * triangles[i]!, 3 * triangles[i + 1]!, 3 * triangles[i + 2]!];
     const [left, right] = [Math.min(p[a]!, p[b]!, p[c]!), Math.max(p[a]!, p[b]!, p[c]!)];

@@ -46,3 +46,15 @@ export function writtenQuantity(value: unknown, kind: QuantityKind): number | nu
   const read = quantity(value, kind);
   return typeof read === "number" ? read : null;
 }
+
+/** With the digits that count: 12.3 m, 0.0123 m. */
+export function metres(value: number): string {
+  const digits = Math.abs(value) >= 10 ? Math.round(value * 10) / 10 : Number(value.toPrecision(3));
+  return `${digits} m`;
+}
+
+/** With groups of three digits, and parts where they count: 1,234,567; 12.34; 0.0123. */
+export function large(value: number): string {
+  if (value > 0 && value < 0.1) return String(Number(value.toPrecision(3)));
+  return value.toLocaleString("en", { maximumFractionDigits: value < 100 ? 2 : 0 });
+}

@@ -3,7 +3,7 @@ import type { App } from "../app";
 import type { Box } from "../engine/messages";
 import { rounded } from "../model/mission";
 import { quantity } from "../model/quantity";
-import { button, element, input, say } from "./page";
+import { button, element, input, showMessage } from "./page";
 
 export class BoxList {
   constructor(private readonly app: App) {
@@ -53,7 +53,7 @@ export class BoxList {
         field.onchange = () => {
           const value = quantity(field.value, "length");
           if (typeof value === "number") this.app.edit((mission) => moveEnd(mission.keepOut[i]!, end, a, value), true);
-          else say(`Box ${i + 1}, ${name} ${axis}: ${value}`, true);
+          else showMessage(`Box ${i + 1}, ${name} ${axis}: ${value}`, true);
           field.value = this.coordinate(6 * i + (end === "min" ? a : 3 + a));
         };
         item.append(field);

@@ -1,13 +1,13 @@
 // Meshes and missions in, volumes, pictures, missions and links out.
 import { Superseded, type App, type SceneSource } from "../app";
-import { toldBy } from "../engine/client";
+import { errorText } from "../engine/client";
 import { EngineFailure } from "../engine/transport";
 import { servedFlight } from "../flights";
 import type { Hello, ViewMesh } from "../engine/messages";
 import { isFlight } from "../model/flight";
 import { divided, missionText, sceneText } from "../model/mission";
 import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/link";
-import { button, element, input, say } from "./page";
+import { button, element, input, showMessage } from "./page";
 import { picture } from "./picture";
 
 const LARGEST = 600e6; // bytes: no browser has the memory for more
@@ -60,7 +60,7 @@ export class Files {
 
   private afterwards(work: () => Promise<void>): Promise<void> {
     this.count(1);
-    this.last = this.last.then(work).catch((error: unknown) => say(toldBy(error), true)).finally(() => this.count(-1));
+    this.last = this.last.then(work).catch((error: unknown) => showMessage(errorText(error), true)).finally(() => this.count(-1));
     return this.last;
   }
 
@@ -83,7 +83,7 @@ export class Files {
     await this.app.openScene(await this.exampleSource(section));
     await this.app.openMission(body);
     this.app.lookAtTarget();
-    say("From everywhere in the coloured volume all of the red polygon is visible. Drag a corner of it, or draw one of your own");
+    showMessage("From everywhere in the coloured volume all of the red polygon is visible. Drag a corner of it, or draw one of your own");
   }
 
   private exampleMission(): { section: Record<string, unknown>; body: string } {
@@ -111,7 +111,7 @@ export class Files {
       if (flight) app.flights.openServed(flight);
     }
     // Of a tour no position need see all targets: that is no news.
-    if (flight) say("Play, or the slider below, flies it");
+    if (flight) showMessage("Play, or the slider below, flies it");
     app.lookAtTarget();
     document.title = `${hello.name} · vantage`;
   }
@@ -173,7 +173,7 @@ export class Files {
     const wanted = nameOf(mission?.scene["mesh"]);
     const mesh = others.find((file) => file.name === wanted) ?? (wanted ? undefined : others.find((file) => isMesh(file.name)));
     if (mesh) {
-      say(`Reading ${mesh.name}…`);
+      showMessage(`Reading ${mesh.name}…`);
       const section = mission?.scene ?? this.sectionFor(mesh.name);
       const source = { name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await contentsOf(others, mesh) };
       return mission ? this.openBoth(source, mission.body) : this.openAlone(source);
@@ -218,7 +218,7 @@ export class Files {
     app.lookAtTarget();
     if (isAwaited) throw new Error(`this is another ${source.name} than that of the link, whose mission still waits for it`);
     if (app.failure !== "") return;
-    say(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
+    showMessage(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
   }
 
   /** Of the section `scene` of a mission; missions without one are for any scene. */
@@ -232,11 +232,11 @@ export class Files {
     try {
       await this.app.openMission(body);
     } catch (error) {
-      throw error instanceof EngineFailure ? new Error(toldBy(error, isOfFile)) : error;
+      throw error instanceof EngineFailure ? new Error(errorText(error, isOfFile)) : error;
     }
     this.awaited = null;
     this.app.lookAtTarget();
-    if (this.app.volume?.info.outcome === "computed") say("");
+    if (this.app.volume?.info.outcome === "computed") showMessage("");
   }
 
   private sectionFor(name: string): Record<string, unknown> {
@@ -254,7 +254,7 @@ export class Files {
       if (format === "mission") return download("mission.yaml", new Blob([this.missionFile()], { type: "text/yaml" }));
       download(`volume.${format}`, new Blob([(await this.app.saved(format)).slice()]));
     } catch (error) {
-      say(toldBy(error), true);
+      showMessage(errorText(error), true);
     }
   }
 
@@ -269,9 +269,9 @@ export class Files {
       const needs = needed.length === 0 ? "" : `; who opens it needs ${needed.join(", ")}, too`;
       const isCopied = await copied(`${location.href.split("#")[0]}#${text}`);
       if (!isCopied) history.replaceState(null, "", `#${text}`);
-      say(`The link is ${isCopied ? "copied" : "in the address line"}${needs}`);
+      showMessage(`The link is ${isCopied ? "copied" : "in the address line"}${needs}`);
     } catch (error) {
-      say(toldBy(error), true);
+      showMessage(errorText(error), true);
     }
   }
 
@@ -298,7 +298,7 @@ export class Files {
     } catch (error) {
       const isEmpty = !app.scene || (app.source.isExample && !app.mission.target);
       if (isEmpty) await this.openExample();
-      say(`${toldBy(error)}${isEmpty ? ": this is the example instead" : ""}`, true);
+      showMessage(`${errorText(error)}${isEmpty ? ": this is the example instead" : ""}`, true);
     }
     return true;
   }
@@ -317,7 +317,7 @@ export class Files {
     if (app.scene && isOpen) return this.openMission(link.mission, false);
     this.awaited = link;
     if (!app.scene) await this.openExample();
-    say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
+    showMessage(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
   }
 }
 

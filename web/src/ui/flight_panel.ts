@@ -2,8 +2,9 @@
 import type { App } from "../app";
 import type { Flight, Span } from "../model/flight";
 import { ticks } from "../model/flight";
+import { metres } from "../model/quantity";
 import { colourOf } from "../view/target_volumes";
-import { button, element, hex, input, metres } from "./page";
+import { button, element, hex, input } from "./page";
 
 const SVG = "http://www.w3.org/2000/svg";
 const WIDE = 1000; // units of a chart across, whatever its width

@@ -2,8 +2,8 @@
 import type { App } from "../app";
 import type { Band } from "../model/heights";
 import type { Mission } from "../model/mission";
-import { quantity } from "../model/quantity";
-import { input, metres, say } from "./page";
+import { metres, quantity } from "../model/quantity";
+import { input, showMessage } from "./page";
 
 /** null: no limit. */
 interface Limit {
@@ -79,9 +79,9 @@ export class Limits {
       field.onfocus = () => field.select();
       field.onchange = () => {
         const value = /^\s*(any\b.*)?$/.test(field.value) ? null : quantity(field.value, limit.unit === "degrees" ? "angle" : "length");
-        if (typeof value === "string") say(`${limit.name}: ${value}; or "any"`, true);
+        if (typeof value === "string") showMessage(`${limit.name}: ${value}; or "any"`, true);
         else if (this.isPossible(limit, value)) app.edit((mission) => limit.set(mission, value), true);
-        else say(`${limit.name} ${field.value}: not possible, or not beside the other limits. It stays as it was`, true);
+        else showMessage(`${limit.name} ${field.value}: not possible, or not beside the other limits. It stays as it was`, true);
         field.value = this.textOf(limit);
       };
     }

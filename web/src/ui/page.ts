@@ -9,7 +9,7 @@ export function element<T extends HTMLElement = HTMLElement>(id: string): T {
 export const input = (id: string) => element<HTMLInputElement>(id);
 export const button = (id: string) => element<HTMLButtonElement>(id);
 
-export function say(text: string, isBad = false): void {
+export function showMessage(text: string, isBad = false): void {
   const hint = element("hint");
   hint.textContent = text;
   hint.classList.toggle("bad", isBad);
@@ -17,23 +17,17 @@ export function say(text: string, isBad = false): void {
 }
 
 /** Takes back what was said last, if it is one of these. */
-export function unsay(...texts: string[]): void {
-  resay("", ...texts);
+export function clearMessage(...texts: string[]): void {
+  replaceMessage("", ...texts);
 }
 
 /** Says this in the place of what was said last, if that is one of these. */
-export function resay(text: string, ...texts: string[]): void {
-  if (texts.includes(element("hint").textContent ?? "")) say(text);
+export function replaceMessage(text: string, ...texts: string[]): void {
+  if (texts.includes(element("hint").textContent ?? "")) showMessage(text);
 }
 
 /** Whether what was said last is an error. */
-export const hasBadNews = () => element("hint").classList.contains("bad");
-
-/** With the digits that count: 12.3 m, 0.0123 m. */
-export function metres(value: number): string {
-  const digits = Math.abs(value) >= 10 ? Math.round(value * 10) / 10 : Number(value.toPrecision(3));
-  return `${digits} m`;
-}
+export const showsError = () => element("hint").classList.contains("bad");
 
 export function option(value: string, text: string): HTMLOptionElement {
   const made = document.createElement("option");
@@ -55,8 +49,3 @@ export function terms(rows: [string, string][]): HTMLElement[] {
 
 /** A colour, for a style. */
 export const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
-
-export function large(value: number): string {
-  if (value > 0 && value < 0.1) return String(Number(value.toPrecision(3)));
-  return value.toLocaleString("en", { maximumFractionDigits: value < 100 ? 2 : 0 });
-}

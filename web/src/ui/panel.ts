@@ -2,9 +2,10 @@
 import type { App } from "../app";
 import type { About } from "../engine/messages";
 import type { Mission } from "../model/mission";
+import { metres } from "../model/quantity";
 import { BoxList } from "./box_list";
 import { Limits } from "./limits";
-import { element, input, metres, option } from "./page";
+import { element, input, option } from "./page";
 
 const PIXELS_M = [0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
 

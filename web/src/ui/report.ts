@@ -1,7 +1,7 @@
 // A page that the program wrote as a report: to look at, without an engine. It begins with what was found, where and when.
 import type { App } from "../app";
 import type { Hello, Proof, SceneInfo } from "../engine/messages";
-import { seenFrom } from "./results";
+import { emptyText } from "../model/volume";
 import { element, option, terms } from "./page";
 
 /** As of a map: the program's numbers have as many digits. */
@@ -23,7 +23,7 @@ function show(app: App, text: string, proof?: Proof): void {
   title.className = isEmpty || proof === undefined ? "" : isProved ? "good" : "bad";
   element("claim").hidden = isEmpty || (proof !== undefined && !isProved);
   const open = (proof?.claims ?? []).filter(({ verdict }) => verdict !== "proved").map((one) => `${one.name}: ${one.verdict}: ${one.text}`);
-  element("verdict-text").textContent = isEmpty ? `No position sees ${seenFrom(info)}: ${info.reason}.` : isProved ? text : open.join(". ") || text;
+  element("verdict-text").textContent = isEmpty ? emptyText(info) : isProved ? text : open.join(". ") || text;
 }
 
 /** Leaves what needs no engine: the view, the cut along an axis, the picture. `made`: the day. */

@@ -1,24 +1,11 @@
 // What the panel says of the volume: numbers, what bounds it, its cut, its proof.
 import type { App } from "../app";
 import type { Volume } from "../engine/client";
-import type { VolumeInfo } from "../engine/messages";
+import { large, quantity } from "../model/quantity";
+import { boundaryShares, claimText, volumeNumbers } from "../model/volume";
 import { KIND_COLOURS } from "../view/stage";
 import { isAt, setEnds } from "./limits";
-import { quantity } from "../model/quantity";
-import { button, element, hex, input, large, metres, say, terms } from "./page";
-
-const KIND_NAMES: Record<string, string> = {
-  scene: "a building begins to hide it", range: "the longest range", target_plane: "the target's plane",
-  navigation: "flight limits and boxes", sensor: "the camera", unknown: "not told by the file of the volume",
-};
-
-/** What each position of a volume sees: "all of the target". */
-export function seenFrom({ claim }: VolumeInfo): string {
-  const visible = claim?.visible ?? 1;
-  // Rounded down: what is claimed is no more than what is so.
-  const share = visible < 1 ? `at least ${Number((Math.floor(visible * 1000) / 10).toFixed(1))} %` : "all";
-  return `${share} of ${claim?.combine === "any" ? "at least one of the targets" : "the target"}`;
-}
+import { button, element, hex, input, showMessage, terms } from "./page";
 
 export class Results {
   /** the volume that the proof is of */
@@ -65,7 +52,7 @@ export class Results {
     const at = /^\s*(off|any)?\s*$/.test(text) ? null : quantity(text, "length");
     if (at === null) this.app.setCut(null);
     else if (typeof at === "number") this.app.setCut({ axis: this.axis(), at });
-    else say(`Cut: ${at}; or "off"`, true);
+    else showMessage(`Cut: ${at}; or "off"`, true);
     input("cut-number").blur();
     this.show();
   }
@@ -91,8 +78,7 @@ export class Results {
     status.textContent = this.app.wasStopped ? `Not computed, since it was stopped${volume ? ": the volume shown is the last one" : ""}`
       : failure !== "" ? `There is no volume of this target${shown}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
-    element("claim").textContent = volume && volume.info.outcome !== "computed" ? ""
-      : `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
+    element("claim").textContent = volume ? claimText(volume.info) : "Every position in the volume sees all of the target.";
     this.showNumbers();
     this.showLegend();
     element("notes").replaceChildren(...(volume?.info.notes ?? []).map(({ text }) => {
@@ -118,28 +104,18 @@ export class Results {
 
   private showNumbers(): void {
     const { volume, scene } = this.app;
-    const rows: [string, string][] = [];
-    if (volume) {
-      const [low, high] = this.app.volumeView.heights();
-      rows.push(["Volume", `${large(volume.info.volume_m3)} m³`]);
-      if (volume.info.facets > 0) rows.push(["Heights", `${metres(low)} to ${metres(high)}`]);
-      rows.push(["Facets", `${large(volume.info.facets)}${this.app.isDraft ? ", while it is dragged" : ""}`]);
-      // Not of a volume that was read from a file.
-      if (volume.info.compute_ms > 0) rows.push(["Computed in", `${Math.max(0.1, volume.info.resolve_ms + volume.info.compute_ms).toFixed(1)} ms`]);
-    }
+    const rows = volume ? volumeNumbers(volume.info, this.app.volumeView.heights(), this.app.isDraft) : [];
     if (scene) rows.push(["Scene", `${large(scene.triangles)} triangles`]);
     element("numbers").replaceChildren(...terms(rows));
   }
 
   private showLegend(): void {
     const areas = this.app.volume ? this.app.volumeView.areaOfKind() : new Map<string, number>();
-    const whole = [...areas.values()].reduce((a, b) => a + b, 0);
-    element("legend").replaceChildren(...[...areas].sort((a, b) => b[1] - a[1]).map(([kind, area]) => {
+    element("legend").replaceChildren(...boundaryShares(areas).map(({ kind, text }) => {
       const item = document.createElement("li");
       const swatch = document.createElement("i");
       swatch.style.background = hex(KIND_COLOURS[kind] ?? 0);
-      const share = (100 * area) / whole;
-      item.append(swatch, `${KIND_NAMES[kind] ?? kind}, ${share < 1 ? "< 1" : Math.round(share)} %`);
+      item.append(swatch, text);
       return item;
     }));
   }

@@ -1,13 +1,14 @@
 // What the pointer does: look, draw, pick, probe, and drag what is there.
 import type { App } from "../app";
-import { toldBy } from "../engine/client";
+import { errorText } from "../engine/client";
 import type { Point } from "../engine/messages";
 import type { Mission, Target } from "../model/mission";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
+import { causeText } from "../model/volume";
 import type { Hit } from "../view/city";
 import type { Pointer } from "../view/stage";
 import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
-import { button, element, say } from "./page";
+import { button, element, showMessage } from "./page";
 
 export type Tool = "look" | "draw" | "pick" | "probe";
 
@@ -16,10 +17,6 @@ const HINTS: Record<Tool, string> = {
   draw: "Click the corners of the target on the ground, a roof or a wall; Enter, or a double click, ends it",
   pick: "Click a roof, a wall or a square: all of it becomes the target",
   probe: "Click a place: what does a position above it see? Page Up and Page Down change its height",
-};
-const LIMITS: Record<string, string> = {
-  scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
-  unknown: "the file of the volume does not say what bounds it",
 };
 const CLICK_PIXELS = 5;
 const LOWEST = 0.02; // of the scene's height
@@ -69,7 +66,7 @@ export class Tools {
     this.app.stage.canvas.style.cursor = tool === "look" ? "" : "crosshair";
     this.app.showMission();
     this.app.changed();
-    say(HINTS[tool]);
+    showMessage(HINTS[tool]);
   }
 
   /** What a keyboard does with Esc, Del, Page Up and Page Down, for fingers, where it does something. */
@@ -97,7 +94,7 @@ export class Tools {
     const { drawn } = this.app;
     if (drawn.length === 0 || !this.plane) return;
     const fault = faultOf(drawn);
-    if (fault) return say(fault.reason, true);
+    if (fault) return showMessage(fault.reason, true);
     this.take(polygonOn(this.plane, drawn));
   }
 
@@ -110,8 +107,8 @@ export class Tools {
     const { app } = this;
     const target = app.polygon();
     const { dragged } = app;
-    if (!target || dragged === null) return say("First drag the corner that is to go", true);
-    if (target.vertices.length <= 3) return say("A target has three corners or more", true);
+    if (!target || dragged === null) return showMessage("First drag the corner that is to go", true);
+    if (target.vertices.length <= 3) return showMessage("A target has three corners or more", true);
     app.dragged = null;
     app.edit((mission) => (mission.target = { ...target, vertices: target.vertices.filter((_, i) => i !== dragged) }), true);
   }
@@ -155,8 +152,7 @@ export class Tools {
     const cause = this.tool === "look" ? app.volumeView.causeAt(app.stage.ray(event)) : null;
     tip.hidden = !cause;
     if (!cause) return;
-    const isNamed = cause.kind === "scene" || cause.kind === "navigation" || cause.kind === "sensor";
-    tip.textContent = `${LIMITS[cause.kind] ?? cause.kind}${isNamed ? ` ${cause.name.replaceAll("_", " ")}` : ""}`;
+    tip.textContent = causeText(cause);
     const { x, y } = app.stage.onScreen(event);
     tip.style.left = `${x + 14}px`;
     tip.style.top = `${y + 10}px`;
@@ -185,7 +181,7 @@ export class Tools {
     if (this.tool === "look") return;
     if (this.tool === "draw" && this.plane && this.app.drawn.length > 0) return this.drawCorner(event, this.plane);
     const hit = this.app.city.hit(this.app.stage.ray(event));
-    if (!hit) return say("There is no surface here: click the ground, a roof or a wall", true);
+    if (!hit) return showMessage("There is no surface here: click the ground, a roof or a wall", true);
     if (this.tool === "draw") {
       this.plane = hit.plane;
       this.app.drawn = [hit.point];
@@ -227,15 +223,15 @@ export class Tools {
     const fault = app.drawn.length >= 3 ? faultOf(app.drawn) : null;
     app.showMission();
     app.changed();
-    if (fault) say(`${fault.reason}, or press Del`, true);
-    else say(app.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
+    if (fault) showMessage(`${fault.reason}, or press Del`, true);
+    else showMessage(app.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
   }
 
   private pick(hit: Hit): void {
     if (this.isOnGround(hit)) return void this.pickPlace(hit);
     const part = Math.abs(hit.plane.normal[2]) > 0.35 ? "roof" : "facade";
     this.take({ kind: "face", object: hit.object, part, nearest: hit.point });
-    say("All of this surface is the target now");
+    showMessage("All of this surface is the target now");
   }
 
   /** A mesh of one object does not say which of it is the ground: what lies lowest is. */
@@ -251,22 +247,22 @@ export class Tools {
     const { app } = this;
     const { scene } = app;
     if (scene?.has_areas) {
-      say("Looking for the area of the map…");
+      showMessage("Looking for the area of the map…");
       try {
         const area = await app.late(app.engine.area(hit.point[0], hit.point[1]));
         if (scene !== app.scene || this.tool !== "pick") return;
         if (area) {
           this.take({ kind: "area", osm: area.osm });
-          return say(area.name === "" ? `This is ${area.osm}` : `This is ${area.name}`);
+          return showMessage(area.name === "" ? `This is ${area.osm}` : `This is ${area.name}`);
         }
       } catch (error) {
-        return say(toldBy(error), true);
+        return showMessage(errorText(error), true);
       }
     }
     const corners = app.city.flatPlace(hit, app.mission.range / 3);
-    if (corners.length < 3) return say("There is no room for a polygon here: draw a target", true);
+    if (corners.length < 3) return showMessage("There is no room for a polygon here: draw a target", true);
     this.take(polygonOn(hit.plane, corners));
-    say("The flat place around this, as far as nothing stands there. Drag its corners to change it");
+    showMessage("The flat place around this, as far as nothing stands there. Drag its corners to change it");
   }
 
   private take(target: Target): void {

@@ -14,18 +14,18 @@ namespace attack {
 
 /// Above 0 the limit is kept by every position nearer than that, below 0 it is broken by every such one; metres. Where
 /// rounding decides (at the borders of ground, seen from above) `low` and `high` differ.
-struct Room {
+struct Margin {
   std::string limit;  ///< as PointAnswer::outside_of has it
   double low = 0, high = 0;
 };
 
 /// The limits of navigation. Positions are in the scene frame.
-class NavigationRooms {
+class NavigationMargins {
  public:
-  explicit NavigationRooms(const vantage::Navigation& navigation);
+  explicit NavigationMargins(const vantage::Navigation& navigation);
 
   /// One for each limit that is given; those of one name are one.
-  std::vector<Room> at(const Vec3& position) const;
+  std::vector<Margin> at(const Vec3& position) const;
 
  private:
   struct ClosedLimit {
@@ -38,18 +38,18 @@ class NavigationRooms {
 };
 
 /// The limits of a target's sensor, with its range ("max_range") and its front ("behind").
-class SensorRooms {
+class SensorMargins {
  public:
   /// `parts`: of the target, as used. Positions are in the coordinates of the parts.
-  SensorRooms(const vantage::Sensor& sensor, const std::vector<SeenTarget>& parts) : sensor_(sensor), parts_(parts) {}
+  SensorMargins(const vantage::Sensor& sensor, const std::vector<SeenTarget>& parts) : sensor_(sensor), parts_(parts) {}
 
-  std::vector<Room> at(const Vec3& position) const;
+  std::vector<Margin> at(const Vec3& position) const;
 
  private:
   /// Of the best orientation of the camera that a search finds.
   double in_picture(const Vec3& position) const;
   /// `low`: that. `high`: no orientation has more.
-  Room picture_room(const Vec3& position) const;
+  Margin picture_margin(const Vec3& position) const;
   /// False only where no orientation has all corners at least `depth` inside of the picture's sides.
   bool may_be_in_picture(const Vec3& position, double depth, double farthest) const;
 
@@ -58,6 +58,6 @@ class SensorRooms {
 };
 
 /// Above 0 inside of the box: how far from its border.
-double room_in_box(const vantage::Box& box, const Vec3& position);
+double margin_in_box(const vantage::Box& box, const Vec3& position);
 
 }  // namespace attack

@@ -1,4 +1,4 @@
-#include "flight/judge/whole_number.h"
+#include "flight/judge/big_integer.h"
 
 #include <algorithm>
 #include <bit>
@@ -27,14 +27,14 @@ std::pair<std::int64_t, int> parts_of(double value) {
 
 int fraction_bits(double value) { return std::max(0, -parts_of(value).second); }
 
-Whole::Whole(std::int64_t value) : is_negative_(value < 0) {
+BigInteger::BigInteger(std::int64_t value) : is_negative_(value < 0) {
   auto left = value < 0 ? ~static_cast<std::uint64_t>(value) + 1 : static_cast<std::uint64_t>(value);
   for (; left != 0; left >>= kLimbBits) limbs_.push_back(static_cast<std::uint32_t>(left));
 }
 
-Whole Whole::scaled(double value, int bits) {
+BigInteger BigInteger::scaled(double value, int bits) {
   const auto [mantissa, exponent] = parts_of(value);
-  Whole result(mantissa);
+  BigInteger result(mantissa);
   if (mantissa == 0) return result;
   const int places = exponent + bits;
   if (places < 0) throw std::length_error("a number with a fraction");
@@ -42,23 +42,23 @@ Whole Whole::scaled(double value, int bits) {
   return result;
 }
 
-std::size_t Whole::bit_length() const {
+std::size_t BigInteger::bit_length() const {
   return limbs_.empty() ? 0 : kLimbBits * limbs_.size() - static_cast<std::size_t>(std::countl_zero(limbs_.back()));
 }
 
-void Whole::trim() {
+void BigInteger::trim() {
   while (!limbs_.empty() && limbs_.back() == 0) limbs_.pop_back();
   if (limbs_.empty()) is_negative_ = false;
   if (limbs_.size() > kMostBits / kLimbBits) throw std::length_error("a number is too long");
 }
 
-Whole Whole::operator-() const {
-  Whole result = *this;
+BigInteger BigInteger::operator-() const {
+  BigInteger result = *this;
   result.is_negative_ = !is_negative_ && !limbs_.empty();
   return result;
 }
 
-int Whole::compare_limbs(const Limbs& a, const Limbs& b) {
+int BigInteger::compare_limbs(const Limbs& a, const Limbs& b) {
   if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
   for (std::size_t i = a.size(); i-- > 0;) {
     if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
@@ -66,12 +66,12 @@ int Whole::compare_limbs(const Limbs& a, const Limbs& b) {
   return 0;
 }
 
-int Whole::compare(const Whole& a, const Whole& b) {
+int BigInteger::compare(const BigInteger& a, const BigInteger& b) {
   if (a.sign() != b.sign()) return a.sign() < b.sign() ? -1 : 1;
   return a.sign() * compare_limbs(a.limbs_, b.limbs_);
 }
 
-void Whole::add_limbs(Limbs& a, const Limbs& b) {
+void BigInteger::add_limbs(Limbs& a, const Limbs& b) {
   if (a.size() < b.size()) a.resize(b.size());
   std::uint64_t carry = 0;
   for (std::size_t i = 0; i < a.size() && (i < b.size() || carry != 0); ++i) {
@@ -82,7 +82,7 @@ void Whole::add_limbs(Limbs& a, const Limbs& b) {
   if (carry != 0) a.push_back(static_cast<std::uint32_t>(carry));
 }
 
-void Whole::subtract_limbs(Limbs& a, const Limbs& b) {
+void BigInteger::subtract_limbs(Limbs& a, const Limbs& b) {
   std::int64_t borrow = 0;
   for (std::size_t i = 0; i < a.size() && (i < b.size() || borrow != 0); ++i) {
     std::int64_t left = std::int64_t{a[i]} - (i < b.size() ? std::int64_t{b[i]} : 0) - borrow;
@@ -92,7 +92,7 @@ void Whole::subtract_limbs(Limbs& a, const Limbs& b) {
   }
 }
 
-Whole& Whole::operator+=(const Whole& other) {
+BigInteger& BigInteger::operator+=(const BigInteger& other) {
   if (other.limbs_.empty()) return *this;
   if (limbs_.empty()) return *this = other;
   if (is_negative_ == other.is_negative_) {
@@ -109,8 +109,8 @@ Whole& Whole::operator+=(const Whole& other) {
   return *this;
 }
 
-Whole operator*(const Whole& a, const Whole& b) {
-  Whole result;
+BigInteger operator*(const BigInteger& a, const BigInteger& b) {
+  BigInteger result;
   if (a.limbs_.empty() || b.limbs_.empty()) return result;
   result.limbs_.assign(a.limbs_.size() + b.limbs_.size(), 0);
   for (std::size_t i = 0; i < a.limbs_.size(); ++i) {
@@ -127,7 +127,7 @@ Whole operator*(const Whole& a, const Whole& b) {
   return result;
 }
 
-Whole::Limbs Whole::shifted_up(const Limbs& a, std::size_t bits) {
+BigInteger::Limbs BigInteger::shifted_up(const Limbs& a, std::size_t bits) {
   if (bits > kMostBits) throw std::length_error("a number is too long");
   const std::size_t whole = bits / kLimbBits, rest = bits % kLimbBits;
   Limbs result(whole, 0);
@@ -142,7 +142,7 @@ Whole::Limbs Whole::shifted_up(const Limbs& a, std::size_t bits) {
 }
 
 // Knuth, The Art of Computer Programming, volume 2, 4.3.1, algorithm D.
-Whole::Limbs Whole::divided(const Limbs& a, const Limbs& b, Limbs& rest) {
+BigInteger::Limbs BigInteger::divided(const Limbs& a, const Limbs& b, Limbs& rest) {
   if (compare_limbs(a, b) < 0) {
     rest = a;
     return {};
@@ -192,35 +192,35 @@ Whole::Limbs Whole::divided(const Limbs& a, const Limbs& b, Limbs& rest) {
   return quotient;
 }
 
-Whole floor_divided(const Whole& a, const Whole& b) {
+BigInteger floor_divided(const BigInteger& a, const BigInteger& b) {
   if (b.sign() <= 0) throw std::domain_error("division by what is not positive");
-  Whole quotient, rest;
-  quotient.limbs_ = Whole::divided(a.limbs_, b.limbs_, rest.limbs_);
+  BigInteger quotient, rest;
+  quotient.limbs_ = BigInteger::divided(a.limbs_, b.limbs_, rest.limbs_);
   rest.trim();
   quotient.trim();
   quotient.is_negative_ = a.is_negative_ && !quotient.limbs_.empty();
-  if (a.is_negative_ && rest.sign() != 0) quotient += Whole(-1);
+  if (a.is_negative_ && rest.sign() != 0) quotient += BigInteger(-1);
   return quotient;
 }
 
-Whole root_down(const Whole& square) {
+BigInteger root_down(const BigInteger& square) {
   if (square.sign() < 0) throw std::domain_error("root of what is negative");
   if (square.sign() == 0) return {};
   // Newton's steps from above go down until they are there.
-  Whole root;
-  root.limbs_ = Whole::shifted_up({1}, (square.bit_length() + 1) / 2);
+  BigInteger root;
+  root.limbs_ = BigInteger::shifted_up({1}, (square.bit_length() + 1) / 2);
   for (;;) {
-    Whole next = floor_divided(root + floor_divided(square, root), Whole(2));
+    BigInteger next = floor_divided(root + floor_divided(square, root), BigInteger(2));
     if (next >= root) return root;
     root = std::move(next);
   }
 }
 
-Whole common_divisor(Whole a, Whole b) {
+BigInteger common_divisor(BigInteger a, BigInteger b) {
   a.is_negative_ = b.is_negative_ = false;
   while (b.sign() != 0) {
-    Whole rest;
-    Whole::divided(a.limbs_, b.limbs_, rest.limbs_);
+    BigInteger rest;
+    BigInteger::divided(a.limbs_, b.limbs_, rest.limbs_);
     rest.trim();
     a = std::move(b);
     b = std::move(rest);
@@ -228,12 +228,12 @@ Whole common_divisor(Whole a, Whole b) {
   return a;
 }
 
-double Whole::scaled_down(int bits) const {
+double BigInteger::scaled_down(int bits) const {
   const std::size_t length = bit_length();
   const std::size_t drop = length > kDoubleBits ? length - kDoubleBits : 0;
-  Whole unit(1);
+  BigInteger unit(1);
   unit.limbs_ = shifted_up(unit.limbs_, drop);
-  const Whole top = floor_divided(*this, unit);  // at most 2^53 in absolute value: a double holds it
+  const BigInteger top = floor_divided(*this, unit);  // at most 2^53 in absolute value: a double holds it
   double value = 0;
   for (std::size_t i = top.limbs_.size(); i-- > 0;) value = value * 4294967296.0 + top.limbs_[i];
   return std::ldexp(top.is_negative_ ? -value : value, static_cast<int>(drop) - bits);

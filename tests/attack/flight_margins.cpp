@@ -1,4 +1,4 @@
-#include "flight_rooms.h"
+#include "flight_margins.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -95,19 +95,19 @@ std::vector<Plan> near_places(const vantage::Ground& ground, const Vec3& p) {
 
 /// The least and the greatest value over places.
 template <typename Value>
-Room between(const std::string& limit, const std::vector<Plan>& places, const Value& value) {
-  Room room{limit, kInfinity, -kInfinity};
+Margin between(const std::string& limit, const std::vector<Plan>& places, const Value& value) {
+  Margin margin{limit, kInfinity, -kInfinity};
   for (const Plan& place : places) {
     const double at = value(place);
-    room.low = std::min(room.low, at);
-    room.high = std::max(room.high, at);
+    margin.low = std::min(margin.low, at);
+    margin.high = std::max(margin.high, at);
   }
-  return room;
+  return margin;
 }
 
 /// Above 0 inside of what the zone holds. `to_leave`: over ground in pieces a zone to leave reaches from above the
 /// lowest to above the highest one, and a place without ground is in it.
-Room room_in_zone(const vantage::Zone& zone, const Vec3& p, bool to_leave) {
+Margin margin_in_zone(const vantage::Zone& zone, const Vec3& p, bool to_leave) {
   const double in_heights = std::min(p.z() - zone.min_z_m, zone.max_z_m - p.z());
   const auto joined = [](double plan, double heights) {
     if (plan >= 0 || heights >= 0) return std::min(plan, heights);
@@ -124,14 +124,14 @@ Room room_in_zone(const vantage::Zone& zone, const Vec3& p, bool to_leave) {
   });
 }
 
-void add(std::vector<Room>& rooms, const std::string& limit, double low, double high) {
-  for (Room& room : rooms) {
-    if (room.limit != limit) continue;
-    room.low = std::min(room.low, low);
-    room.high = std::min(room.high, high);
+void add(std::vector<Margin>& margins, const std::string& limit, double low, double high) {
+  for (Margin& margin : margins) {
+    if (margin.limit != limit) continue;
+    margin.low = std::min(margin.low, low);
+    margin.high = std::min(margin.high, high);
     return;
   }
-  rooms.push_back({limit, low, high});
+  margins.push_back({limit, low, high});
 }
 
 double distance_to_part(const SeenTarget& part, const Vec3& p) {
@@ -143,13 +143,13 @@ double distance_to_part(const SeenTarget& part, const Vec3& p) {
 
 }  // namespace
 
-double room_in_box(const vantage::Box& box, const Vec3& p) {
+double margin_in_box(const vantage::Box& box, const Vec3& p) {
   const Vec3 inside = (p - box.min).cwiseMin(box.max - p);
   const double least = inside.minCoeff();
   return least >= 0 ? least : -inside.cwiseMin(0).norm();
 }
 
-NavigationRooms::NavigationRooms(const vantage::Navigation& navigation) : navigation_(navigation) {
+NavigationMargins::NavigationMargins(const vantage::Navigation& navigation) : navigation_(navigation) {
   for (const vantage::KeepInMesh& limit : navigation.meshes) {
     vantage::Mesh local = limit.mesh;
     const Vec3 origin = local.vertices.empty() ? Vec3(0, 0, 0) : local.vertices[0];
@@ -158,19 +158,19 @@ NavigationRooms::NavigationRooms(const vantage::Navigation& navigation) : naviga
   }
 }
 
-std::vector<Room> NavigationRooms::at(const Vec3& p) const {
-  std::vector<Room> rooms;
+std::vector<Margin> NavigationMargins::at(const Vec3& p) const {
+  std::vector<Margin> margins;
   if (navigation_.altitude) {
     const double above = p.z() - navigation_.altitude->min_m, below = navigation_.altitude->max_m - p.z();
-    add(rooms, "altitude min", above, above);
-    add(rooms, "altitude max", below, below);
+    add(margins, "altitude min", above, above);
+    add(margins, "altitude max", below, below);
   }
   if (navigation_.above_ground) {
     const auto& [low, high, ground] = *navigation_.above_ground;
     const std::vector<Plan> places = near_places(ground, p);
     const auto add_between = [&](const char* limit, const auto& value) {
-      const Room room = between(limit, places, [&](const Plan& place) { return value(pieces_at(ground, place)); });
-      add(rooms, limit, room.low, room.high);
+      const Margin margin = between(limit, places, [&](const Plan& place) { return value(pieces_at(ground, place)); });
+      add(margins, limit, margin.low, margin.high);
     };
     add_between("ground edge", [](const Pieces& g) { return g.is_there() ? kInfinity : -g.beside; });
     add_between("agl min",
@@ -178,29 +178,29 @@ std::vector<Room> NavigationRooms::at(const Vec3& p) const {
     add_between("agl max",
                 [&, high = high](const Pieces& g) { return g.is_there() ? g.lowest + high - p.z() : kInfinity; });
   }
-  const auto room_in = [&](const vantage::Zone& zone, bool is_kept_out) {
-    if (!zone.is_box) return room_in_zone(zone, p, is_kept_out);
-    const double room = room_in_box(zone.box(), p);
-    return Room{"", room, room};
+  const auto margin_in = [&](const vantage::Zone& zone, bool is_kept_out) {
+    if (!zone.is_box) return margin_in_zone(zone, p, is_kept_out);
+    const double margin = margin_in_box(zone.box(), p);
+    return Margin{"", margin, margin};
   };
   if (!navigation_.keep_in.empty()) {
     double low = -kInfinity, high = -kInfinity;
     for (const vantage::Zone& zone : navigation_.keep_in) {
-      const Room room = room_in(zone, false);
-      low = std::max(low, room.low);
-      high = std::max(high, room.high);
+      const Margin margin = margin_in(zone, false);
+      low = std::max(low, margin.low);
+      high = std::max(high, margin.high);
     }
-    add(rooms, "keep_in", low, high);
+    add(margins, "keep_in", low, high);
   }
   for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {
-    const Room room = room_in(navigation_.keep_out[i], true);
-    add(rooms, "keep_out " + vantage::zone_name(navigation_.keep_out, i), -room.high, -room.low);
+    const Margin margin = margin_in(navigation_.keep_out[i], true);
+    add(margins, "keep_out " + vantage::zone_name(navigation_.keep_out, i), -margin.high, -margin.low);
   }
   for (const ClosedLimit& limit : meshes_) {
     const Vec3 local = p - limit.origin;
     const double distance = limit.mesh.distance(local);
-    const double room = limit.mesh.locate(local) == Place::inside ? distance : -distance;
-    add(rooms, limit.limit, room, room);
+    const double margin = limit.mesh.locate(local) == Place::inside ? distance : -distance;
+    add(margins, limit.limit, margin, margin);
   }
   if (navigation_.clearance) {
     double nearest = kInfinity;
@@ -210,10 +210,10 @@ std::vector<Room> NavigationRooms::at(const Vec3& p) const {
                          distance_to_triangle(Vec3::Zero(), {obstacles.vertices[t[0]] - p, obstacles.vertices[t[1]] - p,
                                                              obstacles.vertices[t[2]] - p}));
     }
-    const double room = nearest - navigation_.clearance->distance_m;
-    add(rooms, "clearance", room, room);
+    const double margin = nearest - navigation_.clearance->distance_m;
+    add(margins, "clearance", margin, margin);
   }
-  return rooms;
+  return margins;
 }
 
 namespace {
@@ -230,7 +230,7 @@ std::array<Vec3, 4> picture_sides(const vantage::Pinhole& camera, double yaw, do
 
 }  // namespace
 
-double SensorRooms::in_picture(const Vec3& p) const {
+double SensorMargins::in_picture(const Vec3& p) const {
   const vantage::Mount& mount = sensor_.mount;
   const auto value = [&](double yaw, double pitch) {
     double least = kInfinity;
@@ -313,7 +313,7 @@ bool has_yaw(const std::vector<YawWave>& waves, double depth, const std::optiona
 
 // A change of the pitch turns the sides of the picture by as much, so that no depth changes by more than that times the
 // distance: where the middle of a part lacks more, no pitch of that part does.
-bool SensorRooms::may_be_in_picture(const Vec3& p, double depth, double farthest) const {
+bool SensorMargins::may_be_in_picture(const Vec3& p, double depth, double farthest) const {
   constexpr int kMostParts = 4000;
   const vantage::Mount& mount = sensor_.mount;
   const std::optional<double> yaw =
@@ -346,7 +346,7 @@ bool SensorRooms::may_be_in_picture(const Vec3& p, double depth, double farthest
   return false;
 }
 
-Room SensorRooms::picture_room(const Vec3& p) const {
+Margin SensorMargins::picture_margin(const Vec3& p) const {
   const double found = in_picture(p);
   if (found >= 0 || sensor_.mount.is_fixed()) return {"frame", found, found};
   double farthest = 0;
@@ -361,41 +361,41 @@ Room SensorRooms::picture_room(const Vec3& p) const {
   return {"frame", found, std::max(found, most)};
 }
 
-std::vector<Room> SensorRooms::at(const Vec3& p) const {
-  std::vector<Room> rooms;
+std::vector<Margin> SensorMargins::at(const Vec3& p) const {
+  std::vector<Margin> margins;
   const double range = range_limit_m(sensor_);
   for (const SeenTarget& part : parts_) {
     double farthest = 0;
     for (const Vec3& corner : part.corners) farthest = std::max(farthest, (corner - p).norm());
-    add(rooms, "max_range", range - farthest, range - farthest);
-    if (!part.all_sides) add(rooms, "behind", part.height(p), part.height(p));
+    add(margins, "max_range", range - farthest, range - farthest);
+    if (!part.all_sides) add(margins, "behind", part.height(p), part.height(p));
     if (sensor_.min_range_m > 0) {
-      const double room = distance_to_part(part, p) - sensor_.min_range_m;
-      add(rooms, "min_range", room, room);
+      const double margin = distance_to_part(part, p) - sensor_.min_range_m;
+      add(margins, "min_range", margin, margin);
     }
     for (const Vec3& corner : part.corners) {
       const double height = part.normal.dot(p - corner);
       if (sensor_.incidence_deg) {
         const double angle = *sensor_.incidence_deg * kRadiansPerDegree;
-        const double room = height * std::sin(angle) - (p - corner - height * part.normal).norm() * std::cos(angle);
-        add(rooms, "incidence", room, room);
+        const double margin = height * std::sin(angle) - (p - corner - height * part.normal).norm() * std::cos(angle);
+        add(margins, "incidence", margin, margin);
       }
       if (sensor_.pixel && sensor_.pixel->kind == vantage::PixelLimit::Kind::worst && !part.all_sides) {
         const double radius = 0.5 * sensor_.pixel->size_m * *sensor_.camera->focal_px;
-        const double room = radius - (p - corner - radius * part.normal).norm();
-        add(rooms, "pixel", room, room);
+        const double margin = radius - (p - corner - radius * part.normal).norm();
+        add(margins, "pixel", margin, margin);
       }
     }
     if (sensor_.sun) {
-      const double room = -0.5 * depth_in_sun(*sensor_.sun, part, p);
-      add(rooms, "sun", room, room);
+      const double margin = -0.5 * depth_in_sun(*sensor_.sun, part, p);
+      add(margins, "sun", margin, margin);
     }
   }
   if (sensor_.camera) {
-    const Room room = picture_room(p);
-    add(rooms, room.limit, room.low, room.high);
+    const Margin margin = picture_margin(p);
+    add(margins, margin.limit, margin.low, margin.high);
   }
-  return rooms;
+  return margins;
 }
 
 }  // namespace attack

@@ -1,4 +1,4 @@
-// Who may ask: a token that only the person at this machine is told, and the right names of host and origin.
+// Which requests are answered: those with the token that the program printed, and the right names of host and origin.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace vantage::live {
 /// 128 bits from the system's source of randomness, as 32 hexadecimal digits.
 std::string random_token();
 
-class Gate {
+class AccessControl {
  public:
-  explicit Gate(std::string token) : token_(std::move(token)) {}
+  explicit AccessControl(std::string token) : token_(std::move(token)) {}
 
   const std::string& token() const { return token_; }
 
   /// Whether a target "/path?token=..." has this path and the token. Takes the same time wherever a wrong token
   /// differs.
-  bool opens(std::string_view target, std::string_view path) const;
+  bool allows(std::string_view target, std::string_view path) const;
 
   /// Whether a header Host names this machine itself. Another name may be one that its owner has led here (DNS
   /// rebinding). The port may be that of a tunnel.

@@ -1,4 +1,4 @@
-#include "live/conversation.h"
+#include "live/websocket_connection.h"
 
 #include <algorithm>
 #include <array>
@@ -30,19 +30,19 @@ bool is_heavy(const Request& request) {
 
 }  // namespace
 
-void Workshop::give_turn() {
+void WorkerPool::resume_waiting() {
   while (computing < kMostComputing && !queue.empty()) {
-    const std::shared_ptr<Conversation> next = queue.front().lock();
+    const std::shared_ptr<WebSocketConnection> next = queue.front().lock();
     queue.pop_front();
-    if (next) next->take_turn();
+    if (next) next->resume();
   }
 }
 
-Conversation::Conversation(beast::tcp_stream stream, const Session& original, Workshop& workshop,
-                           std::shared_ptr<const void> seat)
-    : socket_(std::move(stream)), original_(original), workshop_(workshop), seat_(std::move(seat)) {}
+WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, const Session& original, WorkerPool& pool,
+                                         std::shared_ptr<const void> slot)
+    : socket_(std::move(stream)), original_(original), pool_(pool), slot_(std::move(slot)) {}
 
-void Conversation::start(const Upgrade& request) {
+void WebSocketConnection::start(const Upgrade& request) {
   beast::get_lowest_layer(socket_).expires_never();  // the socket has its own limits of time
   auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
   timeout.keep_alive_pings = true;  // a page that is only looked at asks nothing
@@ -58,11 +58,11 @@ void Conversation::start(const Upgrade& request) {
   });
 }
 
-void Conversation::read() {
+void WebSocketConnection::read() {
   socket_.async_read(incoming_, [self = shared_from_this()](Error error, std::size_t) { self->take(error); });
 }
 
-void Conversation::take(Error error) {
+void WebSocketConnection::take(Error error) {
   if (error) return leave();
   const std::string text = beast::buffers_to_string(incoming_.data());
   incoming_.consume(incoming_.size());
@@ -79,22 +79,22 @@ void Conversation::take(Error error) {
 }
 
 /// A single answer does not count, however large: while it is sent, what is read shows that the page is still there.
-bool Conversation::is_behind() const {
+bool WebSocketConnection::is_behind() const {
   return waiting_.size() >= kMostWaiting || (outgoing_.size() > 1 && outgoing_bytes_ > kMostOutgoing);
 }
 
-void Conversation::catch_up() {
+void WebSocketConnection::catch_up() {
   if (!is_paused_ || is_gone_ || is_behind()) return;
   is_paused_ = false;
   read();
 }
 
-void Conversation::leave() {
+void WebSocketConnection::leave() {
   is_gone_ = true;
   waiting_.clear();
 }
 
-void Conversation::drop_waiting_volumes(std::string (*answer_to)(const Request&)) {
+void WebSocketConnection::drop_waiting_volumes(std::string (*answer_to)(const Request&)) {
   for (auto at = waiting_.begin(); at != waiting_.end();) {
     if (at->call != "compute") {
       ++at;
@@ -105,7 +105,7 @@ void Conversation::drop_waiting_volumes(std::string (*answer_to)(const Request&)
   }
 }
 
-void Conversation::enqueue(Request request) {
+void WebSocketConnection::enqueue(Request request) {
   if (request.call == "stop") return stop(request);
   if (request.call == "compute") drop_waiting_volumes(stale_answer);
   waiting_.push_back(std::move(request));
@@ -113,7 +113,7 @@ void Conversation::enqueue(Request request) {
 }
 
 /// Does not wait for its turn. What is computed answers as soon as it notices.
-void Conversation::stop(const Request& request) {
+void WebSocketConnection::stop(const Request& request) {
   drop_waiting_volumes(cancelled_answer);
   if (!is_working_ && !waiting_.empty()) {  // a proof whose turn it is, while others compute
     send(cancelled_answer(waiting_.front()));
@@ -125,37 +125,37 @@ void Conversation::stop(const Request& request) {
 }
 
 /// Else it is called again once it may.
-bool Conversation::may_work(const Request& request) {
-  if (!is_heavy(request) || workshop_.computing < Workshop::kMostComputing) return true;
-  if (!is_queued_) workshop_.queue.push_back(weak_from_this());
+bool WebSocketConnection::may_work(const Request& request) {
+  if (!is_heavy(request) || pool_.computing < WorkerPool::kMostComputing) return true;
+  if (!is_queued_) pool_.queue.push_back(weak_from_this());
   is_queued_ = true;
-  if (told_of_ != request.id) send(waiting_notice(request, true));
-  told_of_ = request.id;
+  if (notified_ != request.id) send(waiting_notice(request, true));
+  notified_ = request.id;
   return false;
 }
 
-void Conversation::take_turn() {
+void WebSocketConnection::resume() {
   is_queued_ = false;
   work();
 }
 
-void Conversation::work() {
+void WebSocketConnection::work() {
   if (is_working_ || waiting_.empty() || !may_work(waiting_.front())) return;
-  if (told_of_ == waiting_.front().id) send(waiting_notice(waiting_.front(), false));
-  told_of_.reset();
+  if (notified_ == waiting_.front().id) send(waiting_notice(waiting_.front(), false));
+  notified_.reset();
   is_working_ = true;
   is_stopped_ = false;
   const bool heavy = is_heavy(waiting_.front());
-  if (heavy) ++workshop_.computing;
-  asio::post(workshop_.workers, [self = shared_from_this(), request = std::move(waiting_.front()), heavy]() mutable {
-    Workshop& workshop = self->workshop_;
-    const auto is_wanted = [&] { return !self->is_gone_ && !workshop.is_over; };
+  if (heavy) ++pool_.computing;
+  asio::post(pool_.workers, [self = shared_from_this(), request = std::move(waiting_.front()), heavy]() mutable {
+    WorkerPool& pool = self->pool_;
+    const auto is_wanted = [&] { return !self->is_gone_ && !pool.is_over; };
     const auto goes_on = [&] { return is_wanted() && !self->is_stopped_; };
     std::string message;
-    if (workshop.before_work) workshop.before_work(request.call);
+    if (pool.before_work) pool.before_work(request.call);
     if (is_wanted()) {
       if (!self->session_) self->session_.emplace(self->original_.fork());
-      with_threads(workshop.threads, [&] {
+      with_threads(pool.threads, [&] {
         message = answer(*self->session_, self->areas_, request, [&](std::string_view, double) { return goes_on(); });
       });
     }
@@ -168,25 +168,25 @@ void Conversation::work() {
   waiting_.pop_front();
 }
 
-void Conversation::end_work(std::string message, bool was_heavy) {
+void WebSocketConnection::end_work(std::string message, bool was_heavy) {
   is_working_ = false;
   send(std::move(message));
   if (was_heavy) {
-    --workshop_.computing;
-    workshop_.give_turn();  // those who wait first
+    --pool_.computing;
+    pool_.resume_waiting();  // those that wait first
   }
   work();
   catch_up();
 }
 
-void Conversation::send(std::string message) {
+void WebSocketConnection::send(std::string message) {
   if (is_gone_) return;
   outgoing_bytes_ += message.size();
   outgoing_.push_back(std::move(message));
   if (outgoing_.size() == 1) write();
 }
 
-void Conversation::write() {
+void WebSocketConnection::write() {
   socket_.async_write(asio::buffer(outgoing_.front()), [self = shared_from_this()](Error error, std::size_t) {
     if (error) return self->leave();
     self->outgoing_bytes_ -= self->outgoing_.front().size();

@@ -19,10 +19,10 @@ struct Stretch {
 };
 
 /// Where along a flight, and when. The flight must outlive it.
-class Along {
+class FlightTimeline {
  public:
   /// `speed_m_s`: of legs whose points state none; NaN: their times are not known, nor those that follow.
-  Along(const Flight& flight, double speed_m_s);
+  FlightTimeline(const Flight& flight, double speed_m_s);
 
   const std::vector<double>& point_at_m() const { return at_m_; }
   const std::vector<double>& arrival_s() const { return arrival_s_; }
@@ -46,7 +46,7 @@ class Along {
 /// Appends intervals of a leg, later than all before, to stretches: what meets where two legs do is joined.
 void append(std::vector<Stretch>& stretches, std::size_t leg, std::span<const LegInterval> intervals);
 
-std::vector<FlightSpan> spans_of(const Along& along, const std::vector<Stretch>& stretches);
+std::vector<FlightSpan> spans_of(const FlightTimeline& along, const std::vector<Stretch>& stretches);
 
 /// What is left of sorted, disjoint intervals. What only touches `removed` at an end stays.
 std::vector<LegInterval> without(std::span<const LegInterval> intervals, std::span<const LegInterval> removed);

@@ -1,4 +1,4 @@
-#include "live/gate.h"
+#include "live/access_control.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +16,7 @@ std::string random_token() {
   return token;
 }
 
-bool Gate::opens(std::string_view target, std::string_view path) const {
+bool AccessControl::allows(std::string_view target, std::string_view path) const {
   const std::string start = std::string(path) + "?token=";
   if (target.size() != start.size() + token_.size() || target.substr(0, start.size()) != start) return false;
   unsigned difference = 0;
@@ -25,7 +25,7 @@ bool Gate::opens(std::string_view target, std::string_view path) const {
   return difference == 0;
 }
 
-bool Gate::is_own_host(std::string_view host) {
+bool AccessControl::is_own_host(std::string_view host) {
   const std::string_view port = host.substr(std::min(host.find(':'), host.size()));
   const std::string_view name = host.substr(0, host.size() - port.size());
   const bool is_number = port.empty() || (port.size() > 1 && port.size() <= 6 &&
@@ -33,7 +33,7 @@ bool Gate::is_own_host(std::string_view host) {
   return is_number && (name == "127.0.0.1" || name == "localhost");
 }
 
-bool Gate::is_own_origin(std::string_view origin, std::string_view host) {
+bool AccessControl::is_own_origin(std::string_view origin, std::string_view host) {
   constexpr std::string_view kScheme = "http://";
   return is_own_host(host) && origin.substr(0, kScheme.size()) == kScheme && origin.substr(kScheme.size()) == host;
 }

@@ -1,4 +1,4 @@
-#include "flight/along.h"
+#include "flight/flight_timeline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace vantage::internal::flight {
 
-Along::Along(const Flight& flight, double speed_m_s) : flight_(flight) {
+FlightTimeline::FlightTimeline(const Flight& flight, double speed_m_s) : flight_(flight) {
   at_m_.push_back(0);
   arrival_s_.push_back(0);
   departure_s_.push_back(flight.points.front().hold_s);
@@ -20,19 +20,19 @@ Along::Along(const Flight& flight, double speed_m_s) : flight_(flight) {
   }
 }
 
-Vec3 Along::position(std::size_t leg, double share) const {
+Vec3 FlightTimeline::position(std::size_t leg, double share) const {
   if (flight_.leg_count() == 0) return flight_.points.front().position;
   const Leg on = flight_.leg(leg);
   if (share == 1) return on.to;
   return on.from + share * (on.to - on.from);
 }
 
-double Along::at_m(std::size_t leg, double share) const {
+double FlightTimeline::at_m(std::size_t leg, double share) const {
   if (share == 0 || leg + 1 == at_m_.size()) return at_m_[leg];
   return share == 1 ? at_m_[leg + 1] : at_m_[leg] + share * (at_m_[leg + 1] - at_m_[leg]);
 }
 
-FlightSpan Along::span(const Stretch& stretch) const {
+FlightSpan FlightTimeline::span(const Stretch& stretch) const {
   const auto time = [this](std::size_t leg, double share) {
     return departure_s_[leg] + share * (arrival_s_[leg + 1] - departure_s_[leg]);
   };
@@ -69,7 +69,7 @@ void append(std::vector<Stretch>& stretches, std::size_t leg, std::span<const Le
   }
 }
 
-std::vector<FlightSpan> spans_of(const Along& along, const std::vector<Stretch>& stretches) {
+std::vector<FlightSpan> spans_of(const FlightTimeline& along, const std::vector<Stretch>& stretches) {
   std::vector<FlightSpan> spans;
   spans.reserve(stretches.size());
   for (const Stretch& stretch : stretches) spans.push_back(along.span(stretch));
