@@ -22,6 +22,8 @@
 #include "self_test.h"
 #include "summary.h"
 #include "tours.h"
+#include "vantage/city.h"
+#include "vantage/spheres.h"
 
 namespace attack {
 namespace {
@@ -204,6 +206,8 @@ int judge_mission(const Options& options) {
 }  // namespace attack
 
 int main(int count, char** words) {
+  vantage::enable_maps();
+  vantage::enable_spheres();
   const attack::Options options = attack::parse(count, words);
   if (options.self_test) {
     const bool are_right[] = {attack::self_test(), attack::mesh_self_test(), attack::mission_self_test(),

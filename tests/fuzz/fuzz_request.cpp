@@ -10,6 +10,7 @@
 #include "fuzz/files.h"
 #include "live/access_control.h"
 #include "live/request.h"
+#include "vantage/city.h"
 
 namespace vantage::fuzzing {
 namespace {
@@ -26,6 +27,7 @@ constexpr const char* kMission =
 
 const live::Session& open_session() {
   static const live::Session session = [] {
+    enable_maps();  // targets on the ground
     folder().write("scene.obj", kScene);
     const auto mission = folder().write("mission.yaml", kMission);
     live::Session opened;
