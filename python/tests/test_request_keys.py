@@ -66,7 +66,7 @@ def written(name: str) -> tuple[str, str]:
 
 
 def regions(source: str, name: str) -> tuple[re.Match[str], re.Match[str]]:
-    start = source.index(f"class {name}(_Request):")
+    start = source.index(f"class {name}(")
     attributes = re.compile(r"    Attributes:\n((?:        .*\n)+)").search(source, start)
     lines = re.compile(r'^    """\n\n((?:    \w+: .* = None\n)+)', re.MULTILINE).search(source, start)
     assert attributes and lines

@@ -23,7 +23,6 @@
 #include "summary.h"
 #include "tours.h"
 #include "vantage/city.h"
-#include "vantage/spheres.h"
 
 namespace attack {
 namespace {
@@ -207,7 +206,6 @@ int judge_mission(const Options& options) {
 
 int main(int count, char** words) {
   vantage::enable_maps();
-  vantage::enable_spheres();
   const attack::Options options = attack::parse(count, words);
   if (options.self_test) {
     const bool are_right[] = {attack::self_test(), attack::mesh_self_test(), attack::mission_self_test(),
