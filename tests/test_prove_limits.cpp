@@ -231,7 +231,7 @@ TEST(ProveLimits, HeightsOfZonesAboveTerrainAreNamed) {
   expect_proved(world, navigation, world.mesh({-9, -5, 20}, {9, 5, 40}));
   expect_wrong(world, navigation, world.mesh({-9, -5, 19.9}, {9, 5, 40}), [](const Vec3& p) { return 20 - p.z(); });
   expect_wrong(world, navigation, world.mesh({-9, -5, 20}, {9.1, 5, 40}), [](const Vec3& p) { return p.x() - 9; });
-  navigation.keep_in = {world.box({20, 20, 0}, {30, 30, 9})};
+  navigation.keep_in.push_back(world.box({20, 20, 0}, {30, 30, 9}));
   EXPECT_EQ(claim_of(world, navigation, world.mesh({-9, -5, 20}, {9, 5, 40})).verdict, ProofVerdict::not_proved);
 }
 

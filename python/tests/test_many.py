@@ -103,7 +103,7 @@ def test_errors_of_all_together_are_at_the_index_too(scene, monkeypatch):
 
 
 @pytest.mark.parametrize("request_, where", [
-    (dict(max_range=-1), "sensor['max_range']"), (dict(max_range=60, sensor=vt.Sensor(max_range=60)), "max_range"),
+    (dict(max_range=-1), "sensor.max_range"), (dict(max_range=60, sensor=vt.Sensor(max_range=60)), "max_range"),
     (dict(sensor={"max_range": 60, "incidence": 95}), "sensor.incidence"),
     (dict(max_range=60, navigation={"altitude": (20, 10)}), "navigation['altitude']"),
     (dict(max_range=60, navigation={"keep_out": [{"file": "missing.kml"}]}), "navigation['keep_out'][0]['file']"),

@@ -80,11 +80,8 @@ class Text:
             return make(error.kind, error.code, error.problem, where, error.fix, error.object)
         argument = self._arguments[min(int(match[1]), len(self._arguments)) - 1] if self._arguments else ""
         rest = error.where[match.end():].strip(" ,:")
-        # "sensor.incidence" says more than the line of the section; but not of which target something is, nor more than
-        # "sensor['incidence']".
+        # "sensor.incidence" says more than the line of the section; but not of which target something is.
         is_exact = re.fullmatch(r"\w+(\.\w+)+", rest) and not argument.startswith("target")
-        if is_exact and argument.endswith(f"[{rest.rsplit('.', 1)[1]!r}]"):
-            is_exact, rest = None, ""
         where = rest if is_exact else f"{argument}, {rest}" if rest else argument
         return make(error.kind, error.code, error.problem, where, error.fix, error.object)
 
