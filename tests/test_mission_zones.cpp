@@ -98,10 +98,11 @@ TEST(MissionZones, TextReadsBackAsTheSame) {
   const std::string text = mission_text(read, "/data");
   const MissionFile again = app::parse_mission(text, "/data/again.yaml");
   EXPECT_EQ(mission_text(again, "/data"), text);
-  ASSERT_EQ(again.navigation.keep_in.size(), 1u);
-  EXPECT_EQ(again.navigation.keep_in[0].outer, read.navigation.keep_in[0].outer);
-  EXPECT_EQ(again.navigation.keep_in[0].holes, read.navigation.keep_in[0].holes);
-  EXPECT_EQ(again.navigation.keep_in[0].max_z_m, 20.5);
+  ASSERT_EQ(again.navigation.keep_in.size(), 2u);
+  EXPECT_TRUE(again.navigation.keep_in[0].is_box);
+  EXPECT_EQ(again.navigation.keep_in[1].outer, read.navigation.keep_in[1].outer);
+  EXPECT_EQ(again.navigation.keep_in[1].holes, read.navigation.keep_in[1].holes);
+  EXPECT_EQ(again.navigation.keep_in[1].max_z_m, 20.5);
   ASSERT_EQ(again.navigation.keep_out.size(), 1u);
   EXPECT_EQ(again.navigation.keep_out[0].max_z_m, INFINITY);
 }

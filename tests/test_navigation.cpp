@@ -178,7 +178,7 @@ TEST(Navigation, BoxesAreUnited) {
   EXPECT_EQ(measure(cut.mesh).pieces, 2u);
   EXPECT_EQ(measure(cut.mesh).euler, 4);
   EXPECT_NEAR(measure(cut.mesh).volume_m3, 40 * 10 * 9 + 5 * 10 * 10 + 10 * 10 * 4, 1e-6);
-  EXPECT_EQ(kind_of(cut, "box 3"), CauseKind::navigation);
+  EXPECT_EQ(kind_of(cut, "zone 3"), CauseKind::navigation);
 }
 
 TEST(Navigation, KeepOutTakesAway) {

@@ -76,6 +76,11 @@ std::vector<WrongLimit> wrong_limits() {
   zone(zone_of(bow_tie, 0, 5), ErrorCode::zone_not_simple);
   zone(zone_of({{0, 0}, {1, 0}}, 0, 5), ErrorCode::zone_not_simple);
   zone(zone_of({{0, 0}, {9, 0}, {9, kNaN}}, 0, 5), ErrorCode::coordinate_not_finite);
+  Zone askew = Box{{0, 0, 0}, {1, 1, 1}}, pierced = askew, triangle = askew;  // they say that they are boxes
+  askew.outer[1].y() = 0.5;
+  pierced.holes = {{{0.2, 0.2}, {0.4, 0.2}, {0.4, 0.4}}};
+  triangle.outer.pop_back();
+  for (const Zone& wrong : {askew, pierced, triangle}) zone(wrong, ErrorCode::value_out_of_range);
   add("zones", ErrorCode::value_out_of_range, [&](Navigation& n) {
     n.keep_in.assign(Navigation::kMostZones / 2, zone_of(square, 0, 5));
     n.keep_out.assign(Navigation::kMostZones / 2 + 1, zone_of(square, 0, 5));

@@ -81,7 +81,7 @@ TEST(Report, TellsWhyThereIsNoVolume) {
 
 TEST(Report, SurvivesNamesThatAreNotUtf8) {
   Volume volume;
-  volume.causes = {{CauseKind::scene, "caf\xe9 \"x\"\n"}, {CauseKind::navigation, "box 0"}};
+  volume.causes = {{CauseKind::scene, "caf\xe9 \"x\"\n"}, {CauseKind::navigation, "zone 0"}};
   const json report = json::parse(report_json(volume, measure(volume.mesh), {"caf\xe9.yaml", "", "", ""}));
   EXPECT_EQ(report.at("causes")[0].at("name"), "caf\xEF\xBF\xBD \"x\"\n");
   EXPECT_EQ(report.at("causes")[1].at("kind"), "navigation");

@@ -169,7 +169,7 @@ TEST(Verify, CatchesAVolumeThatIsInflatedShrunkOrMirrored) {
   };
   const VerifyReport inflated = mapped(Vec3::Constant(1.01));
   EXPECT_GT(inflated.over_claimed, 0u);
-  EXPECT_EQ(inflated.worst_over_cause, "box");
+  EXPECT_EQ(inflated.worst_over_cause, "keep_in");
   const VerifyReport shrunk = mapped(Vec3(0.99, 0.99, 1));
   EXPECT_EQ(shrunk.worst_over_cause, "plate");  // the pit's side towards the target moved over what the plate hides
   EXPECT_GT(shrunk.under_claimed, 0u);

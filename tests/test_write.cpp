@@ -41,7 +41,7 @@ Volume awkward_volume() {
   volume.causes[0].name = "Straße 7, \"north\" wing";
   volume.causes[1].name = "two\nlines\tand tabs";
   volume.causes[2].name = "";
-  volume.causes.push_back({CauseKind::navigation, "box 0"});
+  volume.causes.push_back({CauseKind::navigation, "zone 0"});
   volume.cause_of[5] = 5;
   return volume;
 }
@@ -98,7 +98,7 @@ TEST(WritePly, KeepsEveryBitAndNamesTheCauses) {
       "comment vantage cause 2 scene ",
       "comment vantage cause 3 range max_range",
       "comment vantage cause 4 target_plane target plane",
-      "comment vantage cause 5 navigation box 0",
+      "comment vantage cause 5 navigation zone 0",
       "element vertex " + std::to_string(volume.mesh.vertices.size()),
       "property double x",
       "property double y",
@@ -148,7 +148,7 @@ Obj parse_obj(const std::string& text) {
 TEST(WriteObj, HasAGroupPerCauseAndEveryBit) {
   const TemporaryDirectory directory;
   Volume volume = awkward_volume();
-  volume.causes[4].name = "box 0";  // the name of another cause
+  volume.causes[4].name = "zone 0";  // the name of another cause
   write_volume(volume, directory / "v.obj");
   const Obj obj = parse_obj(read_bytes(directory / "v.obj"));
   EXPECT_EQ(obj.mesh.vertices, volume.mesh.vertices);

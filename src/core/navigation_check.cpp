@@ -55,7 +55,7 @@ void check_ground(const Ground& ground, const std::string& where) {
 
 void check_zones(const std::vector<Zone>& zones, const char* key) {
   for (std::size_t i = 0; i < zones.size(); ++i) {
-    refuse(fault_of(zones[i]), member(key, i), member(key, i));
+    refuse(fault_of(zones[i]), zones[i].name.empty() ? member(key, i) : zone_name(zones, i), member(key, i));
     if (zones[i].above_ground) check_ground(zones[i].above_ground->ground, member(key, i));
   }
 }
