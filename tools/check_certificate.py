@@ -16,7 +16,7 @@ Why that is enough: a ray from a point p that the volume winds round, away from 
 through such a facet, in a point x at or behind p. By 3 nothing of the scene touches the hull of x and the polygon, so
 nothing lies between p and the polygon. Planes are found for groups of facets and boxes of triangles at once; the boxes
 are made here, from the scene. That the volume was made for this target, this range and this mission it says itself.
-docs/proof.md has the format. What is not written exactly as it says is refused: so no two programs read it in two ways.
+include/vantage/prove.h has the format. What is not written as it says is refused: nothing can be read in two ways.
 Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
 
 import argparse, collections, hashlib, json, math, re, struct, sys  # noqa: E401

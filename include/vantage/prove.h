@@ -16,7 +16,7 @@
 
 namespace vantage {
 
-// ---- Certificates: what a stranger's program needs to check a proof; docs/proof.md has the format
+// ---- Certificates: what a stranger's program needs to check a proof; certificate_text has the format
 
 /// A box that all of the volume keeps to. Infinite where there is no limit.
 struct CertifiedBox {
@@ -57,7 +57,35 @@ struct CertifiedFiles {
   std::string mission_hash;
 };
 
-/// JSON, UTF-8, a newline at the end.
+/// JSON, UTF-8, a newline at the end. These keys, each once, and no others:
+///   format         "vantage certificate 1"
+///   scene, volume  "file", beside the certificate, and "hash"
+///   mission_hash, shrink, rounding_m, max_range_m
+///   boxes          limits that all of the volume keeps: name, min, max; null: no limit
+///   parts          of the target; each with
+///     target, shift_m, normal   corners as given; how far they were moved along the normal (offset and lift)
+///     centre, corners           c, and what is proved to be seen, about c: the target less the strip
+///     cut_height_m              1.5 margins; null: a point that is seen from all sides
+///     facets                    to the base of 36, in the order in which groups are made
+///     steps                     what becomes of the scene, group by group: a text
+///
+/// Facets are halved (the first half is the smaller one) until a group has at most 256. For each group, depth first,
+/// the scene's tree is gone through from its root. The checker makes the tree from the scene, and its boxes are exact:
+/// triangles are halved by the middle of their boxes along the axis along which those middles spread most, in doubles,
+/// ties by number; leaves hold one or two. A step says what becomes of a node or a triangle:
+///   0 to f   the plane of this number has the group's hull strictly on one side, the box or triangle on the other
+///   (x,y,z)  the same for a new plane with this normal, to the base of 36. It gets the next number, after f again 0
+///   >        taken apart: the children come next, the first one first
+///   <        left to the two halves of the group, which come when all else of the group is done
+///   .        nothing of it lies higher than the cut
+/// The vertices of the hull are (1 - shrink) * (vertex - centre), in doubles, the corners, and c. Normals are whole
+/// numbers, as small as they can be.
+///
+/// A checker refuses what is not written exactly so. Numbers have the digits of ASCII that a double holds; whole
+/// numbers to the base of 36 no signs, zeros and blanks that are not needed. Of the PLY files: the lines of the header
+/// are "ply", the format, comments, vertices with their properties, faces with theirs, and "end_header", each with
+/// single blanks and a line feed at its end; the size of the file is the one that they say. Letters are those of ASCII,
+/// but in the names of causes. Comments hold no control characters and not "end_header".
 VANTAGE_API std::string certificate_text(const Certificate& certificate, const CertifiedFiles& files);
 
 // ---- Proofs

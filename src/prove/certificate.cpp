@@ -1,4 +1,4 @@
-// The format is in docs/proof.md; tools/check_certificate.py reads it.
+// The format is in vantage/prove.h; tools/check_certificate.py reads it.
 #include <array>
 #include <charconv>
 #include <cmath>

@@ -37,7 +37,7 @@ struct SceneTree {
 };
 
 /// Halved again and again by the middles of the boxes of `scene`'s triangles, as their stored numbers add up, so that a
-/// checker of certificates builds the same tree: docs/proof.md. Leaves hold one or two pieces, by number. Cost:
+/// checker of certificates builds the same tree (vantage/prove.h). Leaves hold one or two pieces, by number. Cost:
 /// O(n log n).
 SceneTree make_tree(const Mesh& scene, std::vector<Piece> pieces);
 /// The same by the middles of the pieces themselves. None may be empty.

@@ -29,8 +29,8 @@ struct FrameSurface {
   double least_distance = 0;   ///< metres from c, of all directions looked at: where a camera can first take it all in
 };
 
-/// docs/theory.md, "The frame", has the argument. Cost: in proportion to the facets, about a microsecond for each
-/// corner of the target.
+/// docs/theory.md, "Limits of the sensor", has the argument. Cost: in proportion to the facets, about a microsecond for
+/// each corner of the target.
 FrameSurface make_frame_surface(const FrameView& view);
 
 }  // namespace vantage::internal::solid
