@@ -154,7 +154,7 @@ TEST(WriteObj, HasAGroupPerCauseAndEveryBit) {
   EXPECT_EQ(obj.mesh.vertices, volume.mesh.vertices);
   EXPECT_EQ(first_open_edge(obj.mesh), "");
   const std::vector<std::string> names = {
-      "Straße_7,_\"north\"_wing", "two_lines_and_tabs", "scene", "max_range", "zone_0", "box_0#5"};
+      "Straße_7,_\"north\"_wing", "two_lines_and_tabs", "scene", "max_range", "zone_0", "zone_0#5"};
   std::map<Triangle, std::string> expected;
   for (std::size_t t = 0; t < volume.cause_of.size(); ++t) {
     expected[volume.mesh.triangles[t]] = names[volume.cause_of[t]];
