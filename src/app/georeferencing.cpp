@@ -153,7 +153,7 @@ Box placed_box(const Box& given, ZoneUse use, const std::string& name, const Crs
   const Box around = converter.around(given);
   check_near(around, given, name, converter, "");
   if (use == ZoneUse::keep_out) return around;
-  const Box inside = converter.inside(given);
+  Box inside = converter.inside(given);
   if ((inside.min.array() < inside.max.array()).all()) return inside;
   throw Error(ErrorCode::limits_empty, name + " is too small or too askew to hold a box of the scene frame", "",
               "make it larger, or give it in the scene frame");
