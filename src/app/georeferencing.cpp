@@ -150,7 +150,7 @@ void check_near(const Box& box, const Box& given, const std::string& name, const
 
 /// One to stay in is the largest inside, one to stay out of the smallest around.
 Box placed_box(const Box& given, ZoneUse use, const std::string& name, const CrsConverter& converter) {
-  const Box around = converter.around(given);
+  Box around = converter.around(given);
   check_near(around, given, name, converter, "");
   if (use == ZoneUse::keep_out) return around;
   Box inside = converter.inside(given);
