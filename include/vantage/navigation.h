@@ -100,9 +100,7 @@ struct Navigation {
 
   static constexpr std::size_t kMostZones = 10'000;  ///< to stay in and out of, together: 100,000 would take minutes
 
-  bool empty() const {
-    return !altitude && keep_in.empty() && keep_out.empty() && meshes.empty() && !above_ground && !clearance;
-  }
+  VANTAGE_API bool empty() const;
 };
 
 /// Throws Error(input) for a limit that is wrong in itself, with its name in the words of this file as the place

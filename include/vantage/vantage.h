@@ -5,6 +5,7 @@
 #include "vantage/city.h"
 #include "vantage/devices.h"
 #include "vantage/dubins.h"
+#include "vantage/each_limit.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/flight.h"

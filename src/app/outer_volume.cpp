@@ -13,6 +13,7 @@
 #include "core/places.h"
 #include "core/portable_math.h"
 #include "core/triangle_distance.h"
+#include "vantage/each_limit.h"
 #include "vantage/error.h"
 #include "vantage/prove.h"
 #include "vantage/result.h"
@@ -182,39 +183,53 @@ Volume around_target(const Target& target, const Work& work) {
 }
 
 /// Limits to which an outer volume is cut, made wider; the others are named.
-Navigation widened(const Navigation& given, double margin_m, std::vector<std::string>& ignored) {
-  Navigation wide;
-  if (given.altitude) wide.altitude = {given.altitude->min_m - margin_m, given.altitude->max_m + margin_m};
-  if (given.above_ground) {
-    wide.above_ground = given.above_ground;
-    wide.above_ground->min_m -= margin_m;
-    wide.above_ground->max_m += margin_m;
+class Widening {
+ public:
+  Widening(double margin_m, std::vector<std::string>& ignored) : margin_m_(margin_m), ignored_(ignored) {}
+
+  void operator()(LimitIs<Limit::altitude> /*limit*/, const Navigation::Altitude& altitude) {
+    wide_.altitude = {altitude.min_m - margin_m_, altitude.max_m + margin_m_};
   }
-  const auto is_box = [](const Zone& zone) { return zone.is_box; };
-  if (std::all_of(given.keep_in.begin(), given.keep_in.end(), is_box)) {
-    for (const Zone& zone : given.keep_in) {
-      wide.keep_in.push_back(Box{zone.box().min.array() - margin_m, zone.box().max.array() + margin_m});
+  void operator()(LimitIs<Limit::above_ground> /*limit*/, const AboveGround& band) {
+    wide_.above_ground = band;
+    wide_.above_ground->min_m -= margin_m_;
+    wide_.above_ground->max_m += margin_m_;
+  }
+  void operator()(LimitIs<Limit::keep_in> limit, const std::vector<Zone>& zones) {
+    if (!are_boxes(zones)) return ignore(limit);
+    for (const Zone& zone : zones) {
+      wide_.keep_in.push_back(Box{zone.box().min.array() - margin_m_, zone.box().max.array() + margin_m_});
     }
-  } else {
-    ignored.emplace_back("keep_in");
   }
-  for (const Zone& zone : given.keep_out) {
-    if (!zone.is_box) continue;
-    const Box box{zone.box().min.array() + margin_m, zone.box().max.array() - margin_m};
-    if ((box.min.array() < box.max.array()).all()) wide.keep_out.push_back(box);
+  void operator()(LimitIs<Limit::keep_out> limit, const std::vector<Zone>& zones) {
+    for (const Zone& zone : zones) {
+      if (!zone.is_box) continue;
+      const Box box{zone.box().min.array() + margin_m_, zone.box().max.array() - margin_m_};
+      if ((box.min.array() < box.max.array()).all()) wide_.keep_out.push_back(box);
+    }
+    if (!are_boxes(zones)) ignore(limit);
   }
-  if (!std::all_of(given.keep_out.begin(), given.keep_out.end(), is_box)) ignored.emplace_back("keep_out");
-  if (!given.meshes.empty()) ignored.emplace_back("meshes");
-  if (given.clearance) ignored.emplace_back("clearance");
-  return wide;
-}
+  void operator()(LimitIs<Limit::meshes> limit, const std::vector<KeepInMesh>& /*meshes*/) { ignore(limit); }
+  void operator()(LimitIs<Limit::clearance> limit, const Clearance& /*clearance*/) { ignore(limit); }
+
+  const Navigation& wide() const { return wide_; }
+
+ private:
+  static bool are_boxes(const std::vector<Zone>& zones) {
+    return std::all_of(zones.begin(), zones.end(), [](const Zone& zone) { return zone.is_box; });
+  }
+  void ignore(Limit limit) { ignored_.emplace_back(name_of(limit)); }
+
+  double margin_m_;
+  std::vector<std::string>& ignored_;
+  Navigation wide_;
+};
 
 void name_ignored(const Sensor& sensor, std::vector<std::string>& ignored) {
-  if (sensor.min_range_m > 0) ignored.emplace_back("min_range");
-  if (sensor.incidence_deg && !cuts_incidence(sensor)) ignored.emplace_back("incidence");
-  if (sensor.camera) ignored.emplace_back("camera");
-  if (sensor.pixel) ignored.emplace_back("pixel");
-  if (sensor.sun) ignored.emplace_back("sun");
+  each_limit(sensor, [&](Limit limit, const auto& /*value*/) {
+    if (limit == Limit::incidence && cuts_incidence(sensor)) return;
+    ignored.emplace_back(limit == Limit::frame ? "camera" : name_of(limit));
+  });
   if (sensor.link) ignored.emplace_back("link");
   if (sensor.visible) ignored.emplace_back("visible");
 }
@@ -245,7 +260,9 @@ void fill(Work& work) {
     all.push_back(internal::app::united(std::move(any), work.progress, work_limit));
   }
   Volume volume = internal::app::joined(std::move(all), work.progress, work_limit);
-  const Navigation wide = widened(mission.navigation, work.options.limit_margin_m, work.result.ignored);
+  Widening widening(work.options.limit_margin_m, work.result.ignored);
+  each_limit(mission.navigation, widening);
+  const Navigation& wide = widening.wide();
   name_ignored(mission.sensor, work.result.ignored);
   if (!volume.empty() && !wide.empty()) {
     Sensor range_only;

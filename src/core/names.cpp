@@ -1,13 +1,56 @@
-// How kinds of objects, causes, outcomes and devices are called in files.
+// How kinds of objects, causes, outcomes, limits and devices are called in files.
 #include <algorithm>
 #include <string_view>
 
 #include "common/input.h"
 #include "vantage/devices.h"
+#include "vantage/each_limit.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
 namespace vantage {
+namespace {
+
+template <typename Limits>
+bool has_any(const Limits& limits) {
+  bool found = false;
+  each_limit(limits, [&](auto /*limit*/, const auto& /*value*/) { found = true; });
+  return found;
+}
+
+}  // namespace
+
+bool Navigation::empty() const { return !has_any(*this); }
+
+bool Sensor::limits_view() const { return has_any(*this); }
+
+std::string_view name_of(Limit limit) {
+  switch (limit) {
+    case Limit::altitude:
+      return "altitude";
+    case Limit::keep_in:
+      return "keep_in";
+    case Limit::keep_out:
+      return "keep_out";
+    case Limit::meshes:
+      return "meshes";
+    case Limit::above_ground:
+      return "agl";
+    case Limit::clearance:
+      return "clearance";
+    case Limit::min_range:
+      return "min_range";
+    case Limit::incidence:
+      return "incidence";
+    case Limit::frame:
+      return "frame";
+    case Limit::pixel:
+      return "pixel";
+    case Limit::sun:
+      return "sun";
+  }
+  return "unknown";
+}
 
 const char* name_of(ObjectKind kind) {
   switch (kind) {

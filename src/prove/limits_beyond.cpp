@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "prove/distance.h"
+#include "vantage/each_limit.h"
 
 namespace vantage::internal::prove {
 namespace {
@@ -43,28 +44,53 @@ class LimitCollector {
       : navigation_(navigation), sensor_(sensor), view_(view) {}
 
   LimitsBeyond collect() {
-    add_heights();
-    add_boxes();
-    add_incidence();
-    add_pixel();
-    add_min_range();
-    add_sun();
-    const auto leave = [&](bool is_given, const char* name) {
-      if (is_given) found_.without_argument.emplace_back(name);
-    };
-    leave(navigation_.above_ground && navigation_.above_ground->ground.surface, "agl");
-    const auto is_other = [](const Zone& zone) { return !zone.is_box; };
-    leave(std::any_of(navigation_.keep_in.begin(), navigation_.keep_in.end(), is_other), "keep_in");
-    leave(std::any_of(navigation_.keep_out.begin(), navigation_.keep_out.end(), is_other), "keep_out zones");
-    leave(!navigation_.meshes.empty(), "meshes");
-    leave(navigation_.clearance.has_value(), "clearance");
-    leave(sensor_.camera.has_value(), "frame");
+    each_limit(navigation_, *this);
+    each_limit(sensor_, *this);
     return std::move(found_);
   }
+
+  void operator()(LimitIs<Limit::altitude> /*limit*/, const Navigation::Altitude& altitude) {
+    add_band("altitude", altitude.min_m, altitude.max_m);
+  }
+  void operator()(LimitIs<Limit::above_ground> limit, const AboveGround& band) {
+    if (band.ground.surface) return leave(limit);
+    add_band("agl", band.ground.plane_z_m + band.min_m, band.ground.plane_z_m + band.max_m);
+  }
+  void operator()(LimitIs<Limit::keep_in> limit, const std::vector<Zone>& zones) {
+    if (!are_boxes(zones)) return leave(limit);
+    std::vector<Box> kept;
+    for (const Zone& zone : zones) kept.push_back(grown_by(about_origin(zone.box()), -rounding_m(zone.box())));
+    const bool holds_origin = (kept[0].min.array() <= 0 && kept[0].max.array() >= 0).all();
+    add(WitnessKind::navigation, "keep_in", kept.size() == 1 && holds_origin, 0, [kept](const MovedPiece& piece) {
+      return std::all_of(kept.begin(), kept.end(), [&](const Box& box) { return is_apart(piece, box); });
+    });
+  }
+  void operator()(LimitIs<Limit::keep_out> limit, const std::vector<Zone>& zones) {
+    if (!are_boxes(zones)) leave(limit);
+    for (std::size_t i = 0; i < zones.size(); ++i) {
+      if (!zones[i].is_box) continue;
+      const Box box = grown_by(about_origin(zones[i].box()), rounding_m(zones[i].box()));
+      add(WitnessKind::navigation, "keep_out " + zone_name(zones, i), false, 0,
+          [box](const MovedPiece& piece) { return is_inside(piece, box); });
+    }
+  }
+  void operator()(LimitIs<Limit::meshes> limit, const std::vector<KeepInMesh>& /*meshes*/) { leave(limit); }
+  void operator()(LimitIs<Limit::clearance> limit, const Clearance& /*clearance*/) { leave(limit); }
+  void operator()(LimitIs<Limit::frame> limit, const Pinhole& /*camera*/) { leave(limit); }
+  void operator()(LimitIs<Limit::incidence> /*limit*/, double incidence_deg) { add_incidence(incidence_deg); }
+  void operator()(LimitIs<Limit::pixel> /*limit*/, const PixelLimit& pixel) {
+    add_pixel(pixel.size_m * *sensor_.camera->focal_px / 2);
+  }
+  void operator()(LimitIs<Limit::min_range> /*limit*/, double min_range_m) { add_min_range(min_range_m); }
+  void operator()(LimitIs<Limit::sun> /*limit*/, const SunLimit& sun) { add_sun(sun); }
 
  private:
   using Breaks = std::function<bool(const MovedPiece&)>;
 
+  void leave(Limit limit) { found_.without_argument.emplace_back(name_of(limit)); }
+  static bool are_boxes(const std::vector<Zone>& zones) {
+    return std::all_of(zones.begin(), zones.end(), [](const Zone& zone) { return zone.is_box; });
+  }
   void add(WitnessKind kind, std::string name, bool begins_once, double tolerance, Breaks breaks) {
     found_.limits.push_back({kind, std::move(name), begins_once, tolerance, std::move(breaks)});
   }
@@ -86,36 +112,10 @@ class LimitCollector {
     add(WitnessKind::navigation, name + " max", to >= 0, 0,
         [to](const MovedPiece& piece) { return all_of(piece, [&](const Vec3& at) { return at.z() > to; }); });
   }
-  void add_heights() {
-    if (navigation_.altitude) add_band("altitude", navigation_.altitude->min_m, navigation_.altitude->max_m);
-    if (!navigation_.above_ground || navigation_.above_ground->ground.surface) return;
-    const double ground = navigation_.above_ground->ground.plane_z_m;
-    add_band("agl", ground + navigation_.above_ground->min_m, ground + navigation_.above_ground->max_m);
-  }
-  void add_boxes() {
-    std::vector<Box> kept;
-    for (const Zone& zone : navigation_.keep_in) {
-      if (zone.is_box) kept.push_back(grown_by(about_origin(zone.box()), -rounding_m(zone.box())));
-    }
-    if (!kept.empty() && kept.size() == navigation_.keep_in.size()) {
-      const bool holds_origin = (kept[0].min.array() <= 0 && kept[0].max.array() >= 0).all();
-      add(WitnessKind::navigation, "keep_in", kept.size() == 1 && holds_origin, 0, [kept](const MovedPiece& piece) {
-        return std::all_of(kept.begin(), kept.end(), [&](const Box& box) { return is_apart(piece, box); });
-      });
-    }
-    for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {
-      if (!navigation_.keep_out[i].is_box) continue;
-      const Box out = navigation_.keep_out[i].box();
-      const Box box = grown_by(about_origin(out), rounding_m(out));
-      add(WitnessKind::navigation, "keep_out " + zone_name(navigation_.keep_out, i), false, 0,
-          [box](const MovedPiece& piece) { return is_inside(piece, box); });
-    }
-  }
 
   /// Beyond a plane that touches the cone at a corner, along the facet.
-  void add_incidence() {
-    if (!sensor_.incidence_deg) return;
-    const double slope = std::tan(*sensor_.incidence_deg * kDegree) * (1 - kConeShare);
+  void add_incidence(double incidence_deg) {
+    const double slope = std::tan(incidence_deg * kDegree) * (1 - kConeShare);
     add(WitnessKind::sensor, "incidence", false, kConeShare, [slope, view = view_](const MovedPiece& piece) {
       const Vec3 across = piece.outward - view.normal.dot(piece.outward) * view.normal;
       if (!(across.norm() > 0)) return false;
@@ -126,9 +126,7 @@ class LimitCollector {
     });
   }
   /// Outside of a ball that touches the target's plane in a corner.
-  void add_pixel() {
-    if (!sensor_.pixel || sensor_.pixel->kind != PixelLimit::Kind::worst) return;
-    const double radius = sensor_.pixel->size_m * *sensor_.camera->focal_px / 2;
+  void add_pixel(double radius) {
     add(WitnessKind::sensor, "pixel", false, kBallShare, [radius, view = view_](const MovedPiece& piece) {
       return std::any_of(view.whole.begin(), view.whole.end(), [&](const Vec3& corner) {
         return distance_from(corner + radius * view.normal, piece.corners) > (1 - kBallShare) * radius;
@@ -136,19 +134,17 @@ class LimitCollector {
     });
   }
   /// What is too near to some point of the target is convex.
-  void add_min_range() {
-    if (!(sensor_.min_range_m > 0)) return;
-    const double least = (1 + kBallShare) * sensor_.min_range_m;
+  void add_min_range(double min_range_m) {
+    const double least = (1 + kBallShare) * min_range_m;
     add(WitnessKind::sensor, "min_range", false, kBallShare, [least, view = view_](const MovedPiece& piece) {
       return all_of(piece, [&](const Vec3& at) { return distance_from_polygon(at, view.whole) < least; });
     });
   }
   /// So is what lies behind the target as seen from near the sun.
-  void add_sun() {
-    if (!sensor_.sun) return;
-    const Vec3 sun = sensor_.sun->direction.normalized();
-    const bool is_half = sensor_.sun->exclude_deg >= 90;
-    const double slope = std::tan(sensor_.sun->exclude_deg * kDegree) * (1 + kConeShare);
+  void add_sun(const SunLimit& limit) {
+    const Vec3 sun = limit.direction.normalized();
+    const bool is_half = limit.exclude_deg >= 90;
+    const double slope = std::tan(limit.exclude_deg * kDegree) * (1 + kConeShare);
     add(WitnessKind::sensor, "sun", false, kConeShare, [=, view = view_](const MovedPiece& piece) {
       return all_of(piece, [&](const Vec3& at) {
         const auto is_near = [&](const Vec3& target_point) {

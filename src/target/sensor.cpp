@@ -86,10 +86,6 @@ class SensorChecker : public internal::request::Checker {
 
 }  // namespace
 
-bool Sensor::limits_view() const {
-  return min_range_m > 0 || incidence_deg || camera || sun || (pixel && pixel->kind == PixelLimit::Kind::worst);
-}
-
 double range_limit_m(const Sensor& sensor) {
   if (!sensor.pixel || !sensor.camera || !sensor.camera->focal_px) return sensor.max_range_m;
   return std::min(sensor.max_range_m, sensor.pixel->size_m * *sensor.camera->focal_px);
