@@ -211,6 +211,42 @@ TEST(ProvenanceOfPly, LinesAreShort) {
   EXPECT_EQ(read_volume(folder / "v.ply").volume.provenance->target.parts, many.parts);
 }
 
+// A sensor that no volume is computed for, or that is none.
+TEST(ProvenanceOfStl, AnImpossibleSensorIsRefused) {
+  const TemporaryDirectory folder;
+  Target target;
+  target.parts = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+  Volume volume = compute_volume(PreparedTarget(PreparedScene(yard()), target, {20}));
+  const auto is_refused = [&](const Sensor& sensor, const std::string& from = "", const std::string& to = "") {
+    volume.provenance->sensor = sensor;
+    write_volume(volume, folder / "v.stl");
+    std::string beside = read_bytes(folder / "v.stl.place.json");
+    const std::size_t at = beside.find(from);
+    EXPECT_NE(at, std::string::npos) << beside;
+    write_bytes(folder / "v.stl.place.json", beside.replace(at, from.size(), to));
+    try {
+      read_volume(folder / "v.stl");
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::record_garbled);
+      return true;
+    }
+  };
+  const Sensor right{.max_range_m = 20, .sun = SunLimit{Vec3(0, 1, 1), 5}, .visible = VisibleShare{0.5, 77}};
+  EXPECT_FALSE(is_refused(right));
+  EXPECT_TRUE(is_refused(right, "77", "1e30"));
+  EXPECT_TRUE(is_refused(right, "77", "-1"));
+  EXPECT_TRUE(is_refused(right, "77", "1025"));
+  EXPECT_TRUE(is_refused(right, "\"sensor\":", "\"sensor\":true,\"was\":"));
+  Sensor wrong = right;
+  wrong.sun->exclude_deg = 400;
+  EXPECT_TRUE(is_refused(wrong));
+  wrong = {.max_range_m = 20, .camera = Pinhole{.half_width = 0.5, .half_height = 0.4}};
+  EXPECT_FALSE(is_refused(wrong));
+  wrong.mount.max_pitch_deg = 120;
+  EXPECT_TRUE(is_refused(wrong));
+}
+
 TEST(MissionHash, DependsOnWhatIsAskedAlone) {
   const TemporaryDirectory folder;
   write_scene(yard(), folder / "yard.obj");

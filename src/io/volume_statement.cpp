@@ -41,9 +41,12 @@ Json limits_json(const Sensor& sensor) {
   return json;
 }
 
+/// Throws for one that no volume is computed for: what reads a statement need not look again.
 void read_sensor(const Json& json, Sensor& sensor) {
+  if (!json.is_object()) throw std::invalid_argument("the sensor is not an object");
   request::SensorReader<Json> reader(json);
   describe(sensor, reader);
+  check_sensor(sensor);
 }
 
 Target target_of(const Json& json) {

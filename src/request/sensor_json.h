@@ -80,7 +80,9 @@ class SensorReader : public JsonReader<Json> {
   void keys(std::span<const Own> /*keys*/, std::optional<VisibleShare>& visible) const {
     if (!json_.contains("visible")) return;
     const Json& json = json_.at("visible");
-    visible = VisibleShare{json.at("share").template get<double>(), json.at("cells").template get<std::size_t>()};
+    const double cells = json.at("cells").template get<double>();
+    if (!(cells >= 1 && cells <= kLongest)) throw std::invalid_argument("a number of cells is out of range");
+    visible = VisibleShare{json.at("share").template get<double>(), static_cast<std::size_t>(cells)};
   }
 
  private:
