@@ -3,11 +3,11 @@
 set(source ${PROJECT_SOURCE_DIR}/src)
 
 # vantage_part(NAME  MODULES folders of src/...  [HOT more folders: without the standard library's checks, see
-# cmake/Options.cmake]  [SOURCES more files]  [LINK targets that an installed static library needs as well]  [BUILD
+# cmake/Options.cmake]  [OF_LIMITS prove ...: src/limits/*/prove*.cpp]  [SOURCES more files]  [LINK targets that an installed static library needs as well]  [BUILD
 # targets that only the build needs]): a part of a library. Compiled once: for the library, and for the tests, which see
 # what is hidden.
 function(vantage_part name)
-  cmake_parse_arguments(PARSE_ARGV 1 part "" "" "MODULES;HOT;SOURCES;LINK;BUILD")
+  cmake_parse_arguments(PARSE_ARGV 1 part "" "" "MODULES;HOT;OF_LIMITS;SOURCES;LINK;BUILD")
   set(objects)
   foreach(kind MODULES HOT)
     set(sources)
@@ -19,6 +19,10 @@ function(vantage_part name)
     list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/kml_zones_|/tour/linear_program_")
     if(kind STREQUAL "MODULES")
       list(APPEND sources ${part_SOURCES})
+      foreach(layer IN LISTS part_OF_LIMITS)
+        file(GLOB found CONFIGURE_DEPENDS ${source}/limits/*/${layer}*.cpp)
+        list(APPEND sources ${found})
+      endforeach()
     endif()
     if(NOT sources)
       continue()
@@ -90,6 +94,7 @@ set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DE
 vantage_part(core
   MODULES core request options geo io scene target query camera sensor prove simplify
   HOT exact
+  OF_LIMITS prove
   SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
   LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${CMAKE_DL_LIBS}
   BUILD nlohmann_json::nlohmann_json vantage::cdt)
@@ -111,7 +116,7 @@ if(VANTAGE_WITH_MISSIONS)
   list(APPEND parts solid app)
 endif()
 if(VANTAGE_WITH_VANTAGE)
-  vantage_part(verify MODULES verify LINK embree)
+  vantage_part(verify MODULES verify OF_LIMITS verify LINK embree)
   set(solver none)  # of linear programs
   set(solver_library)
   if(VANTAGE_HAS_HIGHS)

@@ -33,6 +33,9 @@ class NotIn(NamedTuple):
     reason: str
 
 
+# The rooms of src/limits/. Their files verify*.cpp and prove*.cpp stand on the modules of these names.
+LIMITS = ["altitude", "zones", "meshes", "above_ground", "clearance", "min_range", "incidence", "frame", "pixel", "sun"]
+
 # The modules of src/, and those whose headers each may include besides its own. Modules name each other's headers from
 # src/ ("scene/prepared_data.h"), never by ../. What a module may include comes before it: there are no circles. Headers
 # of src/common declare what the program, the server, the Python package and the benchmarks use besides the public API:
@@ -58,6 +61,7 @@ MODULES = {
     "picture": ["core", "depth"],
     "verify": [],
     "prove": [],
+    **{f"limits/{limit}": [] for limit in LIMITS},  # a room: how far each of its files sees, its name says
     "simplify": ["core"],
     "maps/osm": ["core", "geo"],
     "maps/terrain": ["core", "geo", "scene"],
@@ -103,9 +107,9 @@ RULES = [
     OnlyIn(r"nlohmann/", r"src/(io|app|live|flight)/|bench/support/cities\.cpp",
            "only src/io, src/app, src/live, src/flight and bench see nlohmann/json"),
     OnlyIn(r"boost/", r"src/live/(websocket_connection|page_server)\.", "only the server in src/live sees Boost"),
-    NotIn(r"src/verify/", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
+    NotIn(r"src/(verify/|limits/[^/]*/verify)", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the check shares no geometry code with what it checks"),
-    NotIn(r"src/prove/", rf"(?!(prove|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
+    NotIn(r"src/(prove/|limits/[^/]*/prove)", rf"(?!(prove|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the proof shares no geometry code with what it proves"),
     NotIn(r"tests/attack/", r"(?!(vantage|Eigen|sys)/).*/",
           "the attack needs the public headers, Eigen and the standard library: it shares nothing with what it judges"),
@@ -118,7 +122,9 @@ RULES = [
 ] + [
     NotIn(rf"src/{module}/[^/]*$", rf"(?!({'|'.join([module, 'common', *below])})/[^/]*$)({'|'.join(MODULES)})/",
           f"{module} may include {', '.join(['common', *below])} only")
-    for module, below in MODULES.items() if module not in ("verify", "prove")
+    for module, below in MODULES.items() if module not in ("verify", "prove") and not module.startswith("limits/")
+] + [
+    NotIn(r"src/limits/[^/]*/(?!verify|prove)", r".*", "files of a limit are called after who uses them: verify, prove"),
 ]
 
 
@@ -227,11 +233,20 @@ CASES = [
     ("python/src/program.cpp", "cli/program.h", True),
     ("python/src/volume.cpp", "vantage/volume.h", True),
     ("python/src/volume.cpp", "core/bvh.h", False),
+    ("src/limits/zones/verify.cpp", "verify/limit_probe.h", True),
+    ("src/limits/zones/verify.cpp", "vantage/each_limit.h", True),
+    ("src/limits/zones/verify.cpp", "prove/prism.h", False),
+    ("src/limits/zones/verify.cpp", "core/bvh.h", False),
+    ("src/limits/zones/prove.cpp", "prove/prism.h", True),
+    ("src/limits/zones/prove.cpp", "query/zone_place.h", False),
+    ("src/limits/zones/prove.cpp", "limits/zones/verify.h", False),
+    ("src/limits/zones/cut.cpp", "vector", False),
+    ("src/verify/verify.cpp", "limits/zones/verify.h", False),
     ("tests/attack/judge.cpp", "trial.h", True),
     ("tests/attack/judge.cpp", "exact/blocker.h", False),
 ] + [
     (f"src/{module}/any.cpp", f"{other}/any.h", other == module or other in below or (other == "common" and module != "prove"))
-    for module, below in MODULES.items() for other in MODULES if module != "verify"
+    for module, below in MODULES.items() for other in MODULES if module != "verify" and not module.startswith("limits/")
 ]
 
 

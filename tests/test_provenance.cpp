@@ -241,7 +241,9 @@ TEST(ProvenanceOfStl, AnImpossibleSensorIsRefused) {
   Sensor wrong = right;
   wrong.sun->exclude_deg = 400;
   EXPECT_TRUE(is_refused(wrong));
-  wrong = {.max_range_m = 20, .camera = Pinhole{.half_width = 0.5, .half_height = 0.4}};
+  wrong = right;
+  wrong.camera.emplace().half_width = 0.5;
+  wrong.camera->half_height = 0.4;
   EXPECT_FALSE(is_refused(wrong));
   wrong.mount.max_pitch_deg = 120;
   EXPECT_TRUE(is_refused(wrong));

@@ -16,10 +16,10 @@ namespace vantage {
 /// front, a radio link and the share that must be seen are none of these: the volume is computed with them.
 enum class Limit {
   altitude,
+  above_ground,
   keep_in,
   keep_out,
   meshes,
-  above_ground,
   clearance,
   min_range,
   incidence,
@@ -37,13 +37,13 @@ struct LimitValue;
 template <>
 struct LimitValue<Limit::altitude> : std::type_identity<Navigation::Altitude> {};
 template <>
+struct LimitValue<Limit::above_ground> : std::type_identity<AboveGround> {};
+template <>
 struct LimitValue<Limit::keep_in> : std::type_identity<std::vector<Zone>> {};
 template <>
 struct LimitValue<Limit::keep_out> : std::type_identity<std::vector<Zone>> {};
 template <>
 struct LimitValue<Limit::meshes> : std::type_identity<std::vector<KeepInMesh>> {};
-template <>
-struct LimitValue<Limit::above_ground> : std::type_identity<AboveGround> {};
 template <>
 struct LimitValue<Limit::clearance> : std::type_identity<Clearance> {};
 template <>
@@ -71,10 +71,10 @@ void each_limit(const Navigation& navigation, Visit&& visit) {
   // All members are named, here and below: a limit that is added does not compile before it is visited.
   const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   if (altitude) visit(LimitIs<Limit::altitude>{}, *altitude);
+  if (above_ground) visit(LimitIs<Limit::above_ground>{}, *above_ground);
   if (!keep_in.empty()) visit(LimitIs<Limit::keep_in>{}, keep_in);
   if (!keep_out.empty()) visit(LimitIs<Limit::keep_out>{}, keep_out);
   if (!meshes.empty()) visit(LimitIs<Limit::meshes>{}, meshes);
-  if (above_ground) visit(LimitIs<Limit::above_ground>{}, *above_ground);
   if (clearance) visit(LimitIs<Limit::clearance>{}, *clearance);
 }
 

@@ -1,14 +1,14 @@
 // No facet meets what is taken away, and one point of that is outside. Or every facet is covered by what is kept, and
 // that leaves no hollow. docs/proof.md has the arguments.
-#include "prove/limits_zones.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "prove/limits_ground.h"
+#include "prove/ground_band.h"
+#include "prove/limit_proof.h"
 #include "prove/prism.h"
+#include "prove/within_box.h"
 
 namespace vantage::internal::prove {
 namespace {
@@ -112,12 +112,16 @@ ClaimProof prove_covered(const LimitedVolume& volume, const Kept& kept, const co
 
 }  // namespace
 
-ClaimProof prove_keep_in(const LimitedVolume& volume, const Navigation& navigation,
-                         const core::ProgressReporter& progress) {
+/// Of the union of all zones to stay in.
+template <>
+ClaimProof prove_limit<Limit::keep_in>(const std::vector<Zone>& zones, const Claimant& of,
+                                       const core::ProgressReporter& progress) {
+  const LimitedVolume& volume = of.volume;
+  const bool is_one = zones.size() == 1;
+  if (is_one && zones[0].is_box) return prove_within_box("keep_in", volume, zones[0].box());
   Kept kept;
-  const bool is_one = navigation.keep_in.size() == 1;
   std::optional<ClaimProof> heights;
-  for (const Zone& zone : navigation.keep_in) {
+  for (const Zone& zone : zones) {
     kept.prisms.emplace_back(zone, volume.origin());
     if (!has_terrain(zone)) continue;
     if (!is_one) return not_proved("keep_in", "one of several pieces is bounded by heights above terrain");
@@ -127,13 +131,16 @@ ClaimProof prove_keep_in(const LimitedVolume& volume, const Navigation& navigati
   return heights ? worse(in_plan, *heights) : in_plan;
 }
 
-ClaimProof prove_keep_out(const LimitedVolume& volume, const Navigation& navigation,
-                          const core::ProgressReporter& progress) {
+/// The worst of the proofs for each zone to stay out of.
+template <>
+ClaimProof prove_limit<Limit::keep_out>(const std::vector<Zone>& zones, const Claimant& of,
+                                        const core::ProgressReporter& progress) {
+  const LimitedVolume& volume = of.volume;
   std::optional<ClaimProof> all;
   const auto add = [&](const ClaimProof& one) { all = all ? worse(*all, one) : one; };
-  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
-    const Zone& zone = navigation.keep_out[i];
-    const std::string what = zone_name(navigation.keep_out, i);
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    const Zone& zone = zones[i];
+    const std::string what = zone_name(zones, i);
     if (!has_terrain(zone)) {
       add(prove_clear_of(volume, Prism(zone, volume.origin()), what, progress));
       continue;

@@ -1,6 +1,4 @@
 // A convex mesh holds all of a volume if it holds the vertices. Of others it is only tried whether they hold these.
-#include "prove/limits_mesh.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "prove/convex_polygon.h"
+#include "prove/limit_proof.h"
 #include "prove/triangle_distance.h"
 #include "prove/winding.h"
 
@@ -62,7 +61,11 @@ struct Hold {
 
 }  // namespace
 
-ClaimProof prove_meshes(const LimitedVolume& volume, const std::vector<KeepInMesh>& meshes) {
+/// The worst of the proofs for each mesh.
+template <>
+ClaimProof prove_limit<Limit::meshes>(const std::vector<KeepInMesh>& meshes, const Claimant& of,
+                                      const core::ProgressReporter& /*progress*/) {
+  const LimitedVolume& volume = of.volume;
   std::optional<ClaimProof> all;
   for (const KeepInMesh& keep_in : meshes) {
     const Hold hold(volume, keep_in);

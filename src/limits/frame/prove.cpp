@@ -3,14 +3,13 @@
 // on away from the target: if c is outside, the way from a forbidden position to c leaves the volume through a
 // forbidden point of a facet, which may face either way where the mesh winds round backwards. So one orientation for
 // each facet, or for each part of it, is a proof.
-#include "prove/limits_frame.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "prove/limit_proof.h"
 #include "prove/orientation.h"
 #include "prove/triangle_distance.h"
 
@@ -255,11 +254,14 @@ class FacetServer {
 
 }  // namespace
 
-ClaimProof prove_frame(const LimitedVolume& volume, const Sensor& sensor, const std::vector<View>& parts,
-                       const core::ProgressReporter& progress) {
-  const Picture picture(*sensor.camera, sensor.mount, parts, volume.origin());
-  if (sensor.mount.is_fixed()) {
-    const CameraAim aim{*sensor.mount.yaw_deg * kDegrees, sensor.mount.min_pitch_deg * kDegrees};
+template <>
+ClaimProof prove_limit<Limit::frame>(const Pinhole& camera, const Claimant& of,
+                                     const core::ProgressReporter& progress) {
+  const LimitedVolume& volume = of.volume;
+  const Mount& mount = of.sensor.mount;
+  const Picture picture(camera, mount, of.parts, volume.origin());
+  if (mount.is_fixed()) {
+    const CameraAim aim{*mount.yaw_deg * kDegrees, mount.min_pitch_deg * kDegrees};
     return volume.judged_at_vertices("frame",
                                      [&](const Vec3& vertex) { return picture.out_by(aim, std::array{vertex}); });
   }

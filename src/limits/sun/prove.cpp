@@ -2,14 +2,13 @@
 // that: so it is enough that no facet meets it, whichever way it faces. A facet does not where a plane has the lines of
 // sight from it on one side and the cone on the other. A plane's normal u, of unit length, has the cone about s behind
 // it if u . s is at most minus the sine of the cone's half angle. docs/proof.md has the argument.
-#include "prove/limits_sun.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "prove/limit_proof.h"
 #include "prove/triangle_distance.h"
 
 namespace vantage::internal::prove {
@@ -170,10 +169,11 @@ class SunCone {
 
 }  // namespace
 
-ClaimProof prove_sun(const LimitedVolume& volume, const SunLimit& sun, const std::vector<View>& parts,
-                     const core::ProgressReporter& progress) {
+template <>
+ClaimProof prove_limit<Limit::sun>(const SunLimit& sun, const Claimant& of, const core::ProgressReporter& progress) {
+  const LimitedVolume& volume = of.volume;
   std::optional<ClaimProof> all;
-  for (const View& part : parts) {
+  for (const View& part : of.parts) {
     const SunCone cone(sun, part, volume.origin());
     const auto findings =
         volume.look_at_facets([&](const LimitedVolume::Corners& facet,

@@ -1,4 +1,4 @@
-// Heights above the ground.
+// Heights above the ground, of the whole volume or of a zone.
 #pragma once
 
 #include <string>

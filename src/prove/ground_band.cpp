@@ -5,7 +5,7 @@
 // A part of a facet that breaks the limit may do so by the tolerance sideways, too: where all of it, moved across the
 // side of a triangle, keeps the limit over whatever is there. What is between two facets, straight above each other and
 // each moved its own way, keeps it with one of them where the heights that both grounds allow overlap.
-#include "prove/limits_ground.h"
+#include "prove/ground_band.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
