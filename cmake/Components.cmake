@@ -94,7 +94,7 @@ set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DE
 vantage_part(core
   MODULES core request options geo io scene target query camera sensor prove simplify
   HOT exact
-  OF_LIMITS prove
+  OF_LIMITS prove ask leg
   SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
   LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${CMAKE_DL_LIBS}
   BUILD nlohmann_json::nlohmann_json vantage::cdt)

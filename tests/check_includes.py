@@ -33,7 +33,8 @@ class NotIn(NamedTuple):
     reason: str
 
 
-# The rooms of src/limits/. Their files verify*.cpp and prove*.cpp stand on the modules of these names.
+# The rooms of src/limits/. Files verify*.cpp and prove*.cpp stand on the modules of these names, ask*.cpp and leg*.cpp on
+# src/query.
 LIMITS = ["altitude", "zones", "meshes", "above_ground", "clearance", "min_range", "incidence", "frame", "pixel", "sun"]
 
 # The modules of src/, and those whose headers each may include besides its own. Modules name each other's headers from
@@ -124,7 +125,10 @@ RULES = [
           f"{module} may include {', '.join(['common', *below])} only")
     for module, below in MODULES.items() if module not in ("verify", "prove") and not module.startswith("limits/")
 ] + [
-    NotIn(r"src/limits/[^/]*/(?!verify|prove)", r".*", "files of a limit are called after who uses them: verify, prove"),
+    NotIn(r"src/limits/[^/]*/(ask|leg)", rf"(?!(core|query)/[^/]*$)({'|'.join(MODULES)})/",
+          "what answers for a limit may include core and query only"),
+    NotIn(r"src/limits/[^/]*/(?!ask|leg|verify|prove)", r".*",
+          "files of a limit are called after what they do: ask, leg, verify, prove"),
 ]
 
 
@@ -240,6 +244,8 @@ CASES = [
     ("src/limits/zones/prove.cpp", "prove/prism.h", True),
     ("src/limits/zones/prove.cpp", "query/zone_place.h", False),
     ("src/limits/zones/prove.cpp", "limits/zones/verify.h", False),
+    ("src/limits/zones/ask.cpp", "query/zone_place.h", True),
+    ("src/limits/zones/leg.cpp", "prove/prism.h", False),
     ("src/limits/zones/cut.cpp", "vector", False),
     ("src/verify/verify.cpp", "limits/zones/verify.h", False),
     ("tests/attack/judge.cpp", "trial.h", True),

@@ -9,7 +9,7 @@
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "query/leg_check.h"
-#include "query/leg_convex.h"
+#include "query/leg_limit.h"
 
 namespace vantage {
 namespace internal::query {
@@ -69,132 +69,35 @@ void add_break(std::vector<LegBreak>& breaks, const std::string& limit, LegBreak
   breaks.push_back(std::move(result));
 }
 
+std::shared_ptr<const LegGround> LegGroundPool::of(const Ground& ground) {
+  for (const auto& [known, made] : known_) {
+    if (known.surface == ground.surface && known.plane_z_m == ground.plane_z_m) return made;
+  }
+  return known_.emplace_back(ground, std::make_shared<const LegGround>(ground)).second;
+}
+
 }  // namespace internal::query
 
-namespace {
-
 namespace query = internal::query;
-using query::add_break;
-using query::LegGround;
-using query::LegIntervals;
-using query::LegZone;
-using query::Tube;
-using Unit = LegBreak::Unit;
-
-/// Where some of the tube is strictly below a height, or above one.
-LegIntervals below_height(const Tube& tube, double z) {
-  return query::where_positive(z - tube.leg.from.z() + tube.radius, z - tube.leg.to.z() + tube.radius);
-}
-LegIntervals above_height(const Tube& tube, double z) {
-  return query::where_positive(tube.leg.from.z() - z + tube.radius, tube.leg.to.z() - z + tube.radius);
-}
-
-}  // namespace
 
 struct LegLimits::Data {
-  Data(const Navigation& given, std::optional<internal::sensor::SensorLimits> sensor_limits)
-      : navigation(given), sensor(std::move(sensor_limits)) {
-    if (navigation.above_ground) ground = ground_for(navigation.above_ground->ground);
-    for (const Zone& zone : navigation.keep_in) keep_in.emplace_back(zone, ground_of_zone(zone));
-    for (const Zone& zone : navigation.keep_out) keep_out.emplace_back(zone, ground_of_zone(zone));
-    for (const KeepInMesh& mesh : navigation.meshes) meshes.push_back(std::make_unique<query::LegMesh>(mesh));
-    if (navigation.clearance) obstacles.emplace(*navigation.clearance->obstacles);
+  Data(const Navigation& navigation, std::optional<internal::sensor::SensorLimits> sensor_limits)
+      : sensor(std::move(sensor_limits)) {
+    query::LegGroundPool grounds;
+    each_limit(navigation, [&](auto limit, const auto& value) {
+      limits.push_back(query::leg_limit<decltype(limit)::value>(value, grounds));
+    });
   }
 
-  std::shared_ptr<const LegGround> ground_for(const Ground& of) {
-    for (const auto& [known, made] : grounds) {
-      if (known.surface == of.surface && known.plane_z_m == of.plane_z_m) return made;
-    }
-    return grounds.emplace_back(of, std::make_shared<const LegGround>(of)).second;
-  }
-  std::shared_ptr<const LegGround> ground_of_zone(const Zone& zone) {
-    return zone.above_ground ? ground_for(zone.above_ground->ground) : nullptr;
-  }
-
-  // All members of Navigation are named: a limit that is added does not compile before it is answered.
-  std::vector<LegBreak> broken(const Tube& tube) const {
-    const auto& [altitude, keep_in_zones, keep_out_zones, keep_in_meshes, above_ground, clearance] = navigation;
+  std::vector<LegBreak> broken(const query::Tube& tube) const {
     std::vector<LegBreak> breaks;
-    if (altitude) {
-      const double low = altitude->min_m, high = altitude->max_m;
-      add_break(breaks, "altitude min", Unit::metres, below_height(tube, low),
-                [&](double share) { return low - tube.at(share).z() + tube.radius; });
-      add_break(breaks, "altitude max", Unit::metres, above_height(tube, high),
-                [&](double share) { return tube.at(share).z() - high + tube.radius; });
-    }
-    if (above_ground) add_above_ground(tube, breaks);
-    if (!keep_in_zones.empty()) add_keep_in(tube, breaks);
-    for (std::size_t i = 0; i < keep_out.size(); ++i) {
-      add_break(breaks, "keep_out " + zone_name(keep_out_zones, i), Unit::metres, keep_out[i].broken(tube),
-                [&](double share) { return tube.radius - outside_zone(keep_out[i], tube.at(share), false); });
-    }
-    for (std::size_t i = 0; i < keep_in_meshes.size(); ++i) {
-      add_break(breaks, "mesh " + keep_in_meshes[i].name, Unit::metres, meshes[i]->broken(tube),
-                [&](double share) { return meshes[i]->outside(tube.at(share)) + tube.radius; });
-    }
-    if (clearance) {
-      const double distance = clearance->distance_m;
-      add_break(breaks, "clearance", Unit::metres, query::too_near(*obstacles, tube, distance), [&](double share) {
-        return distance + tube.radius - obstacles->distance(tube.at(share) - obstacles->origin());
-      });
-    }
+    for (const auto& limit : limits) limit->add_breaks(tube, breaks);
     if (sensor) query::add_sensor_breaks(*sensor, tube, breaks);
     return breaks;
   }
 
-  void add_above_ground(const Tube& tube, std::vector<LegBreak>& breaks) const {
-    const double low = navigation.above_ground->min_m, high = navigation.above_ground->max_m;
-    add_break(breaks, "ground edge", Unit::metres, ground->beside(tube),
-              [&](double share) { return ground->plan_distance(tube.at(share)) + tube.radius; });
-    add_break(breaks, "agl min", Unit::metres, ground->below(tube, low), [&](double share) {
-      const auto heights = ground->heights(tube.at(share));
-      return heights ? low - heights->above_highest + tube.radius : 0;
-    });
-    add_break(breaks, "agl max", Unit::metres, ground->over(tube, high), [&](double share) {
-      const auto heights = ground->heights(tube.at(share));
-      return heights ? heights->above_lowest - high + tube.radius : 0;
-    });
-  }
-
-  void add_keep_in(const Tube& tube, std::vector<LegBreak>& breaks) const {
-    LegIntervals kept;
-    const auto add = [&](const LegIntervals& more) { kept.insert(kept.end(), more.begin(), more.end()); };
-    for (const LegZone& zone : keep_in) add(zone.kept(tube));
-    LegIntervals outside = query::rest_of(query::joined(std::move(kept)));
-    add_break(breaks, "keep_in", Unit::metres, std::move(outside),
-              [&](double share) { return outside_all(tube.at(share)) + tube.radius; });
-  }
-
-  /// How far a place is from what it may be in.
-  double outside_all(const Vec3& place) const {
-    double least = INFINITY;
-    for (const LegZone& zone : keep_in) least = std::min(least, outside_zone(zone, place, true));
-    return least;
-  }
-  /// How far a place is from a zone; heights vertically. Where the ground has a step, a zone to stay in is what all of
-  /// the ground there allows, and one to stay out of is what any of it forbids.
-  double outside_zone(const LegZone& zone, const Vec3& place, bool is_to_stay_in) const {
-    double outside = zone.outside(place);
-    const std::optional<AboveGround>& limit = zone.zone().above_ground;
-    if (!limit) return outside;
-    for (const auto& [known, made] : grounds) {
-      if (known.surface != limit->ground.surface || known.plane_z_m != limit->ground.plane_z_m) continue;
-      if (const auto heights = made->heights(place)) {
-        const double low = is_to_stay_in ? heights->above_highest : heights->above_lowest;
-        const double high = is_to_stay_in ? heights->above_lowest : heights->above_highest;
-        outside = std::max({outside, limit->min_m - low, high - limit->max_m});
-      }
-    }
-    return outside;
-  }
-
-  Navigation navigation;
+  std::vector<std::unique_ptr<const query::LegLimit>> limits;
   std::optional<internal::sensor::SensorLimits> sensor;
-  std::vector<std::pair<Ground, std::shared_ptr<const LegGround>>> grounds;
-  std::shared_ptr<const LegGround> ground;
-  std::vector<LegZone> keep_in, keep_out;
-  std::vector<std::unique_ptr<query::LegMesh>> meshes;
-  std::optional<query::LegTriangles> obstacles;
 };
 
 LegLimits::LegLimits(const Navigation& navigation) {
@@ -233,7 +136,7 @@ std::vector<std::vector<LegBreak>> LegLimits::broken(std::span<const Leg> legs, 
 }
 
 std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken) {
-  LegIntervals all;
+  query::LegIntervals all;
   for (const LegBreak& one : broken) all.insert(all.end(), one.intervals.begin(), one.intervals.end());
   return query::rest_of(query::joined(std::move(all)));
 }

@@ -89,26 +89,6 @@ class LegGround {
   std::vector<std::array<bool, 3>> is_inner_;  ///< per triangle: sides between two that lie side by side
 };
 
-/// A zone with the ground of its heights.
-class LegZone {
- public:
-  LegZone(const Zone& zone, std::shared_ptr<const LegGround> ground);
-
-  LegIntervals kept(const Tube& tube) const;    ///< as a zone to stay in: all of the tube is in it
-  LegIntervals broken(const Tube& tube) const;  ///< as a zone to stay out of
-  /// Distance from the zone, without heights above ground; inside: how far from leaving it, negative.
-  double outside(const Vec3& place) const;
-  const Zone& zone() const { return zone_; }
-
- private:
-  LegIntervals in_plan(const Tube& tube, bool with_border) const;
-  LegIntervals near_sides(const Tube& tube, bool within_heights) const;
-
-  Zone zone_;
-  Box box_;
-  std::shared_ptr<const LegGround> ground_;
-};
-
 /// A closed mesh to stay in.
 class LegMesh {
  public:

@@ -1,10 +1,10 @@
-// Legs in zones and out of them.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "query/leg_convex.h"
-#include "query/leg_limits.h"
+#include "query/leg_limit.h"
 #include "query/zone_place.h"
 
 namespace vantage::internal::query {
@@ -55,10 +55,31 @@ LegIntervals broken_by_box(const Box& box, const Tube& tube) {
   return broken;
 }
 
-}  // namespace
+/// A zone with the ground of its heights.
+class LegZone {
+ public:
+  LegZone(const Zone& zone, LegGroundPool& grounds);
 
-LegZone::LegZone(const Zone& zone, std::shared_ptr<const LegGround> ground)
-    : zone_(zone), box_(box_of(zone)), ground_(std::move(ground)) {}
+  LegIntervals kept(const Tube& tube) const;    ///< as a zone to stay in: all of the tube is in it
+  LegIntervals broken(const Tube& tube) const;  ///< as a zone to stay out of
+  /// Distance from the zone; heights above ground vertically. Inside: how far from leaving it, negative. Where the
+  /// ground has a step, a zone to stay in is what all of the ground there allows, and one to stay out of is what any of
+  /// it forbids.
+  double outside(const Vec3& place, bool is_to_stay_in) const;
+
+ private:
+  double outside_without_ground(const Vec3& place) const;
+  LegIntervals in_plan(const Tube& tube, bool with_border) const;
+  LegIntervals near_sides(const Tube& tube, bool within_heights) const;
+
+  Zone zone_;
+  Box box_;
+  std::shared_ptr<const LegGround> ground_;
+};
+
+LegZone::LegZone(const Zone& zone, LegGroundPool& grounds) : zone_(zone), box_(box_of(zone)) {
+  if (zone.above_ground) ground_ = grounds.of(zone.above_ground->ground);
+}
 
 /// The intervals of the leg itself: between two places where it passes a side, or nearly, all of it is inside or none.
 LegIntervals LegZone::in_plan(const Tube& tube, bool with_border) const {
@@ -148,7 +169,7 @@ LegIntervals LegZone::broken(const Tube& tube) const {
   return common(parts, joined(std::move(between)));
 }
 
-double LegZone::outside(const Vec3& place) const {
+double LegZone::outside_without_ground(const Vec3& place) const {
   if (zone_.is_box) return outside_box(box_, place);
   double aside = INFINITY;
   for_each_side(
@@ -157,6 +178,74 @@ double LegZone::outside(const Vec3& place) const {
   const double beyond = std::max(zone_.min_z_m - place.z(), place.z() - zone_.max_z_m);
   if (aside <= 0 && beyond <= 0) return std::max(aside, beyond);
   return std::hypot(std::max(aside, 0.0), std::max(beyond, 0.0));
+}
+
+double LegZone::outside(const Vec3& place, bool is_to_stay_in) const {
+  const double outside = outside_without_ground(place);
+  if (!zone_.above_ground) return outside;
+  const auto heights = ground_->heights(place);
+  if (!heights) return outside;
+  const double low = is_to_stay_in ? heights->above_highest : heights->above_lowest;
+  const double high = is_to_stay_in ? heights->above_lowest : heights->above_highest;
+  return std::max({outside, zone_.above_ground->min_m - low, high - zone_.above_ground->max_m});
+}
+
+std::vector<LegZone> leg_zones(const std::vector<Zone>& zones, LegGroundPool& grounds) {
+  std::vector<LegZone> result;
+  for (const Zone& zone : zones) result.emplace_back(zone, grounds);
+  return result;
+}
+
+class KeepInOfLeg : public LegLimit {
+ public:
+  KeepInOfLeg(const std::vector<Zone>& zones, LegGroundPool& grounds) : zones_(leg_zones(zones, grounds)) {}
+
+  void add_breaks(const Tube& tube, std::vector<LegBreak>& breaks) const override {
+    LegIntervals kept;
+    const auto add = [&](const LegIntervals& more) { kept.insert(kept.end(), more.begin(), more.end()); };
+    for (const LegZone& zone : zones_) add(zone.kept(tube));
+    add_break(breaks, "keep_in", LegBreak::Unit::metres, rest_of(joined(std::move(kept))),
+              [&](double share) { return outside_all(tube.at(share)) + tube.radius; });
+  }
+
+ private:
+  double outside_all(const Vec3& place) const {
+    double least = INFINITY;
+    for (const LegZone& zone : zones_) least = std::min(least, zone.outside(place, true));
+    return least;
+  }
+
+  std::vector<LegZone> zones_;
+};
+
+class KeepOutOfLeg : public LegLimit {
+ public:
+  KeepOutOfLeg(const std::vector<Zone>& zones, LegGroundPool& grounds) : zones_(leg_zones(zones, grounds)) {
+    for (std::size_t i = 0; i < zones.size(); ++i) names_.push_back("keep_out " + zone_name(zones, i));
+  }
+
+  void add_breaks(const Tube& tube, std::vector<LegBreak>& breaks) const override {
+    for (std::size_t i = 0; i < zones_.size(); ++i) {
+      add_break(breaks, names_[i], LegBreak::Unit::metres, zones_[i].broken(tube),
+                [&](double share) { return tube.radius - zones_[i].outside(tube.at(share), false); });
+    }
+  }
+
+ private:
+  std::vector<LegZone> zones_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<const LegLimit> leg_limit<Limit::keep_in>(const std::vector<Zone>& zones, LegGroundPool& grounds) {
+  return std::make_unique<KeepInOfLeg>(zones, grounds);
+}
+
+template <>
+std::unique_ptr<const LegLimit> leg_limit<Limit::keep_out>(const std::vector<Zone>& zones, LegGroundPool& grounds) {
+  return std::make_unique<KeepOutOfLeg>(zones, grounds);
 }
 
 }  // namespace vantage::internal::query

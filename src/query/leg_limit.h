@@ -1,0 +1,37 @@
+// A limit of navigation along a leg: each room of src/limits/ defines that of its own.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "query/leg_limits.h"
+#include "vantage/each_limit.h"
+
+namespace vantage::internal::query {
+
+class LegLimit {
+ public:
+  LegLimit() = default;
+  LegLimit(const LegLimit&) = delete;
+  LegLimit& operator=(const LegLimit&) = delete;
+  virtual ~LegLimit() = default;
+
+  /// Adds where the tube breaks the limit, and by how much, by the names that answers for points have.
+  virtual void add_breaks(const Tube& tube, std::vector<LegBreak>& breaks) const = 0;
+};
+
+/// The ground of all limits above one, each surface once.
+class LegGroundPool {
+ public:
+  std::shared_ptr<const LegGround> of(const Ground& ground);
+
+ private:
+  std::vector<std::pair<Ground, std::shared_ptr<const LegGround>>> known_;
+};
+
+/// Declared alone: a limit whose room has no answer for legs does not link.
+template <Limit kLimit>
+std::unique_ptr<const LegLimit> leg_limit(const LimitValueOf<kLimit>& limit, LegGroundPool& grounds);
+
+}  // namespace vantage::internal::query
