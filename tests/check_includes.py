@@ -34,7 +34,7 @@ class NotIn(NamedTuple):
 
 
 # The rooms of src/limits/. Files verify*.cpp and prove*.cpp stand on the modules of these names, ask*.cpp and leg*.cpp on
-# src/query.
+# src/query, cut*.cpp on src/solid.
 LIMITS = ["altitude", "zones", "meshes", "above_ground", "clearance", "min_range", "incidence", "frame", "pixel", "sun"]
 
 # The modules of src/, and those whose headers each may include besides its own. Modules name each other's headers from
@@ -127,8 +127,10 @@ RULES = [
 ] + [
     NotIn(r"src/limits/[^/]*/(ask|leg)", rf"(?!(core|query)/[^/]*$)({'|'.join(MODULES)})/",
           "what answers for a limit may include core and query only"),
-    NotIn(r"src/limits/[^/]*/(?!ask|leg|verify|prove)", r".*",
-          "files of a limit are called after what they do: ask, leg, verify, prove"),
+    NotIn(r"src/limits/[^/]*/cut", rf"(?!(core|solid)/[^/]*$)({'|'.join(MODULES)})/",
+          "what cuts to a limit may include core and solid only"),
+    NotIn(r"src/limits/[^/]*/(?!ask|cut|leg|verify|prove)", r".*",
+          "files of a limit are called after what they do: ask, cut, leg, verify, prove"),
 ]
 
 
@@ -246,7 +248,9 @@ CASES = [
     ("src/limits/zones/prove.cpp", "limits/zones/verify.h", False),
     ("src/limits/zones/ask.cpp", "query/zone_place.h", True),
     ("src/limits/zones/leg.cpp", "prove/prism.h", False),
-    ("src/limits/zones/cut.cpp", "vector", False),
+    ("src/limits/zones/cut.cpp", "solid/region_builder.h", True),
+    ("src/limits/zones/cut.cpp", "query/zone_place.h", False),
+    ("src/limits/zones/text.cpp", "vector", False),
     ("src/verify/verify.cpp", "limits/zones/verify.h", False),
     ("tests/attack/judge.cpp", "trial.h", True),
     ("tests/attack/judge.cpp", "exact/blocker.h", False),

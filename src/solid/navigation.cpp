@@ -29,14 +29,10 @@
 namespace vantage::internal::solid {
 namespace {
 
-bool stands_alone(const Region& region) {
-  return region.kind == RegionKind::sensor || region.kind == RegionKind::clearance;
-}
-
 std::vector<Solid> to_combine(const std::vector<Region>& regions) {
   std::vector<Solid> solids;
   for (const Region& region : regions) {
-    if (!stands_alone(region)) solids.push_back(region.solid);
+    if (!region.is_cut_alone) solids.push_back(region.solid);
   }
   return solids;
 }
@@ -85,7 +81,7 @@ std::optional<LocalCut> cut(const LabelledMesh& volume, const LateClearance& lat
   Cutting cutting(volume, regions.kept.size() + regions.forbidden.size() + more, progress);
   std::vector<const Region*> alone;
   for (const Region& region : regions.kept) {
-    if (stands_alone(region)) alone.push_back(&region);
+    if (region.is_cut_alone) alone.push_back(&region);
   }
   std::stable_sort(alone.begin(), alone.end(),
                    [](const Region* a, const Region* b) { return a->solid.volume() < b->solid.volume(); });
@@ -100,7 +96,7 @@ std::optional<LocalCut> cut(const LabelledMesh& volume, const LateClearance& lat
     cutting.cut(forbidden, CutKind::keep_outside);
   }
   for (const Region& region : regions.forbidden) {
-    if (stands_alone(region)) cutting.cut(region.solid, CutKind::keep_outside);
+    if (region.is_cut_alone) cutting.cut(region.solid, CutKind::keep_outside);
   }
   if (late.clearance && !cutting.left().empty()) {
     const std::size_t before = regions.forbidden.size();

@@ -7,10 +7,6 @@
 
 namespace vantage::internal::solid {
 
-struct Emptiness {
-  std::string reason, hint;
-};
-
 /// Applies the limits one after the other to find the one that leaves nothing. `volume` is relative to regions.origin.
 Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const core::ProgressReporter& progress = {});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,16 +40,28 @@ class FacetSourceList {
 void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
               Volume& volume);
 
-enum class RegionKind { altitude, above_ground, zone, zones, mesh, keep_out, clearance, sensor };
+/// Why a limit leaves nothing.
+struct Emptiness {
+  std::string reason, hint;
+};
+
+/// What the limits before one leave of a volume: not empty.
+struct Remainder {
+  const Solid& solid;  ///< about `origin`
+  const std::string& name;
+  const Vec3& origin;
+
+  std::string text() const;  ///< "the volume, which spans x -9 to 11, y -8 to 12, z 3 to 13 m"
+};
 
 /// Space to stay in or out of. All zones to stay in are one region, since the volume is cut to their union.
 struct Region {
-  RegionKind kind;
-  std::string name;              ///< "the altitude band 20 to 120 m", "zone 0", "the mesh airspace.ply",
-                                 ///< "keep_out zone park"
-  Solid solid;                   ///< about Regions::origin; empty when it misses the volume's bounds
-  Box box = {};                  ///< of the altitude band, scene frame: z alone is meant
-  std::string explanation = {};  ///< of a sensor's limit: what it asks, as a clause; may be empty
+  std::string name;  ///< "the altitude band 20 to 120 m", "zone 0", "the mesh airspace.ply", "keep_out zone park"
+  Solid solid;       ///< about Regions::origin; empty when it misses the volume's bounds
+  /// What to say where it leaves nothing. None: it is one of those to stay out of, of which all are told together.
+  std::function<Emptiness(const Region&, const Remainder&)> explain = {};
+  /// What it has in common with others costs more than to cut the volume to one after the other.
+  bool is_cut_alone = false;
 };
 
 struct Regions {

@@ -89,6 +89,19 @@ class SensorRegions {
   double reach_ = 0;  ///< of viewpoints from the origin, at most; metres
 };
 
+/// `explanation`: what the limit asks, as a clause; may be empty.
+Region sensor_region(const std::string& name, Solid solid, const std::string& explanation) {
+  return {.name = name,
+          .solid = std::move(solid),
+          .explain =
+              [explanation](const Region& region, const Remainder& left) {
+                return Emptiness{"the sensor's limit '" + region.name + "' leaves nothing of " + left.text() +
+                                     (explanation.empty() ? "" : "; " + explanation),
+                                 "relax it, or the limits that it goes with"};
+              },
+          .is_cut_alone = true};
+}
+
 std::uint32_t SensorRegions::label_of(const std::string& name) {
   const auto& causes = regions_.causes;
   const auto known = std::find_if(causes.begin(), causes.end(), [&](const Cause& cause) {
@@ -132,7 +145,7 @@ void SensorRegions::keep(const std::string& name, std::vector<HalfSpace> half_sp
     half_spaces.push_back({Vec3::Unit(axis), box_.max[axis]});
     half_spaces.push_back({-Vec3::Unit(axis), -box_.min[axis]});
   }
-  Region region{RegionKind::sensor, name, Solid(), {}, explanation};
+  Region region = sensor_region(name, Solid(), explanation);
   // A point deep inside, so that no plane is very near to it.
   std::optional<Vec3> inside;
   for (double depth = reach_; !inside && depth > numerics::kLeastDistance * reach_; depth /= 2) {
@@ -143,7 +156,7 @@ void SensorRegions::keep(const std::string& name, std::vector<HalfSpace> half_sp
 }
 
 void SensorRegions::forbid(const std::string& name, Solid solid, const std::string& explanation) {
-  regions_.forbidden.push_back({RegionKind::sensor, name, std::move(solid), {}, explanation});
+  regions_.forbidden.push_back(sensor_region(name, std::move(solid), explanation));
 }
 
 /// `distance`: from which the whole target is in one picture.
@@ -176,7 +189,7 @@ void SensorRegions::add_pixel(const ViewedPart& part) {
   std::vector<Eigen::Vector2d> centres;
   for (const Vec3& corner : part.corners) centres.emplace_back(u.dot(corner), v.dot(corner));
   const core::Circle circle = core::smallest_enclosing_circle(centres);
-  Region region{RegionKind::sensor, "pixel", Solid(), {}, {}};
+  Region region = sensor_region("pixel", Solid(), "");
   if (circle.radius < (1 - numerics::kLeastDistance) * radius) {
     const double height = part.normal->dot(part.centre) + radius;
     const Vec3 inside = circle.centre.x() * u + circle.centre.y() * v + height * *part.normal;
