@@ -204,7 +204,7 @@ TEST(RasterFiles, WhatChangesHeightsMayNotLieBeside) {
     return "<PAMDataset><PAMRasterBand band=\"1\">" + text + "</PAMRasterBand></PAMDataset>";
   };
   for (const std::string element : {"NoDataValue", "Offset", "Scale", "UnitType"}) {
-    write_bytes(beside, metadata("<" + element + ">95</" + element + ">"));
+    write_bytes(beside, metadata(std::string("<").append(element).append(">95</").append(element).append(">")));
     testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
   }
   // Where it lies: GDAL would believe this more than the raster.

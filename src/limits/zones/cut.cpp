@@ -41,9 +41,10 @@ Solid make_heights(RegionBuilder& builder, const AboveGround& heights, std::uint
   const Ground& ground = heights.ground;
   const auto [low, high] = builder.heights_near(heights);
   const std::uint32_t label = builder.add_source({cause});
-  if (ground.surface)
+  if (ground.surface) {
     return make_ground_band(*ground.surface, low, high, builder.outer(), builder.origin(), {label, label, label},
                             builder.progress());
+  }
   Box band = builder.outer();
   band.min.z() = ground.plane_z_m + low;
   band.max.z() = ground.plane_z_m + high;
@@ -92,8 +93,9 @@ void add_regions<Limit::keep_in>(const std::vector<Zone>& zones, RegionBuilder& 
     }
     const std::uint32_t cause = builder.add_cause(name);
     Solid solid = make_zone(builder, zone, cause);
-    if (zone.above_ground && !solid.empty())
+    if (zone.above_ground && !solid.empty()) {
       solid = intersect(solid, make_heights(builder, *zone.above_ground, cause), builder.progress());
+    }
     solids.push_back(std::move(solid));
   }
   const bool is_one = zones.size() == 1;
