@@ -24,7 +24,7 @@ constexpr double kSmallestPixelMm = 0.0003;  // telephones have 0.0005
 // Sensors of more than 100 mm are those of mapping cameras, with pixels of 4 to 10 um, and film, scanned at up to 25
 // um.
 constexpr double kLargeSensorMm = 100, kLargestPixelOfLargeSensorMm = 0.03;
-// Tangent of half the field of view: 169 degrees. Fisheye lenses, which are no pinholes, reach 3 with their nominal
+// Tangent of half the field of view: 168.6 degrees. Fisheye lenses, which are no pinholes, reach 3 with their nominal
 // focal length.
 constexpr double kWidestHalf = 10;
 // Data sheets round, and some give the sensor and not the part that makes the picture.

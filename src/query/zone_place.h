@@ -5,6 +5,11 @@
 
 namespace vantage::internal::query {
 
+/// Borders too.
+inline bool boxes_meet(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
 /// Calls visit(a, b) for the sides of all rings.
 template <typename Visit>
 void for_each_side(const Zone& zone, const Visit& visit) {

@@ -1,5 +1,5 @@
-// The volume of positions that see a part of the target's area, though not all of it: docs/theory.md, "How much is
-// seen".
+// The volume of positions that see a part of the target's area, though not all of it: docs/theory.md, "A share of
+// the target as a volume".
 #pragma once
 
 #include "vantage/progress.h"

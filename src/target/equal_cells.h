@@ -1,4 +1,5 @@
-// A convex polygon cut into convex cells of the same area. docs/theory.md, "How much is seen", uses them.
+// A convex polygon cut into convex cells of the same area. docs/theory.md, "A share of the
+// target as a volume", uses them.
 #pragma once
 
 #include <Eigen/Core>

@@ -8,11 +8,6 @@
 namespace vantage::internal::query {
 namespace {
 
-/// Borders too.
-bool meet(const Box& a, const Box& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-
 /// Where the line passes a side or a height, or nearly, as for meshes.
 void add_zone_crossings(const Zone& zone, const ViewRay& line, std::vector<double>& out) {
   constexpr double kNear = 1e-9;  // of a side's length
@@ -58,7 +53,7 @@ class ZoneOfPoint {
   /// `within_reach`: of the line.
   void add_crossings(const ViewRay& line, const Box& within_reach, std::vector<double>& cuts) const {
     if (zone_.is_box) return add_box_crossings(box_, line, cuts);
-    if (!meet(box_, within_reach)) return;
+    if (!boxes_meet(box_, within_reach)) return;
     add_zone_crossings(zone_, line, cuts);
     if (zone_.above_ground) add_band_crossings(*zone_.above_ground, *ground_, line, cuts);
   }

@@ -19,10 +19,6 @@ double distance_to_side(const Plan& place, const Plan& a, const Plan& b) {
   return (place - a - share * side).norm();
 }
 
-bool boxes_meet(const Box& a, const Box& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-
 /// Distance from a box; inside: how far from leaving it, negative.
 double outside_box(const Box& box, const Vec3& place) {
   const Vec3 beyond = (box.min - place).cwiseMax(place - box.max);
