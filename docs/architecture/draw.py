@@ -25,8 +25,8 @@ MODULES = {  # name: (left, top, width, what it does)
     "geo": (20, 554, 210, "where on the earth (PROJ)"),
     "camera": (250, 554, 150, "cameras by name"),
     "sensor": (420, 554, 240, "limits of the sensor, for points"),
-    "options": (680, 554, 190, "of maps, memory, devices"),
-    "request": (890, 554, 150, "keys, once each"),
+    "options": (680, 554, 130, "of maps, devices"),
+    "request": (850, 554, 190, "keys, once each"),
     "core": (20, 644, 1020, "geometry, errors, progress, threads (oneTBB), whole files"),
 }
 USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"), ("cli", "prove"),
@@ -36,6 +36,8 @@ USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"),
         ("io", "camera"), ("scene", "core"), ("geo", "core"), ("camera", "core"),
         ("options", "core"), ("request", "core")]
 HEIGHT = 58
+# Whose files for one limit each lie together, besides those of solid.
+LIMITS = ("prove", "query", "verify")
 
 
 def box(name):
@@ -44,6 +46,16 @@ def box(name):
     return (f'<rect x="{left}" y="{top}" width="{width}" height="{HEIGHT}" rx="7" fill="{fill}" stroke="#346ebe"/>'
             f'<text x="{left + 12}" y="{top + 25}" font-size="16" font-weight="bold">{name}</text>'
             f'<text x="{left + 12}" y="{top + 45}" font-size="13" fill="#4a5260">{what}</text>')
+
+
+def rooms():
+    """The rooms of limits, a dashed frame round those whose files are in them."""
+    boxes = [MODULES[name] for name in LIMITS]
+    left, top = min(b[0] for b in boxes) - 7, boxes[0][1] - 7
+    width = max(b[0] + b[2] for b in boxes) + 7 - left
+    return (f'<rect x="{left}" y="{top}" width="{width}" height="{HEIGHT + 32}" rx="9" fill="none" stroke="#9a5b13" '
+            f'stroke-dasharray="5 4"/>'
+            f'<text x="{left + 8}" y="{top + HEIGHT + 25}" font-size="13" fill="#9a5b13">limits: a room each</text>')
 
 
 def arrow(upper, lower):
@@ -61,7 +73,7 @@ def main():
              'orient="auto">'
              '<path d="M0,0 L8,4 L0,8 z" fill="#1d2b45"/></marker></defs>',
              '<rect width="100%" height="100%" fill="white"/>']
-    parts += [box(name) for name in MODULES]
+    parts += [rooms()] + [box(name) for name in MODULES]
     parts += [arrow(*call) for call in USES]
     (pathlib.Path(__file__).parent / "modules.svg").write_text("\n".join(parts) + "\n</svg>\n", encoding="utf-8")
 
