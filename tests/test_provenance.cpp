@@ -229,6 +229,7 @@ TEST(ProvenanceOfStl, AnImpossibleSensorIsRefused) {
       return false;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::record_garbled);
+      EXPECT_LT(error.problem().size(), 200U) << "it quotes little of the file";
       return true;
     }
   };
@@ -238,6 +239,7 @@ TEST(ProvenanceOfStl, AnImpossibleSensorIsRefused) {
   EXPECT_TRUE(is_refused(right, "77", "-1"));
   EXPECT_TRUE(is_refused(right, "77", "1025"));
   EXPECT_TRUE(is_refused(right, "\"sensor\":", "\"sensor\":true,\"was\":"));
+  EXPECT_TRUE(is_refused(right, "77", "\"" + std::string(100'000, 'x') + "\""));
   Sensor wrong = right;
   wrong.sun->exclude_deg = 400;
   EXPECT_TRUE(is_refused(wrong));

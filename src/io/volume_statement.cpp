@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "io/json_text.h"
 #include "io/sidecar.h"
 #include "request/sensor_json.h"
 #include "vantage/error.h"
@@ -187,13 +188,18 @@ std::string statement_comments(const Volume& volume, const Mesh& stored, const c
 std::optional<VolumeStatement> read_statement(const MeshSource& source, const core::ProgressReporter& progress) {
   const std::string text = statement_text(source, progress);
   if (text.empty()) return std::nullopt;
+  const auto refuse = [&](const std::string& problem) {
+    throw Error(ErrorCode::record_garbled, "what vantage wrote about the volume is garbled: " + problem,
+                source.file().string(), "write the volume again with \"vantage compute\"");
+  };
   try {
     return parse(Json::parse(text));
+  } catch (const Json::exception& error) {
+    refuse(words_of(error));
   } catch (const std::exception& problem) {
-    throw Error(ErrorCode::record_garbled,
-                std::string("what vantage wrote about the volume is garbled: ") + problem.what(),
-                source.file().string(), "write the volume again with \"vantage compute\"");
+    refuse(problem.what());
   }
+  return std::nullopt;
 }
 
 }  // namespace vantage::internal::io
