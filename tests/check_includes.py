@@ -35,7 +35,7 @@ class NotIn(NamedTuple):
 
 # The rooms of src/limits/. Files verify*.cpp and prove*.cpp stand on the modules of these names, ask*.cpp and leg*.cpp on
 # src/query, cut*.cpp on src/solid.
-LIMITS = ["altitude", "zones", "meshes", "above_ground", "clearance", "min_range", "incidence", "frame", "pixel", "sun"]
+LIMITS = sorted(room.name for room in (pathlib.Path(__file__).parent.parent / "src/limits").iterdir())
 
 # The modules of src/, and those whose headers each may include besides its own. Modules name each other's headers from
 # src/ ("scene/prepared_data.h"), never by ../. What a module may include comes before it: there are no circles. Headers

@@ -25,7 +25,7 @@ class LimitProbe {
   virtual std::optional<std::string> broken_by(const JudgedPoint& point) const = 0;
 
   /// Whether a volume may leave the point out for the limit, though it keeps it: what is cut away may reach too far.
-  virtual bool may_leave_out(const JudgedPoint& /*point*/) const { return false; }
+  virtual bool may_leave_out(const JudgedPoint& point) const = 0;
 };
 
 /// `origin`: of JudgedPoint::local. Throws Error(input) for a limit that is wrong in itself. Declared alone: a limit

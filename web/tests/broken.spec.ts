@@ -78,6 +78,24 @@ test("where a link cannot be made, the reason is said", async ({ page }) => {
   await expect(page.locator("#hint")).toContainText("move its target in the file");
 });
 
+test("what else is given in map coordinates is not taken for the scene's", async ({ page }) => {
+  await openExample(page);
+  const others = {
+    "navigation: {rings: []}": "limits",
+    "tour: {home: [6e5, 5e6, 0]}": "home",
+    "links: [{point: [6e5, 5e6, 2], frequency: 2.4}]": "links",
+  };
+  for (const [written, what] of Object.entries(others)) {
+    await page.evaluate((text) => {
+      const { mission } = (window as any).vantage;
+      mission.written = `crs: EPSG:25832\n${text}\n`;
+      mission.opened.target = null;
+    }, written);
+    await page.click("#link");
+    await expect(page.locator("#hint")).toContainText(`gives its ${what} in EPSG:25832`);
+  }
+});
+
 const packedLink = (link: object) => gzipSync(JSON.stringify(link)).toString("base64url");
 
 const TENT = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";

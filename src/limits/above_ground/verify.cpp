@@ -11,6 +11,7 @@ class AboveGroundProbe : public LimitProbe {
   std::optional<std::string> broken_by(const JudgedPoint& point) const override {
     return ground_.broken_by(point.scene);
   }
+  bool may_leave_out(const JudgedPoint& /*point*/) const override { return false; }
 
  private:
   GroundProbe ground_;

@@ -12,6 +12,7 @@ class AltitudeProbe : public LimitProbe {
     if (point.scene.z() > altitude_.max_m) return "altitude max";
     return std::nullopt;
   }
+  bool may_leave_out(const JudgedPoint& /*point*/) const override { return false; }
 
  private:
   Navigation::Altitude altitude_;

@@ -21,6 +21,7 @@ class MeshesProbe : public LimitProbe {
     }
     return std::nullopt;
   }
+  bool may_leave_out(const JudgedPoint& /*point*/) const override { return false; }
 
  private:
   std::vector<std::string> names_;

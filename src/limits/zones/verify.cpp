@@ -80,6 +80,7 @@ class KeepInProbe : public LimitProbe {
     if (!is_kept) return "keep_in";
     return std::nullopt;
   }
+  bool may_leave_out(const JudgedPoint& /*point*/) const override { return false; }
 
  private:
   std::vector<JudgedZone> zones_;
@@ -100,6 +101,7 @@ class KeepOutProbe : public LimitProbe {
     }
     return std::nullopt;
   }
+  bool may_leave_out(const JudgedPoint& /*point*/) const override { return false; }
 
  private:
   std::vector<JudgedZone> zones_;

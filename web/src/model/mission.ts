@@ -151,6 +151,9 @@ const TOLERANCE = 0.01; // metres, where a mission does not say
 
 const differs = (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b);
 
+/** Keys of `navigation` that mean the same whatever `crs` says. */
+const WITHOUT_COORDINATES = ["altitude", "ground", "clearance", "meshes"];
+
 /** Keys that say where a target is. */
 const PLACES = [
   "vertices", "parts", "point", "outline", "holes", "osm", "object", "at", "part", "facing", "nearest", "center", "width",
@@ -226,12 +229,27 @@ class Writer {
     });
   }
 
+  /** What else has coordinates as `crs` says. A limit of navigation that is not known here counts as such. */
+  private othersInCoordinates(): string | null {
+    const { document } = this;
+    const navigation = document.get("navigation");
+    const keys = isMap(navigation) ? navigation.items.map((item) => String(item.key)) : [];
+    const zones = ["keep_in", "boxes", "keep_out"];
+    if (keys.some((key) => !zones.includes(key) && !WITHOUT_COORDINATES.includes(key))) return "limits";
+    if (this.zones(...zones).some((zone) => !zone.has("file"))) return "zones";
+    const home = document.getIn(["tour", "home"]);
+    if (isSeq(home) && home.items.length === 3) return "home";
+    const links = document.get("links");
+    return isSeq(links) && links.items.some((link) => isMap(link) && link.has("point")) ? "links" : null;
+  }
+
   /** Coordinates of the page are those of the scene: a file in map coordinates must not mix the two. */
   private leaveOtherCoordinates(): void {
     const { document, mission } = this;
     if (!document.has("crs")) return;
-    if (this.zones("keep_in", "boxes", "keep_out").some((zone) => !zone.has("file"))) {
-      throw new Error(`this mission gives its zones in ${String(document.get("crs"))}: move its target in the file`);
+    const others = this.othersInCoordinates();
+    if (others) {
+      throw new Error(`this mission gives its ${others} in ${String(document.get("crs"))}: move its target in the file`);
     }
     document.delete("crs");
     const written = mission.opened.target;
