@@ -125,10 +125,10 @@ RULES = [
           f"{module} may include {', '.join(['common', *below])} only")
     for module, below in MODULES.items() if module not in ("verify", "prove") and not module.startswith("limits/")
 ] + [
-    NotIn(r"src/limits/[^/]*/(ask|leg)", rf"(?!(core|query)/[^/]*$)({'|'.join(MODULES)})/",
-          "what answers for a limit may include core and query only"),
-    NotIn(r"src/limits/[^/]*/cut", rf"(?!(core|solid)/[^/]*$)({'|'.join(MODULES)})/",
-          "what cuts to a limit may include core and solid only"),
+    NotIn(r"src/limits/[^/]*/(ask|leg)", rf"(?!(core|sensor|query)/[^/]*$)({'|'.join(MODULES)})/",
+          "what answers for a limit may include core, sensor and query only"),
+    NotIn(r"src/limits/[^/]*/cut", rf"(?!(core|sensor|solid)/[^/]*$)({'|'.join(MODULES)})/",
+          "what cuts to a limit may include core, sensor and solid only"),
     NotIn(r"src/limits/[^/]*/(?!ask|cut|leg|verify|prove)", r".*",
           "files of a limit are called after what they do: ask, cut, leg, verify, prove"),
 ]
@@ -250,6 +250,7 @@ CASES = [
     ("src/limits/zones/leg.cpp", "prove/prism.h", False),
     ("src/limits/zones/cut.cpp", "solid/region_builder.h", True),
     ("src/limits/zones/cut.cpp", "query/zone_place.h", False),
+    ("src/limits/frame/cut.cpp", "sensor/best_aim.h", True),
     ("src/limits/zones/text.cpp", "vector", False),
     ("src/verify/verify.cpp", "limits/zones/verify.h", False),
     ("tests/attack/judge.cpp", "trial.h", True),

@@ -22,7 +22,7 @@
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
-#include "solid/sensor_regions.h"
+#include "solid/sensor_region_builder.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
