@@ -61,11 +61,11 @@ TEST(EachLimit, OfTheSensorIsVisitedAlone) {
   const std::vector<std::pair<Limit, std::function<void(Sensor&)>>> limits = {
       {Limit::min_range, [](Sensor& all) { all.min_range_m = 1; }},
       {Limit::incidence, [](Sensor& all) { all.incidence_deg = 60; }},
-      {Limit::frame, [](Sensor& all) { all.camera.emplace(); }},
       {Limit::pixel,
        [](Sensor& all) {
          all.pixel = PixelLimit{0.1, PixelLimit::Kind::worst};
        }},
+      {Limit::frame, [](Sensor& all) { all.camera.emplace(); }},
       {Limit::sun,
        [](Sensor& all) {
          all.sun = SunLimit{Vec3::UnitZ(), 5};

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "query/limits.h"
-#include "sensor/sensor_limits.h"
 #include "sensor/viewed.h"
 #include "support/grounds.h"
 #include "support/internals.h"
@@ -119,8 +118,7 @@ std::set<std::string> broken_at(const std::vector<LegBreak>& breaks, double shar
 /// The names of each point, as PointAnswer::outside_of has them, without the margin that costs most.
 class PointNames {
  public:
-  PointNames(const PreparedTarget& target, const Navigation& navigation)
-      : limits_(navigation, internal::sensor::SensorLimits(internal::sensor::viewed_of(target), target.sensor())) {}
+  PointNames(const PreparedTarget& target, const Navigation& navigation) : limits_(navigation, target) {}
 
   std::set<std::string> of(const std::vector<Vec3>& points) const {
     std::set<std::string> names;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sensor/find_aim.h"
-#include "sensor/sensor_limits.h"
 #include "support/mesh_probe.h"
 #include "support/objects.h"
 #include "support/random.h"

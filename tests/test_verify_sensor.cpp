@@ -61,7 +61,7 @@ struct Judged {
   /// What may be the reason that a point is not claimed.
   std::string reason(const Vec3& point) const { return text(judge.of_unclaimed(point - parts[0].origin())); }
 
-  static std::string text(const SensorJudge::Judgement& judgement) {
+  static std::string text(const SensorJudgement& judgement) {
     return judgement.finding == Finding::undecided ? "?" : judgement.limit;
   }
 

@@ -23,8 +23,8 @@ enum class Limit {
   clearance,
   min_range,
   incidence,
-  frame,  ///< of a camera, and of its mount
   pixel,  ///< PixelLimit::Kind::worst; the other kind is a range
+  frame,  ///< of a camera, and of its mount
   sun,
 };
 
@@ -51,9 +51,9 @@ struct LimitValue<Limit::min_range> : std::type_identity<double> {};
 template <>
 struct LimitValue<Limit::incidence> : std::type_identity<double> {};
 template <>
-struct LimitValue<Limit::frame> : std::type_identity<Pinhole> {};
-template <>
 struct LimitValue<Limit::pixel> : std::type_identity<PixelLimit> {};
+template <>
+struct LimitValue<Limit::frame> : std::type_identity<Pinhole> {};
 template <>
 struct LimitValue<Limit::sun> : std::type_identity<SunLimit> {};
 
@@ -83,8 +83,8 @@ void each_limit(const Sensor& sensor, Visit&& visit) {
   const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
   if (min_range_m > 0) visit(LimitIs<Limit::min_range>{}, min_range_m);
   if (incidence_deg) visit(LimitIs<Limit::incidence>{}, *incidence_deg);
-  if (camera) visit(LimitIs<Limit::frame>{}, *camera);
   if (pixel && pixel->kind == PixelLimit::Kind::worst) visit(LimitIs<Limit::pixel>{}, *pixel);
+  if (camera) visit(LimitIs<Limit::frame>{}, *camera);
   if (sun) visit(LimitIs<Limit::sun>{}, *sun);
 }
 

@@ -1,4 +1,4 @@
-// A limit of navigation along a leg: each room of src/limits/ defines that of its own.
+// A limit along a leg: each room of src/limits/ defines that of its own.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "query/leg_limits.h"
+#include "sensor/viewed.h"
 #include "vantage/each_limit.h"
 
 namespace vantage::internal::query {
@@ -30,8 +31,11 @@ class LegGroundPool {
   std::vector<std::pair<Ground, std::shared_ptr<const LegGround>>> known_;
 };
 
-/// Declared alone: a limit whose room has no answer for legs does not link.
+/// Declared alone: a limit whose room has no answer for legs does not link. The second one: of the sensor's limits.
 template <Limit kLimit>
 std::unique_ptr<const LegLimit> leg_limit(const LimitValueOf<kLimit>& limit, LegGroundPool& grounds);
+template <Limit kLimit>
+std::unique_ptr<const LegLimit> leg_limit(const LimitValueOf<kLimit>& limit,
+                                          const std::shared_ptr<const sensor::SensorView>& view);
 
 }  // namespace vantage::internal::query

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/parallel.h"
@@ -81,33 +80,37 @@ std::shared_ptr<const LegGround> LegGroundPool::of(const Ground& ground) {
 namespace query = internal::query;
 
 struct LegLimits::Data {
-  Data(const Navigation& navigation, std::optional<internal::sensor::SensorLimits> sensor_limits)
-      : sensor(std::move(sensor_limits)) {
+  explicit Data(const Navigation& navigation) {
     query::LegGroundPool grounds;
     each_limit(navigation, [&](auto limit, const auto& value) {
       limits.push_back(query::leg_limit<decltype(limit)::value>(value, grounds));
     });
   }
 
+  Data(const PreparedTarget& target, const Navigation& navigation) : Data(navigation) {
+    const auto view = std::make_shared<const internal::sensor::SensorView>(
+        internal::sensor::SensorView{target.sensor(), internal::sensor::viewed_of(target)});
+    each_limit(view->sensor, [&](auto limit, const auto& value) {
+      limits.push_back(query::leg_limit<decltype(limit)::value>(value, view));
+    });
+  }
+
   std::vector<LegBreak> broken(const query::Tube& tube) const {
     std::vector<LegBreak> breaks;
     for (const auto& limit : limits) limit->add_breaks(tube, breaks);
-    if (sensor) query::add_sensor_breaks(*sensor, tube, breaks);
     return breaks;
   }
 
   std::vector<std::unique_ptr<const query::LegLimit>> limits;
-  std::optional<internal::sensor::SensorLimits> sensor;
 };
 
 LegLimits::LegLimits(const Navigation& navigation) {
   check_navigation(navigation);
-  data_ = std::make_unique<Data>(navigation, std::nullopt);
+  data_ = std::make_unique<Data>(navigation);
 }
 LegLimits::LegLimits(const PreparedTarget& target, const Navigation& navigation) {
   check_navigation(navigation);
-  data_ = std::make_unique<Data>(navigation,
-                                 internal::sensor::SensorLimits(internal::sensor::viewed_of(target), target.sensor()));
+  data_ = std::make_unique<Data>(target, navigation);
 }
 LegLimits::~LegLimits() = default;
 LegLimits::LegLimits(LegLimits&&) noexcept = default;

@@ -12,7 +12,6 @@
 #include "core/bvh.h"
 #include "core/triangle_tree.h"
 #include "query/leg_intervals.h"
-#include "sensor/sensor_limits.h"
 #include "vantage/navigation.h"
 #include "vantage/query.h"
 
@@ -106,10 +105,5 @@ class LegMesh {
 
 /// Where the tube comes nearer to triangles than a distance.
 LegIntervals too_near(const LegTriangles& triangles, const Tube& tube, double distance);
-
-/// Adds what the sensor's limits break, in the order of SensorLimits::broken.
-void add_sensor_breaks(const sensor::SensorLimits& limits, const Tube& tube, std::vector<LegBreak>& breaks);
-/// The same of "frame" and "gimbal".
-void add_aim_breaks(const sensor::SensorLimits& limits, const Tube& tube, std::vector<LegBreak>& breaks);
 
 }  // namespace vantage::internal::query

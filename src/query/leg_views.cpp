@@ -203,8 +203,6 @@ void check_is_seen_whole(const PreparedTarget& target) {
 }  // namespace
 
 struct LegViews::Data {
-  Data() : no_limits({}, internal::sensor::SensorLimits({}, {})) {}
-
   void add(std::vector<Viewed>& view, const PreparedTarget& target) const {
     check_is_seen_whole(target);
     Viewed& viewed = view.emplace_back(Viewed{target, {}});

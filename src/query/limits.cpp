@@ -22,21 +22,22 @@ std::shared_ptr<const GroundHeights> GroundPool::of(const Ground& ground) {
   return known_.emplace_back(ground, std::make_shared<const GroundHeights>(ground)).second;
 }
 
-Limits::Limits(const Navigation& navigation, sensor::SensorLimits sensor) : sensor_(std::move(sensor)) {
+Limits::Limits(const Navigation& navigation, const PreparedTarget& target) {
   GroundPool grounds;
   each_limit(navigation, [&](auto limit, const auto& value) {
-    navigation_.push_back(point_limit<decltype(limit)::value>(value, grounds));
+    limits_.push_back(point_limit<decltype(limit)::value>(value, grounds));
+  });
+  const auto view =
+      std::make_shared<const sensor::SensorView>(sensor::SensorView{target.sensor(), sensor::viewed_of(target)});
+  each_limit(view->sensor, [&](auto limit, const auto& value) {
+    limits_.push_back(point_limit<decltype(limit)::value>(value, view));
   });
 }
 
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
 std::vector<double> Limits::cut_line(const ViewRay& line) const {
   std::vector<double> cuts;
-  for (const auto& limit : navigation_) limit->add_crossings(line, cuts);
-  if (!sensor_.none()) {
-    const std::vector<double> changes = sensor_.changes(line.origin, line.direction, line.reach);
-    cuts.insert(cuts.end(), changes.begin(), changes.end());
-  }
+  for (const auto& limit : limits_) limit->add_crossings(line, cuts);
   std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
   cuts.push_back(0);
   cuts.push_back(line.reach);
@@ -66,10 +67,7 @@ double Limits::signed_margin(const ViewRay& line, double at, bool is_inside) con
 
 std::vector<std::string> Limits::broken(const Vec3& point) const {
   std::vector<std::string> broken;
-  for (const auto& limit : navigation_) limit->add_broken(point, broken);
-  if (!sensor_.none()) {
-    for (std::string& name : sensor_.broken(point)) broken.push_back(std::move(name));
-  }
+  for (const auto& limit : limits_) limit->add_broken(point, broken);
   return broken;
 }
 

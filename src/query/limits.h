@@ -7,19 +7,22 @@
 
 #include "query/point_limit.h"
 #include "query/view_ray.h"
-#include "sensor/sensor_limits.h"
 #include "vantage/navigation.h"
+#include "vantage/target.h"
 
 namespace vantage::internal::query {
 
 class Limits {
  public:
-  Limits(const Navigation& navigation, sensor::SensorLimits sensor);
+  /// None.
+  Limits() = default;
+  Limits(const Navigation& navigation, const PreparedTarget& target);
 
   /// Names as in reports: "altitude min", "altitude max", "agl min", "agl max", "ground edge" (no ground above or below
   /// the point), "keep_in" (the point is in none of these zones), "keep_out zone 2", "keep_out zone NAME", "mesh NAME",
-  /// "clearance", then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the
-  /// corners of zones and in the triangles of navigation meshes whose boxes hold the point.
+  /// "clearance", "min_range", "incidence", "pixel", "frame", "gimbal" (a camera of the same picture would do that
+  /// could look anywhere), "sun". Borders belong to the allowed side. Cost: linear in the corners of zones and in the
+  /// triangles of navigation meshes whose boxes hold the point.
   std::vector<std::string> broken(const Vec3& point) const;
 
   /// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to
@@ -32,8 +35,7 @@ class Limits {
  private:
   std::vector<double> cut_line(const ViewRay& line) const;
 
-  std::vector<std::unique_ptr<const PointLimit>> navigation_;
-  sensor::SensorLimits sensor_;
+  std::vector<std::unique_ptr<const PointLimit>> limits_;
 };
 
 }  // namespace vantage::internal::query

@@ -1,6 +1,7 @@
-// A limit of navigation for points and lines of sight: each room of src/limits/ defines that of its own.
+// A limit for points and lines of sight: each room of src/limits/ defines that of its own.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "query/ground_heights.h"
 #include "query/view_ray.h"
+#include "sensor/viewed.h"
 #include "vantage/each_limit.h"
 
 namespace vantage::internal::query {
@@ -36,8 +38,20 @@ class GroundPool {
   std::vector<std::pair<Ground, std::shared_ptr<const GroundHeights>>> known_;
 };
 
-/// Declared alone: a limit whose room has no answer for points does not link.
+/// Declared alone: a limit whose room has no answer for points does not link. The second one: of the sensor's limits.
 template <Limit kLimit>
 std::unique_ptr<const PointLimit> point_limit(const LimitValueOf<kLimit>& limit, GroundPool& grounds);
+template <Limit kLimit>
+std::unique_ptr<const PointLimit> point_limit(const LimitValueOf<kLimit>& limit,
+                                              const std::shared_ptr<const sensor::SensorView>& view);
+
+/// Of a line, which of its places are one interval.
+enum class OneInterval { kept, broken };
+
+/// A limit that a point breaks where it breaks it for one of the parts: `margin` is negative there, with the point
+/// about Viewed::origin. Along a line it has one maximum or minimum, in that interval.
+std::unique_ptr<const PointLimit> limit_of_parts(
+    const char* name, const std::shared_ptr<const sensor::SensorView>& view, OneInterval interval,
+    std::function<double(const sensor::ViewedPart& part, const Vec3& point)> margin);
 
 }  // namespace vantage::internal::query

@@ -190,16 +190,12 @@ void take_share(PointQuery& query, double share, std::span<const Vec3> points, s
   }
 }
 
-internal::query::Limits limits_of(const PreparedTarget& target, const Navigation& navigation) {
-  return {navigation, internal::sensor::SensorLimits(internal::sensor::viewed_of(target), target.sensor())};
-}
-
 }  // namespace
 
 PointQuery::PointQuery(std::unique_ptr<Data> data) : data_(std::move(data)) {}
 
 PointQuery PointQuery::unchecked(const PreparedTarget& target, const Navigation& navigation) {
-  auto data = std::make_unique<Data>(Data{target, limits_of(target, navigation), {}});
+  auto data = std::make_unique<Data>(Data{target, internal::query::Limits(navigation, target), {}});
   const PreparedTarget::Data& prepared = data->target.data();
   for (const PreparedTarget::Data::Part& part : prepared.parts) {
     data->parts.push_back(internal::query::make_sides(prepared, part, data->limits));

@@ -6,6 +6,7 @@
 
 #include "vantage/export.h"
 #include "vantage/geometry.h"
+#include "vantage/sensor.h"
 #include "vantage/target.h"
 
 namespace vantage::internal::sensor {
@@ -25,7 +26,25 @@ struct Viewed {
   double radius() const;  ///< of a ball about the origin that holds all corners, metres
 };
 
+/// A sensor, and the target that it looks at.
+struct SensorView {
+  Sensor sensor;
+  Viewed target;
+};
+
 /// The parts as they are used, lifts included.
 Viewed viewed_of(const PreparedTarget& target);
+
+// All of the part's positions and of the points are about Viewed::origin.
+
+/// Distance from a point to a convex polygon (of one corner: to the point), metres.
+double distance_to(const ViewedPart& part, const Vec3& point);
+
+/// The least angle, in radians, between a direction of unit length and that in which a point of the part is seen from
+/// `point`.
+double least_angle(const ViewedPart& part, const Vec3& point, const Vec3& direction);
+
+/// Metres from the nearest of the cones about the normal, one at each corner, with the angle between; negative outside.
+double cone_margin(const ViewedPart& part, const Vec3& point, double angle_deg);
 
 }  // namespace vantage::internal::sensor

@@ -31,6 +31,7 @@ using internal::verify::LinkZone;
 using internal::verify::Occluders;
 using internal::verify::Random;
 using internal::verify::SensorJudge;
+using internal::verify::SensorJudgement;
 using internal::verify::TargetView;
 using internal::verify::Viewpoint;
 using internal::verify::Viewpoints;
@@ -227,7 +228,7 @@ void Check::judge(Verdict& verdict) const {
   verdict.blocked.reset();
   if (!in_front(verdict.position) || limits_.broken_by(verdict.position)) return;
   if (!verdict.claimed && limits_.may_leave_out(verdict.position)) return;
-  const SensorJudge::Judgement judgement =
+  const SensorJudgement judgement =
       verdict.claimed ? sensor_.of_claimed(verdict.position) : sensor_.of_unclaimed(verdict.position);
   verdict.good = judgement.finding != Finding::broken;
   verdict.undecided = judgement.finding == Finding::undecided;

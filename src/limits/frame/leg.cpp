@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "query/leg_convex.h"
 #include "query/leg_halving.h"
-#include "query/leg_limits.h"
+#include "query/leg_limit.h"
 #include "sensor/aim.h"
 #include "sensor/find_aim.h"
 
@@ -19,8 +20,8 @@ constexpr double kRadian = std::numbers::pi / 180;
 /// One mount along one leg. Positions are about the target's origin.
 class AimLook {
  public:
-  AimLook(const sensor::SensorLimits& limits, const Mount& mount, const Tube& local)
-      : camera_(*limits.sensor().camera), mount_(mount), corners_(limits.viewed().corners), local_(local) {}
+  AimLook(const Pinhole& camera, const Mount& mount, const std::vector<Vec3>& corners, const Tube& local)
+      : camera_(camera), mount_(mount), corners_(corners), local_(local) {}
 
   LegIntervals broken(const LegIntervals& within) {
     if (mount_.is_fixed()) return common(within, fixed());
@@ -127,24 +128,41 @@ class AimLook {
   int cubes_ = 0;
 };
 
+class FrameOfLeg : public LegLimit {
+ public:
+  FrameOfLeg(const Pinhole& camera, std::shared_ptr<const sensor::SensorView> view)
+      : camera_(camera), view_(std::move(view)) {}
+
+  void add_breaks(const Tube& tube, std::vector<LegBreak>& breaks) const override {
+    const Tube local = tube.moved(-view_->target.origin);
+    const std::vector<Vec3>& corners = view_->target.corners;
+    const Mount& mount = view_->sensor.mount;
+    const Mount free{.yaw_deg = {}, .roll_deg = mount.roll_deg};
+    AimLook look(camera_, mount, corners, local), free_look(camera_, free, corners, local);
+    const LegIntervals broken = look.broken({{0, 1}});
+    if (broken.empty()) return;
+    const LegIntervals frame = free_look.broken(broken);
+    const auto amount = [&](double share) {
+      double nearest = INFINITY;
+      for (const Vec3& corner : corners) nearest = std::min(nearest, (corner - local.at(share)).norm());
+      const double turn = nearest > tube.radius ? std::asin(tube.radius / nearest) / kRadian : 90.0;
+      return look.out_of_picture(share) + turn;
+    };
+    add_break(breaks, "frame", LegBreak::Unit::degrees, frame, amount);
+    add_break(breaks, "gimbal", LegBreak::Unit::degrees, without(broken, frame), amount);
+  }
+
+ private:
+  Pinhole camera_;
+  std::shared_ptr<const sensor::SensorView> view_;
+};
+
 }  // namespace
 
-void add_aim_breaks(const sensor::SensorLimits& limits, const Tube& tube, std::vector<LegBreak>& breaks) {
-  const Tube local = tube.moved(-limits.viewed().origin);
-  const Mount& mount = limits.sensor().mount;
-  const Mount free{.yaw_deg = {}, .roll_deg = mount.roll_deg};
-  AimLook look(limits, mount, local), free_look(limits, free, local);
-  const LegIntervals broken = look.broken({{0, 1}});
-  if (broken.empty()) return;
-  const LegIntervals frame = free_look.broken(broken);
-  const auto amount = [&](double share) {
-    double nearest = INFINITY;
-    for (const Vec3& corner : limits.viewed().corners) nearest = std::min(nearest, (corner - local.at(share)).norm());
-    const double turn = nearest > tube.radius ? std::asin(tube.radius / nearest) / kRadian : 90.0;
-    return look.out_of_picture(share) + turn;
-  };
-  add_break(breaks, "frame", LegBreak::Unit::degrees, frame, amount);
-  add_break(breaks, "gimbal", LegBreak::Unit::degrees, without(broken, frame), amount);
+template <>
+std::unique_ptr<const LegLimit> leg_limit<Limit::frame>(const Pinhole& camera,
+                                                        const std::shared_ptr<const sensor::SensorView>& view) {
+  return std::make_unique<FrameOfLeg>(camera, view);
 }
 
 }  // namespace vantage::internal::query
