@@ -41,6 +41,17 @@ TEST(Geometry, TurningTheTrianglesNegatesTheVolume) {
   EXPECT_DOUBLE_EQ(enclosed_volume(mesh), -8.0 / 6);
 }
 
+TEST(Geometry, ADirectionMayHaveAnyLength) {
+  const Vec3 ordinary(3, -4, 12);
+  EXPECT_EQ(unit(ordinary), ordinary.normalized());
+  for (const double length : {5e-324, 1e-320, 1e-200, 1e-162, 1e-30, 1e30, 1e160, 1e200, 1e300}) {
+    SCOPED_TRACE(length);
+    const Vec3 direction = unit(Vec3(length, 0, -length));
+    EXPECT_NEAR(direction.norm(), 1, 1e-15);
+    EXPECT_LT((direction - Vec3(1, 0, -1).normalized()).norm(), 1e-15);
+  }
+}
+
 TEST(Geometry, AnEmptyMeshHasNoSize) {
   EXPECT_TRUE(bounding_box({}).empty());
   EXPECT_EQ(enclosed_volume({}), 0);

@@ -255,6 +255,17 @@ TEST(TargetFrame, OfAPointWithAFront) {
   EXPECT_EQ(refusal(plaza_of({{0, std::nan(""), 0}})), ErrorCode::coordinate_not_finite);
 }
 
+TEST(TargetFrame, AFrontMayHaveAnyLength) {
+  Target point = plaza_of({{1, 2, 3}}), down = square();
+  for (const double length : {1e-320, 1e-162, 1e-30, 1e30, 1e200, 1e300}) {
+    SCOPED_TRACE(length);
+    point.front = Vec3(length, 0, length);
+    EXPECT_TRUE(make_target_frame(point).normal.isApprox(Vec3(1, 0, 1).normalized(), 1e-14));
+    down.front = Vec3(0, 0, -length);
+    EXPECT_EQ(make_target_frame(down).normal, Vec3(0, 0, -1));
+  }
+}
+
 TEST(TargetFrame, RefusesWhatIsNotFinite) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Target target = square();

@@ -1,8 +1,10 @@
-// Points, boxes and triangle meshes. Lengths are metres, angles radians. The scene frame is right-handed with z up.
+// Points, boxes and triangle meshes. Lengths are metres, angles degrees where a name ends in _deg, else radians. The
+// scene frame is right-handed with z up.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -13,6 +15,12 @@ namespace vantage {
 
 using Vec3 = Eigen::Vector3d;
 using Triangle = std::array<std::uint32_t, 3>;
+
+/// The direction of a finite vector but 0, of length 1: also of one whose square is no double.
+inline Vec3 unit(const Vec3& vector) {
+  const int exponent = std::ilogb(vector.cwiseAbs().maxCoeff());
+  return vector.unaryExpr([&](double x) { return std::ldexp(x, -exponent); }).normalized();
+}
 
 /// Axis-aligned box. The default one is empty (min > max).
 struct Box {

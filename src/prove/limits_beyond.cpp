@@ -142,7 +142,7 @@ class LimitCollector {
   }
   /// So is what lies behind the target as seen from near the sun.
   void add_sun(const SunLimit& limit) {
-    const Vec3 sun = limit.direction.normalized();
+    const Vec3 sun = unit(limit.direction);
     const bool is_half = limit.exclude_deg >= 90;
     const double slope = std::tan(limit.exclude_deg * kDegree) * (1 + kConeShare);
     add(WitnessKind::sensor, "sun", false, kConeShare, [=, view = view_](const MovedPiece& piece) {

@@ -58,7 +58,7 @@ void check_share(const VisibleShare& visible) {
 }
 
 void check_sun(const SunLimit& sun) {
-  require(sun.direction.allFinite() && sun.direction.norm() > 0, "the direction to the sun is zero or not finite",
+  require(sun.direction.allFinite() && sun.direction != Vec3::Zero(), "the direction to the sun is zero or not finite",
           "sensor.sun", "give a vector towards the sun", ErrorCode::direction_invalid);
   require(sun.exclude_deg > 0 && sun.exclude_deg <= 90, "the angle to the sun is not between 0 and 90 degrees",
           "sensor.sun", "give the least angle that is wanted: exclude: 20");

@@ -50,7 +50,7 @@ void check_vertices(const Target& target) {
   }
   if (!std::isfinite(target.offset_m))
     refuse(ErrorCode::value_out_of_range, target, "offset is not finite", "give metres along the normal");
-  if (target.front && (!target.front->allFinite() || target.front->norm() == 0)) {
+  if (target.front && (!target.front->allFinite() || *target.front == Vec3::Zero())) {
     refuse(ErrorCode::direction_invalid, target, "front is zero or not finite",
            "give a vector on the side that is looked at, such as [0, 0, 1]");
   }
@@ -105,7 +105,7 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
 
 Vec3 front_normal(const Target& target, const Vec3& normal) {
   if (target.front) {
-    const double side = target.front->normalized().dot(normal);
+    const double side = unit(*target.front).dot(normal);
     if (std::abs(side) < 1e-6) {
       refuse(ErrorCode::direction_invalid, target, "front lies in the plane of the target",
              "give a vector that points away from the looked-at side");
@@ -183,7 +183,7 @@ std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& 
 
 TargetFrame make_point_frame(const Target& target) {
   TargetFrame frame;
-  make_axes(frame, target.front ? target.front->normalized() : Vec3::UnitZ());
+  make_axes(frame, target.front ? unit(*target.front) : Vec3::UnitZ());
   frame.polygon = {Vector2d::Zero()};
   frame.all_sides = !target.front;
   frame.origin = target.parts[0][0] + frame.normal * target.offset_m;

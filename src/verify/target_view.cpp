@@ -41,8 +41,8 @@ double extent(const std::vector<Vec3>& points) {
 /// Whether the side that the vertices run counter-clockwise on is the back.
 bool runs_on_back(const Target& target, const Vec3& normal) {
   if (target.front) {
-    const double along = normal.dot(*target.front);
-    if (!(std::abs(along) > kVertical * target.front->norm())) {
+    const double along = normal.dot(unit(*target.front));
+    if (!(std::abs(along) > kVertical)) {
       fail(ErrorCode::direction_invalid, target, "the front lies in the plane of the target",
            "give a vector that points to the side to look from");
     }
@@ -90,12 +90,12 @@ TargetView::TargetView(const Target& target) {
 }
 
 void TargetView::set_point(const Target& target) {
-  if (target.front && !(target.front->allFinite() && target.front->norm() > 0)) {
+  if (target.front && !(target.front->allFinite() && *target.front != Vec3::Zero())) {
     fail(ErrorCode::direction_invalid, target, "the front is zero or not finite",
          "give a vector that points to the side to look from");
   }
   all_sides_ = !target.front;
-  normal_ = target.front ? target.front->normalized() : Vec3(Vec3::UnitZ());
+  normal_ = target.front ? unit(*target.front) : Vec3(Vec3::UnitZ());
   origin_ = target.parts[0][0];
   centre_ = target.offset_m * normal_;
   vertices_ = {centre_};

@@ -10,7 +10,7 @@ namespace vantage::internal::solid {
 template <>
 void add_regions<Limit::sun>(const SunLimit& limit, const sensor::ViewedPart& part, SensorRegionBuilder& builder) {
   constexpr int kSides = 128;
-  const Vec3 sun = limit.direction.normalized();
+  const Vec3 sun = unit(limit.direction);
   const double angle = limit.exclude_deg * (std::numbers::pi / 180);
   // At a right angle the cone is a half-space, and the tangent large but finite.
   const double slope = portable::tan(angle) / portable::cos(std::numbers::pi / kSides);

@@ -31,7 +31,7 @@ double distance_to_cone(const Vec3& y, const Vec3& axis, double sine, double cos
 class SunShade {
  public:
   SunShade(const SunLimit& sun, const sensor::ViewedPart& part)
-      : part_(part), axis_(sun.direction.normalized()), angle_(sun.exclude_deg / kInDegrees) {
+      : part_(part), axis_(unit(sun.direction)), angle_(sun.exclude_deg / kInDegrees) {
     const portable::SineCosine both = portable::sine_cosine(angle_);
     sine_ = both.sine;
     cosine_ = std::max(0.0, both.cosine);

@@ -16,7 +16,7 @@ namespace {
 
 class SunCone {
  public:
-  SunCone(const SunLimit& sun, const View& part, const Vec3& origin) : axis_(sun.direction.normalized()) {
+  SunCone(const SunLimit& sun, const View& part, const Vec3& origin) : axis_(unit(sun.direction)) {
     const double angle = sun.exclude_deg * std::numbers::pi / 180;
     sine_ = std::sin(angle);
     cosine_ = sun.exclude_deg < 90 ? std::cos(angle) : 0;

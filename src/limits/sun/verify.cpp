@@ -40,7 +40,7 @@ double least_angle(const TargetView& part, const Vec3& point, const Vec3& direct
 template <>
 std::unique_ptr<const SensorProbe> probe_of<Limit::sun>(const SunLimit& limit, const Sensor& /*sensor*/,
                                                         const std::vector<TargetView>& parts) {
-  const Vec3 sun = limit.direction.normalized();
+  const Vec3 sun = unit(limit.direction);
   const double angle = limit.exclude_deg * kDegree;
   const double of_claimed = angle - kAngleSlack;
   const double of_unclaimed = with_tangent_times(angle, 1 / std::cos(std::numbers::pi / kConeSides));
