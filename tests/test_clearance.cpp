@@ -179,6 +179,48 @@ TEST(ClearanceLimit, TheCutKeepsTheDistance) {
   }
 }
 
+// Preparing a scene drops what is narrower than its largest extent can be rounded by.
+TEST(ClearanceLimit, IsKeptFromASpeckBesideAWallOfAnySize) {
+  for (const Case& at : kCases) {
+    for (const double wall_m : {1.0, 1e2, 1e4, 1e6}) {
+      for (const double speck_m : {1e-16, 1e-13, 1e-9, 1e-3}) {
+        SCOPED_TRACE(std::to_string(at.scale) + " wall " + std::to_string(wall_m) + " speck " +
+                     std::to_string(speck_m));
+        const auto place = [&](double x, double y, double z) { return Vec3(at.origin + at.scale * Vec3(x, y, z)); };
+        const auto obstacles = std::make_shared<Mesh>();
+        obstacles->vertices = {place(3, 3, 6),        place(3 + speck_m, 3, 6), place(3, 3 + speck_m, 6),
+                               place(30, -wall_m, 0), place(30, wall_m, 0),     place(30, 0, wall_m)};
+        obstacles->triangles = {{0, 1, 2}, {3, 4, 5}};
+        Navigation navigation;
+        navigation.clearance = {2 * at.scale, obstacles};
+        const Volume cut = cut_to_navigation(make_hemisphere(at.origin, 35 * at.scale, 32, 8), navigation);
+        ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+        EXPECT_FALSE(holds(cut.mesh, place(3, 3, 4.01)));
+        EXPECT_FALSE(holds(cut.mesh, place(3, 3, 6.001)));
+        EXPECT_TRUE(holds(cut.mesh, place(3, 3, 2)));
+      }
+    }
+  }
+}
+
+TEST(ClearanceLimit, ObstaclesAreAllOfASceneWithoutObjects) {
+  Scene scene;
+  scene.mesh = testing::make_box_mesh({0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(obstacles_of(scene)->triangles.size(), 12u);
+  scene.object_of.assign(11, 0);
+  EXPECT_EQ(testing::code_of([&] { obstacles_of(scene); }), ErrorCode::array_sizes_differ);
+  scene.object_of.assign(12, 0);
+  EXPECT_EQ(obstacles_of(scene)->triangles.size(), 12u);
+  scene.object_of[5] = 1;
+  EXPECT_EQ(testing::code_of([&] { obstacles_of(scene); }), ErrorCode::index_out_of_range);
+  EXPECT_EQ(testing::code_of([&] { ground_of(scene); }), ErrorCode::index_out_of_range);
+  scene.object_of[5] = 0;
+  scene.mesh.triangles[3][1] = 8;
+  EXPECT_EQ(testing::code_of([&] { obstacles_of(scene); }), ErrorCode::index_out_of_range);
+  const auto surface = std::make_shared<Mesh>(scene.mesh);
+  EXPECT_EQ(testing::code_of([&] { GroundLevels({0, surface}); }), ErrorCode::index_out_of_range);
+}
+
 // Blocks that stand askew, far from the origin: their hulls are made of coordinates that are rounded there.
 TEST(ClearanceLimit, IsKeptFromTurnedBlocksAtMapCoordinates) {
   Random random(2243);
@@ -312,7 +354,7 @@ TEST(ClearanceLimit, WrongOnesAreRefused) {
   Random random(3);
   const Scene town = make_town(random, 1, Vec3::Zero());
   const Volume dome = make_hemisphere(Vec3::Zero(), 20);
-  for (const double distance : {0.0, -1.0, static_cast<double>(INFINITY), static_cast<double>(NAN)}) {
+  for (const double distance : {0.0, -1.0, 2e9, static_cast<double>(INFINITY), static_cast<double>(NAN)}) {
     testing::expect_error([&] { cut_to_navigation(dome, keeping(town, distance)); }, ErrorCode::value_out_of_range,
                           "navigation.clearance");
   }

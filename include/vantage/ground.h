@@ -20,7 +20,7 @@ namespace vantage {
 
 /// A plane, or triangles. Beyond the triangles, in plan, there is no ground.
 struct Ground {
-  double plane_z_m = 0;  ///< without triangles: the ground lies at this z everywhere
+  double plane_z_m = 0;  ///< where `surface` is null: the ground lies at this z everywhere
   /// Scene frame, metres; shared, since it may be as large as the scene. Triangles may face up or down, and may lie
   /// over each other. Vertical ones do not count.
   std::shared_ptr<const Mesh> surface = {};
@@ -28,16 +28,17 @@ struct Ground {
 
 /// The ground of a scene: its objects of ObjectKind::ground, or else of ObjectKind::surface, which is the highest of
 /// ground, roofs and trees. Flat ground of a map goes on beyond the map: it is a plane. Nothing where the scene has no
-/// such object with triangles. Cost: linear.
+/// such object with triangles. Throws Error(input) for arrays that PreparedScene refuses. Cost: linear.
 VANTAGE_API std::optional<Ground> ground_of(const Scene& scene);
 
-/// The triangles of one object. Throws Error(input) for an index out of range and an object without triangles.
+/// The triangles of one object. Throws Error(input) for an index out of range, an object without triangles, and as
+/// above.
 VANTAGE_API Ground ground_of(const Scene& scene, std::uint32_t object);
 
 /// How high the ground is, for many places.
 class VANTAGE_API GroundLevels {
  public:
-  /// Cost: O(n log n) in the triangles.
+  /// Throws Error(input) as check_navigation does for a ground. Cost: O(n log n) in the triangles.
   explicit GroundLevels(const Ground& ground);
   ~GroundLevels();
   GroundLevels(GroundLevels&&) noexcept;

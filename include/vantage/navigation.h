@@ -28,13 +28,13 @@ struct AboveGround {
 
 /// How far a viewpoint must be from obstacles.
 struct Clearance {
-  double distance_m = 0;                       ///< > 0; viewpoints at this distance are allowed
+  double distance_m = 0;                       ///< > 0, at most 1e9; viewpoints at this distance are allowed
   std::shared_ptr<const Mesh> obstacles = {};  ///< scene frame, metres: any triangle soup; see obstacles_of. Shared,
                                                ///< since it may be as large as the scene
 };
 
 /// The triangles of all objects but those of ObjectKind::ground and those in `ground` (indices of objects). Where that
-/// leaves none, those of all objects. Cost: linear.
+/// leaves none, those of all objects. Throws Error(input) for arrays that PreparedScene refuses. Cost: linear.
 VANTAGE_API std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground = {});
 
 /// A closed mesh to stay in.
@@ -59,7 +59,7 @@ struct Zone {
 
   /// Scene frame, x and y, metres: 3 corners or more, either turn, the first one not repeated. No side may cross or
   /// touch another one, of the same ring or of another; the sides of `holes` lie inside `outer`, and in no other hole.
-  /// At most kMostCorners in all.
+  /// At most kMostCorners in all, none farther from 0 than 1e9 m.
   Ring outer;
   std::vector<Ring> holes;
   double min_z_m = -std::numeric_limits<double>::infinity();  ///< scene z; infinite: without bound

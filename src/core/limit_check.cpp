@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/input.h"
+#include "core/read_limits.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -44,6 +45,10 @@ std::optional<LimitFault> fault_of(const Box& box) {
 }
 
 std::optional<LimitFault> fault_of_clearance(double distance_m) {
+  if (distance_m > kMaxCoordinate && std::isfinite(distance_m)) {
+    return LimitFault{ErrorCode::value_out_of_range, "it is more than 1,000,000 km: " + shortest(distance_m),
+                      "give metres"};
+  }
   if (distance_m > 0 && std::isfinite(distance_m)) return std::nullopt;
   return LimitFault{ErrorCode::value_out_of_range,
                     "it is not a positive, finite number of metres: " + shortest(distance_m),

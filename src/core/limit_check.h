@@ -25,7 +25,7 @@ std::optional<LimitFault> fault_of_band(double low_m, double high_m);
 /// A box to stay in or out of: the same of each axis.
 std::optional<LimitFault> fault_of(const Box& box);
 
-/// A distance to be kept: positive and finite.
+/// A distance to be kept: positive, at most kMaxCoordinate.
 std::optional<LimitFault> fault_of_clearance(double distance_m);
 
 }  // namespace vantage::internal::core

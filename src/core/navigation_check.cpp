@@ -45,14 +45,6 @@ void check_triangles(const Mesh& mesh, const std::string& where) {
   }
 }
 
-void check_ground(const Ground& ground, const std::string& where) {
-  if (ground.surface) return check_triangles(*ground.surface, where + ", ground");
-  if (!std::isfinite(ground.plane_z_m)) {
-    throw Error(ErrorCode::value_out_of_range, "the plane of the ground is not finite", where + ", ground",
-                "give its z in metres");
-  }
-}
-
 void check_zones(const std::vector<Zone>& zones, const char* key) {
   for (std::size_t i = 0; i < zones.size(); ++i) {
     refuse(fault_of(zones[i]), zones[i].name.empty() ? member(key, i) : zone_name(zones, i), member(key, i));
@@ -71,6 +63,14 @@ void check_clearance(const Clearance& clearance) {
 }
 
 }  // namespace
+
+void check_ground(const Ground& ground, const std::string& where) {
+  if (ground.surface) return check_triangles(*ground.surface, where + ", ground");
+  if (!std::isfinite(ground.plane_z_m)) {
+    throw Error(ErrorCode::value_out_of_range, "the plane of the ground is not finite", where + ", ground",
+                "give its z in metres");
+  }
+}
 
 // All members are named: a limit that is added does not compile here before it is checked.
 std::vector<Mesh> checked_navigation(const Navigation& navigation, const ProgressReporter& progress) {

@@ -1,3 +1,4 @@
+#include "core/navigation_check.h"
 #include "query/ground_heights.h"
 #include "vantage/ground.h"
 
@@ -7,8 +8,10 @@ struct GroundLevels::Data {
   internal::query::GroundHeights heights;
 };
 
-GroundLevels::GroundLevels(const Ground& ground)
-    : data_(std::make_unique<Data>(Data{internal::query::GroundHeights(ground)})) {}
+GroundLevels::GroundLevels(const Ground& ground) {
+  internal::core::check_ground(ground, "GroundLevels");
+  data_ = std::make_unique<Data>(Data{internal::query::GroundHeights(ground)});
+}
 GroundLevels::~GroundLevels() = default;
 GroundLevels::GroundLevels(GroundLevels&&) noexcept = default;
 GroundLevels& GroundLevels::operator=(GroundLevels&&) noexcept = default;

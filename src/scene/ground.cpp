@@ -4,19 +4,26 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene_check.h"
 #include "vantage/error.h"
 #include "vantage/navigation.h"
 
 namespace vantage {
 namespace {
 
+/// A scene without objects has one, of no kind.
+ObjectKind kind_of(const Scene& scene, std::uint32_t object) {
+  return object < scene.objects.size() ? scene.objects[object].kind : ObjectKind::other;
+}
+
 /// The triangles of the objects for which `wanted` holds, with the vertices that they use.
 template <typename Wanted>
 Mesh part_of(const Scene& scene, const Wanted& wanted) {
+  internal::scene::check_scene(scene);
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> number(scene.mesh.vertices.size(), kUnused);
   Mesh part;
-  for (std::size_t t = 0; t < scene.mesh.triangles.size() && t < scene.object_of.size(); ++t) {
+  for (std::size_t t = 0; t < scene.object_of.size(); ++t) {
     if (!wanted(scene.object_of[t])) continue;
     Triangle triangle = scene.mesh.triangles[t];
     for (std::uint32_t& vertex : triangle) {
@@ -32,7 +39,7 @@ Mesh part_of(const Scene& scene, const Wanted& wanted) {
 }
 
 Mesh part_of_kind(const Scene& scene, ObjectKind kind) {
-  return part_of(scene, [&](std::uint32_t object) { return scene.objects[object].kind == kind; });
+  return part_of(scene, [&](std::uint32_t object) { return kind_of(scene, object) == kind; });
 }
 
 bool is_level(const Mesh& mesh) {
@@ -55,7 +62,7 @@ std::optional<Ground> ground_of(const Scene& scene) {
 
 std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground) {
   Mesh mesh = part_of(scene, [&](std::uint32_t object) {
-    return scene.objects[object].kind != ObjectKind::ground &&
+    return kind_of(scene, object) != ObjectKind::ground &&
            std::find(ground.begin(), ground.end(), object) == ground.end();
   });
   if (mesh.empty()) mesh = scene.mesh;

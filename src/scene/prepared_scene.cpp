@@ -13,6 +13,7 @@
 #include "core/weld.h"
 #include "scene/convex_polygons.h"
 #include "scene/prepared_data.h"
+#include "scene/scene_check.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -231,39 +232,6 @@ void index_incidence(PreparedScene::Data& data) {
     for (std::uint32_t vertex : data.corners_of(polygon)) data.incident[next[vertex]++] = polygon;
 }
 
-void check(const Scene& scene) {
-  const auto refuse = [](ErrorCode code, std::string problem,
-                         const char* fix = "give each triangle three vertices and an object") {
-    throw Error(code, std::move(problem), "scene made in memory", fix);
-  };
-  const std::size_t objects = std::max<std::size_t>(1, scene.objects.size());
-  if (!scene.object_of.empty() && scene.object_of.size() != scene.mesh.triangles.size()) {
-    refuse(ErrorCode::array_sizes_differ, "object_of has " + std::to_string(scene.object_of.size()) + " entries for " +
-                                              std::to_string(scene.mesh.triangles.size()) + " triangles");
-  }
-  for (std::uint32_t object : scene.object_of) {
-    if (object >= objects)
-      refuse(ErrorCode::index_out_of_range, "object index " + std::to_string(object) + " is out of range");
-  }
-  for (const Triangle& t : scene.mesh.triangles) {
-    for (std::uint32_t corner : t) {
-      if (corner >= scene.mesh.vertices.size())
-        refuse(ErrorCode::index_out_of_range, "vertex index " + std::to_string(corner) + " is out of range");
-    }
-  }
-  for (std::size_t i = 0; i < scene.mesh.vertices.size(); ++i) {
-    const Vec3& v = scene.mesh.vertices[i];
-    if (!v.allFinite())
-      refuse(ErrorCode::coordinate_not_finite, "vertex " + std::to_string(i) + " is not finite", "give three numbers");
-    if (v.cwiseAbs().maxCoeff() > internal::core::kMaxCoordinate) {
-      refuse(ErrorCode::coordinate_too_large,
-             "vertex " + std::to_string(i) + " is more than " +
-                 std::to_string(static_cast<long>(internal::core::kMaxCoordinate / 1000)) + " km from the origin",
-             "give coordinates in metres");
-    }
-  }
-}
-
 void check_polygon(const PreparedScene::Data& data, std::uint32_t index) {
   if (index < data.polygon_count()) return;
   throw Error(
@@ -275,7 +243,7 @@ void check_polygon(const PreparedScene::Data& data, std::uint32_t index) {
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
-  check(scene);
+  internal::scene::check_scene(scene);
   auto data = std::make_shared<Data>();
   data->objects = scene.objects;
   if (data->objects.empty()) data->objects.push_back({"scene", "", ObjectKind::other});

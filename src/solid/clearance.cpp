@@ -34,12 +34,14 @@ Box box_of(const std::vector<Vec3>& points) {
   return box;
 }
 
-/// Preparing a scene drops triangles that hide nothing: those that are no wider than rounding. As obstacles they count.
-bool is_thin(const std::array<Vec3, 3>& corners) {
-  constexpr double kThinnest = 1e-6;  // of the longest side
+/// Preparing a scene drops triangles that hide nothing: those no wider than rounding, of their longest side or of the
+/// scene. As obstacles they count. `size`: of the largest coordinate.
+bool is_thin(const std::array<Vec3, 3>& corners, double size) {
+  constexpr double kThinnest = 1e-6;     // of the longest side
+  constexpr double kSmallest = 0x1p-46;  // of the scene, which is at most twice its largest coordinate
   const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0], w = corners[2] - corners[1];
-  const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-  return !(u.cross(v).norm() > kThinnest * longest);
+  const double longest = std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()}));
+  return !(u.cross(v).norm() > std::max(kThinnest * longest, kSmallest * size) * longest);
 }
 
 using Polygon = std::vector<Vec3>;
@@ -120,15 +122,22 @@ Solid unite_neighbours(std::span<Solid> solids, const core::ProgressReporter& pr
 /// Convex polygons about `origin` that hold the triangles which reach into `near`, a box of the scene frame.
 std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const Vec3& origin,
                                    const core::ProgressReporter& progress) {
-  std::vector<Polygon> polygons;
-  Scene scene;
-  scene.objects.emplace_back();
+  std::vector<std::array<Vec3, 3>> triangles;
+  double size = 0;
   for (std::size_t t = 0; t < obstacles.triangles.size(); ++t) {
     progress.tick();
     if (!meet(core::triangle_box(obstacles, t), near)) continue;
-    std::array<Vec3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = obstacles.vertices[obstacles.triangles[t][k]] - origin;
-    if (is_thin(corners)) {
+    std::array<Vec3, 3>& corners = triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = obstacles.vertices[obstacles.triangles[t][k]] - origin;
+      size = std::max(size, corners[k].cwiseAbs().maxCoeff());
+    }
+  }
+  std::vector<Polygon> polygons;
+  Scene scene;
+  scene.objects.emplace_back();
+  for (const std::array<Vec3, 3>& corners : triangles) {
+    if (is_thin(corners, size)) {
       polygons.emplace_back(corners.begin(), corners.end());
       continue;
     }
