@@ -52,6 +52,22 @@ TEST(ProveLimits, ABoxToStayOutOf) {
   }
 }
 
+TEST(ProveLimits, AZoneWithFarCorners) {
+  const World world;
+  for (const double far : {1e4, 1e6, 1e8, 1e9}) {
+    SCOPED_TRACE(far);
+    Navigation navigation;
+    navigation.keep_in = {zone_of({{-7, -7}, {far, -far}, {far, far}, {-far, far}}, -50, 50)};
+    const Volume cut = cut_to_navigation(testing::make_hemisphere(Vec3(0, 0, 1), 30, 16, 8), navigation);
+    const ProofVerdict within = claim_of(world, navigation, cut.mesh).verdict;
+    EXPECT_EQ(within, far < 5e8 ? ProofVerdict::proved : ProofVerdict::not_proved);
+    navigation.keep_out = navigation.keep_in;
+    navigation.keep_in.clear();
+    const Volume rest = cut_to_navigation(testing::make_hemisphere(Vec3(0, 0, 1), 30, 16, 8), navigation);
+    EXPECT_EQ(claim_of(world, navigation, rest.mesh).verdict, ProofVerdict::proved);
+  }
+}
+
 /// No facet meets the box, as it is all inside.
 TEST(ProveLimits, ABoxToStayOutOfInTheMiddle) {
   for (const World& world : worlds()) {

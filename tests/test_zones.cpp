@@ -110,6 +110,37 @@ TEST(Zones, WithoutBoundsTheyReachAsFarAsTheVolume) {
   EXPECT_EQ(measure(half.mesh).bounds.max.x(), 0);
 }
 
+/// On which side of the line from a to b, in metres; negative: right.
+double left_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Vec3& p) {
+  const Eigen::Matrix<long double, 2, 1> along = b.cast<long double>() - a.cast<long double>();
+  const Eigen::Vector2d from = p.head<2>() - (a.norm() < b.norm() ? a : b);
+  return static_cast<double>((along.x() * from.y() - along.y() * from.x()) / along.norm());
+}
+
+// A side that ends so far away would move by the rounding of that corner, 1e-7 m.
+TEST(Zones, FarCornersMoveNoSide) {
+  const Volume dome = make_hemisphere(Vec3::Zero(), 30, 16, 8);
+  for (const double far : {1e3, 1e6, 1e7, 1e8, 1e9}) {
+    SCOPED_TRACE(far);
+    const Zone::Ring ring = {{-7, -7}, {far, -0.37 * far}, {far, far}, {-0.83 * far, far}};
+    Navigation navigation;
+    navigation.keep_in = {zone_of(ring, -kInfinity, kInfinity)};
+    const Volume within = cut_to_navigation(dome, navigation);
+    expect_closed(within);
+    for (const Vec3& v : within.mesh.vertices) {
+      EXPECT_GT(left_of(ring[0], ring[1], v), -1e-12) << v.transpose();
+      EXPECT_GT(left_of(ring[3], ring[0], v), -1e-12) << v.transpose();
+    }
+    navigation.keep_out = navigation.keep_in;
+    navigation.keep_in.clear();
+    const Volume beside = cut_to_navigation(dome, navigation);
+    expect_closed(beside);
+    for (const Vec3& v : beside.mesh.vertices) {
+      EXPECT_LT(std::min(left_of(ring[0], ring[1], v), left_of(ring[3], ring[0], v)), 1e-12) << v.transpose();
+    }
+  }
+}
+
 // Corners far away: what lies about the volume is cut out of the zone first, without new sides in it.
 TEST(Zones, MayReachFarBeyondTheVolume) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 100, 32, 8);
@@ -391,6 +422,8 @@ TEST(Zones, RefusesWhatIsNoPolygon) {
   refuse({{0, 0}, {10, 0}}, {}, ErrorCode::zone_not_simple);
   refuse({{0, 0}, {10, 0}, {10, 0}, {0, 10}}, {}, ErrorCode::zone_not_simple);  // a corner twice
   refuse({{0, 0}, {10, 0}, {0, NAN}}, {}, ErrorCode::coordinate_not_finite);
+  refuse({{0, 0}, {10, 0}, {0, 1e155}}, {}, ErrorCode::coordinate_too_large);
+  refuse({{0, 0}, {10, 0}, {0, 2e9}}, {}, ErrorCode::coordinate_too_large);
   refuse(sound, {{{5, 5}, {15, 5}, {5, 6}}}, ErrorCode::zone_not_simple);                           // crosses
   refuse(sound, {{{20, 5}, {25, 5}, {20, 6}}}, ErrorCode::zone_not_simple);                         // outside
   refuse(sound, {{{1, 1}, {9, 1}, {9, 9}}, {{7, 2}, {8, 2}, {8, 3}}}, ErrorCode::zone_not_simple);  // in a hole

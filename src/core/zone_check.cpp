@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/input.h"
+#include "core/read_limits.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -91,6 +92,12 @@ std::optional<LimitFault> fault_of_ring(const Zone::Ring& ring, std::size_t numb
     if (!ring[i].allFinite()) {
       return LimitFault{ErrorCode::coordinate_not_finite,
                         "corner " + std::to_string(i) + " of " + ring_text(number) + " is not finite", "correct it"};
+    }
+    // Products of coordinates beyond that would not be numbers at some scale.
+    if (ring[i].cwiseAbs().maxCoeff() > kMaxCoordinate) {
+      return LimitFault{ErrorCode::coordinate_too_large,
+                        "corner " + std::to_string(i) + " of " + ring_text(number) + " is farther than 1,000,000 km",
+                        "give coordinates in metres"};
     }
     const std::size_t next = (i + 1) % ring.size();
     if (ring[i] == ring[next]) {

@@ -61,7 +61,12 @@ void Prism::add_ring(const Zone::Ring& ring, const Vec3& origin) {
 }
 
 void Prism::finish() {
-  for (const Side& side : rings_.front()) box_.extend(Vec3(side.from.x(), side.from.y(), low_));
+  for (const Side& side : rings_.front()) {
+    box_.extend(Vec3(side.from.x(), side.from.y(), low_));
+    // Differences, products with a normal and sums lose less than 8 roundings of the largest of the numbers in them.
+    const double largest = side.from.cwiseAbs().maxCoeff();
+    rounding_m_ = std::max(rounding_m_, 8 * std::numeric_limits<double>::epsilon() * largest);
+  }
   box_.extend(Vec3(box_.min.x(), box_.min.y(), high_));
 }
 

@@ -19,6 +19,9 @@ class Prism {
   double high() const { return high_; }
   const Box& box() const { return box_; }
 
+  /// By how much numbers can be wrong about which side of it a point lies on: corners may be far away.
+  double rounding_m() const { return rounding_m_; }
+
   /// Metres to its nearest side, in plan; negative outside.
   double depth_in_plan(const Vec3& point) const;
   bool holds_in_plan(const Vec3& point) const;
@@ -50,6 +53,7 @@ class Prism {
 
   std::vector<std::vector<Side>> rings_;
   double low_, high_;
+  double rounding_m_ = 0;
   Box box_;
 };
 

@@ -4,6 +4,7 @@
 #include "solid/zone_rings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -11,6 +12,47 @@ namespace vantage::internal::solid {
 namespace {
 
 using Point = Eigen::Vector2d;
+
+/// The sum of two doubles, of which the second one is the rounding of the first: Dekker, A floating-point technique for
+/// extending the available precision (1971). Corners may be a million times as far away as the volume is large, and
+/// with doubles alone a side between them would move by what they are rounded by.
+struct Precise {
+  double value, rest = 0;
+};
+
+Precise renormalised(double value, double rest) {
+  const double sum = value + rest;
+  return {sum, rest - (sum - value)};
+}
+
+Precise operator+(const Precise& a, const Precise& b) {
+  const double sum = a.value + b.value, of_b = sum - a.value;
+  const double rounding = (a.value - (sum - of_b)) + (b.value - of_b);
+  return renormalised(sum, rounding + a.rest + b.rest);
+}
+Precise operator-(const Precise& a) { return {-a.value, -a.rest}; }
+Precise operator-(const Precise& a, const Precise& b) { return a + (-b); }
+
+Precise operator*(const Precise& a, const Precise& b) {
+  const auto halves = [](double x) {
+    const double high = 134217729.0 * x, kept = high - (high - x);  // 2^27 + 1
+    return std::pair(kept, x - kept);
+  };
+  const auto [a_high, a_low] = halves(a.value);
+  const auto [b_high, b_low] = halves(b.value);
+  const double product = a.value * b.value;
+  const double rounding = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+  return renormalised(product, rounding + (a.value * b.rest + a.rest * b.value));
+}
+Precise operator/(const Precise& a, const Precise& b) {
+  const double first = a.value / b.value;
+  const Precise left = a - Precise{first} * b;
+  return renormalised(first, left.value / b.value);
+}
+bool operator<=(const Precise& a, double b) { return (a - Precise{b}).value <= 0; }
+bool operator>=(const Precise& a, double b) { return (a - Precise{b}).value >= 0; }
+
+using PrecisePoint = std::array<Precise, 2>;
 
 /// Twice the signed area, about the first corner: far from the origin it would drown in rounding.
 double turning(const Zone::Ring& ring) {
@@ -23,25 +65,42 @@ double turning(const Zone::Ring& ring) {
 }
 
 /// The point of a side with this coordinate; the same for both directions of the side.
-Point crossing(const Point& a, const Point& b, int axis, double at) {
-  const bool forward = a[axis] < b[axis];
-  const Point &low = forward ? a : b, &high = forward ? b : a;
-  Point p = low + (high - low) * ((at - low[axis]) / (high[axis] - low[axis]));
-  p[axis] = at;
+PrecisePoint crossing(const PrecisePoint& a, const PrecisePoint& b, std::size_t axis, double at) {
+  const bool is_forward = a[axis] <= at;
+  const PrecisePoint &low = is_forward ? a : b, &high = is_forward ? b : a;
+  const std::size_t other = 1 - axis;
+  const Precise share = (Precise{at} - low[axis]) / (high[axis] - low[axis]);
+  PrecisePoint p;
+  p[axis] = {at};
+  p[other] = low[other] + (high[other] - low[other]) * share;
   return p;
 }
 
 /// Keeps what has the coordinate `axis` up to `at`, or, with `sign` -1, from there on.
-Zone::Ring cut_off(const Zone::Ring& ring, int axis, double at, double sign) {
-  const auto is_kept = [&](const Point& p) { return sign * (p[axis] - at) <= 0; };
-  Zone::Ring result;
-  const auto add = [&](const Point& p) {
-    if (result.empty() || result.back() != p) result.push_back(p);
-  };
+std::vector<PrecisePoint> cut_off(const std::vector<PrecisePoint>& ring, std::size_t axis, double at, int sign) {
+  const auto is_kept = [&](const PrecisePoint& p) { return sign > 0 ? p[axis] <= at : p[axis] >= at; };
+  std::vector<PrecisePoint> result;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point &from = ring[i], &to = ring[(i + 1) % ring.size()];
-    if (is_kept(from)) add(from);
-    if (is_kept(from) != is_kept(to)) add(crossing(from, to, axis, at));
+    const PrecisePoint &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    if (is_kept(from)) result.push_back(from);
+    if (is_kept(from) != is_kept(to)) result.push_back(crossing(from, to, axis, at));
+  }
+  return result;
+}
+
+/// Within the rectangle, about `origin`.
+Zone::Ring cut_to(const Zone::Ring& ring, const Box& bounds, const Vec3& origin) {
+  std::vector<PrecisePoint> points;
+  for (const Point& p : ring) points.push_back({Precise{p.x()}, Precise{p.y()}});
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto along = static_cast<Eigen::Index>(axis);
+    points = cut_off(points, axis, bounds.max[along], 1);
+    points = cut_off(points, axis, bounds.min[along], -1);
+  }
+  Zone::Ring result;
+  for (const PrecisePoint& p : points) {
+    const Point local((p[0] - Precise{origin.x()}).value, (p[1] - Precise{origin.y()}).value);
+    if (result.empty() || result.back() != local) result.push_back(local);
   }
   while (result.size() > 1 && result.front() == result.back()) result.pop_back();
   return result;
@@ -51,14 +110,9 @@ Zone::Ring cut_off(const Zone::Ring& ring, int axis, double at, double sign) {
 
 ZoneRings rings_within(const Zone& zone, const Box& bounds, const Vec3& origin) {
   ZoneRings rings;
-  const Box local{bounds.min - origin, bounds.max - origin};
   const auto add = [&](Zone::Ring ring, bool counter_clockwise) {
     if ((turning(ring) > 0) != counter_clockwise) std::reverse(ring.begin(), ring.end());
-    for (Point& p : ring) p -= origin.head<2>();
-    for (int axis = 0; axis < 2; ++axis) {
-      ring = cut_off(ring, axis, local.max[axis], 1);
-      ring = cut_off(ring, axis, local.min[axis], -1);
-    }
+    ring = cut_to(ring, bounds, origin);
     const bool has_area = ring.size() >= 3 && turning(ring) != 0;
     if (has_area) rings.push_back(std::move(ring));
     return has_area;

@@ -29,8 +29,12 @@ ClaimProof prove_clear_of(const LimitedVolume& volume, const Prism& prism, const
   const auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& corners, FacetFinding& finding) {
         const ConvexPolygon facet = polygon_of(corners);
-        const double plate = volume.tolerance_of(corners) / 2;
         if (are_apart(box_of(facet), prism.box(), 0)) return;
+        const double plate = volume.tolerance_of(corners) / 2;
+        if (!(prism.rounding_m() < plate)) {
+          finding.is_open = true;
+          return;
+        }
         for (const ConvexPolygon& piece : prism.divide(facet, -plate, plate).inside) {
           finding.is_open = true;
           const Vec3 middle = middle_of(piece);
@@ -61,6 +65,11 @@ struct Kept {
     for (const Prism& prism : prisms) least = std::min(least, -prism.depth(point));
     return least;
   }
+  double rounding_m() const {
+    double most = 0;
+    for (const Prism& prism : prisms) most = std::max(most, prism.rounding_m());
+    return most;
+  }
 };
 
 /// Straight up from a point of a hollow there is a piece, and straight down as well. Shallower ones than the least
@@ -84,6 +93,10 @@ ClaimProof prove_covered(const LimitedVolume& volume, const Kept& kept, const co
   const auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& corners, FacetFinding& finding) {
         const double plate = volume.tolerance_of(corners) / 2;
+        if (!(kept.rounding_m() < plate)) {
+          finding.is_open = true;
+          return;
+        }
         std::vector<ConvexPolygon> left = {polygon_of(corners)};
         for (const Prism& prism : kept.prisms) {
           std::vector<ConvexPolygon> still;
@@ -141,14 +154,12 @@ ClaimProof prove_limit<Limit::keep_out>(const std::vector<Zone>& zones, const Cl
   for (std::size_t i = 0; i < zones.size(); ++i) {
     const Zone& zone = zones[i];
     const std::string what = zone_name(zones, i);
-    if (!has_terrain(zone)) {
-      add(prove_clear_of(volume, Prism(zone, volume.origin()), what, progress));
-      continue;
-    }
+    ClaimProof claim = prove_clear_of(volume, Prism(zone, volume.origin()), what, progress);
     // It takes away no more than without the heights.
-    const ClaimProof claim = prove_clear_of(volume, Prism(zone, volume.origin()), what, progress);
-    add(claim.verdict == ProofVerdict::proved ? claim
-                                              : not_proved("keep_out", what + " is bounded by heights above terrain"));
+    if (has_terrain(zone) && claim.verdict != ProofVerdict::proved) {
+      claim = not_proved("keep_out", what + " is bounded by heights above terrain");
+    }
+    add(claim);
   }
   return *all;
 }
