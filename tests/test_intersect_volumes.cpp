@@ -7,6 +7,7 @@
 #include "support/mesh_probe.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -30,6 +31,14 @@ PreparedScene courtyard() {
 
 Volume volume_of(const PreparedScene& scene, const std::vector<Vec3>& polygon) {
   return compute_visibility(PreparedTarget(scene, target_of(polygon), {kRange}), {1e-3, 0});
+}
+
+TEST(IntersectVolumes, AMeshHasItsOriginInItsMiddle) {
+  const Mesh box = testing::make_box_mesh({10, 20, 30}, {12, 24, 36});
+  const Volume volume = volume_of_mesh(box, "hall");
+  EXPECT_EQ(volume.frame.origin, Vec3(11, 22, 33));
+  EXPECT_EQ(volume_of_mesh({}, "none").frame.origin, Vec3::Zero());
+  EXPECT_EQ(measure(intersect_volumes({volume, volume}).mesh).bounds.max, Vec3(12, 24, 36));
 }
 
 TEST(IntersectVolumes, HalvesMakeTheWhole) {

@@ -58,8 +58,9 @@ struct VANTAGE_API Target {
 
 /// A checked target with its frame. Viewpoints have local z > 0, but for a point that is seen from all sides.
 struct TargetFrame {
-  Vec3 origin;                  ///< strictly inside the polygon, near its smallest enclosing circle's centre; the point
-  Vec3 axis_u, axis_v, normal;  ///< right-handed orthonormal; `normal` points to the front
+  Vec3 origin = Vec3::Zero();  ///< strictly inside the polygon, near its smallest enclosing circle's centre; the point
+  Vec3 axis_u = Vec3::UnitX(), axis_v = Vec3::UnitY(), normal = Vec3::UnitZ();  ///< right-handed orthonormal; `normal`
+                                                                                ///< points to the front
   std::vector<Eigen::Vector2d> polygon;  ///< corners in (u, v) about `origin`, metres, counter-clockwise seen from the
                                          ///< front; of a point: (0, 0) alone
   double enclosing_radius_m = 0.0;       ///< of the smallest enclosing circle; 0 for a point

@@ -84,7 +84,7 @@ struct VolumeProvenance {
 };
 
 /// In Volume::polygon_of: none.
-constexpr std::uint32_t kNoPolygon = 0xFFFFFFFF;
+inline constexpr std::uint32_t kNoPolygon = 0xFFFFFFFF;
 
 /// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts, and without a
 /// VisibleShare, it is one piece of genus 0 and star-shaped about every point of the target: the segment from any point
@@ -104,7 +104,8 @@ struct Volume {
 
   double tolerance_m = 0;      ///< bound on how far range facets lie inside the true range region
   std::vector<double> lift_m;  ///< how far each part of the target was raised: PreparedTarget::lift_m
-  TargetFrame frame;           ///< of the target's first part as used, lift included
+  TargetFrame frame;           ///< of the target's first part as used, lift included; of a mesh that was given or read
+                               ///< the origin alone: the middle of its box
   std::vector<Warning> notes;  ///< what to know before relying on it: the target seems to be under the ground.
                                ///< run_mission adds its own: the map ends within the range
   std::optional<Georeference> georeference;    ///< of the scene; run_mission fills it in, and writers write it
@@ -236,7 +237,7 @@ VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesyst
 /// self-intersections, O(m log m) in its triangles. The clearance takes as many booleans as there are obstacles near
 /// what the other limits leave: more than `work_limit` allows is refused before they begin.
 ///
-/// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together;
+/// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together, unless it is empty;
 /// Error(work_too_large); Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
 VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
                                      double work_limit = kWorkLimit);
@@ -252,13 +253,12 @@ VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& tar
                                  const Progress& progress = {}, double work_limit = kWorkLimit);
 
 /// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
-/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
-/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
-/// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
-/// Outcome::no_common_view.
-/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(work_too_large);
-/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails. Cost: a boolean operation per
-/// volume, O(n log n) in the facets.
+/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. The tolerance
+/// is the largest of the volumes', lifts are those of all, one after the other, the frame is the first one's, seconds
+/// and counts are sums, notes are those of all. Where one of the volumes is empty, so is the result, with its outcome
+/// and reason; where they have nothing in common, Outcome::no_common_view. Throws Error(input) for no volumes and for
+/// one whose arrays do not fit together; Error(work_too_large); Error(cancelled) when told to stop; Error(internal)
+/// when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
 VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
                                      double work_limit = kWorkLimit);
 

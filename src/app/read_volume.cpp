@@ -8,6 +8,7 @@
 #include "app/navigation_meshes.h"
 #include "common/input.h"
 #include "common/output.h"
+#include "core/causes.h"
 #include "core/orientation.h"
 #include "geo/local_frame.h"
 #include "io/output_formats.h"
@@ -165,6 +166,7 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
                               file.string() + " was changed since vantage wrote it: its mesh is not the one it names"});
     }
   }
+  result.volume.frame.origin = internal::core::middle_of(result.volume.mesh);
   if (!frame || !result.volume.georeference) return result;
   check_near(*result.volume.georeference, *frame, "the mesh", file.string(),
              "give the mesh that goes with the other input");
@@ -174,6 +176,7 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
          file.string() +
              " lies about another origin on the earth: it was moved into the frame (the same map differs by a tenth of "
              "a millimetre from one frame to another, and shadows by more)"});
+    result.volume.frame.origin = internal::core::middle_of(result.volume.mesh);
   }
   if (is_on_another_level(*result.volume.georeference, *frame)) {
     result.notes.push_back({WarningCode::heights_differ, "the heights of " + file.string() + " are " +

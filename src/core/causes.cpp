@@ -15,6 +15,7 @@ Volume volume_of_mesh(Mesh mesh, const std::string& cause) {
   Volume volume;
   volume.causes = {{CauseKind::scene, cause, surface_area(mesh)}};
   volume.cause_of.assign(mesh.triangles.size(), 0);
+  volume.frame.origin = internal::core::middle_of(mesh);
   volume.mesh = std::move(mesh);
   return volume;
 }
@@ -22,6 +23,11 @@ Volume volume_of_mesh(Mesh mesh, const std::string& cause) {
 }  // namespace vantage
 
 namespace vantage::internal::core {
+
+Vec3 middle_of(const Mesh& mesh) {
+  const Box box = bounding_box(mesh);
+  return box.empty() ? Vec3(Vec3::Zero()) : Vec3((box.min + box.max) / 2);
+}
 
 std::uint32_t CauseList::add(const Cause& cause) {
   const auto next = static_cast<std::uint32_t>(causes_.size());

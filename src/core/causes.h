@@ -26,6 +26,9 @@ class CauseList {
   std::map<std::tuple<CauseKind, std::optional<std::uint32_t>, std::string>, std::uint32_t> index_;
 };
 
+/// Of its box; 0 of a mesh without triangles. The origin of a volume that has no target.
+Vec3 middle_of(const Mesh& mesh);
+
 /// Measures the causes' areas and drops those that no triangle has. `cause_of`: per triangle of `mesh`, an index into
 /// `causes`; numbered anew.
 void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of, std::vector<Cause>& causes);
