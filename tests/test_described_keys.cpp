@@ -179,7 +179,20 @@ TEST(Bounds, TellWhichNumbersTheyTake) {
   EXPECT_FALSE(descent.hold(-90));
   EXPECT_TRUE(descent.hold(-0.1));
   EXPECT_EQ((Bounds{0.01, 1e5}).text(), "0.01 to 100,000");
-  EXPECT_TRUE((Bounds{1e-9, 604'800, Unit::seconds, "", "a week"}).text().ends_with("604,800, a week"));
+  EXPECT_EQ(share.text(), "0 or more and < 1");
+  EXPECT_EQ((Bounds{0, 604'800, Unit::seconds, "", "a week", Bounds::Ends::without_least}).text(),
+            "> 0, at most 604,800, a week");
+  const auto problem_of = [](const Bounds& bounds, double value) {
+    try {
+      check_within(bounds, value, "key");
+    } catch (const Error& error) {
+      return error.problem();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(problem_of(share, 1), "key must be 0 or more, and less than 1, not 1");
+  EXPECT_EQ(problem_of({0, 90, Unit::degrees, "", "", Bounds::Ends::neither}, 90),
+            "key must be greater than 0 and less than 90 degrees, not 90");
   EXPECT_EQ((Bounds{0, 1000}).text(), "0 to 1000");
   const Bounds length = {0, internal::request::kLongest, Unit::metres, "", "", Bounds::Ends::without_least};
   EXPECT_FALSE(length.hold(0));

@@ -369,6 +369,7 @@ TEST(Verify, RefusesBadInput) {
             ErrorCode::index_out_of_range);
   EXPECT_EQ(refused([](Example&, VerifyOptions& o) { o.depth_tolerance = -1; }), ErrorCode::value_out_of_range);
   EXPECT_EQ(refused([](Example&, VerifyOptions& o) { o.target_samples = -1; }), ErrorCode::value_out_of_range);
+  EXPECT_EQ(refused([](Example&, VerifyOptions& o) { o.points = 0; }), ErrorCode::value_out_of_range);
 }
 
 }  // namespace

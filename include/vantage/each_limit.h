@@ -1,5 +1,4 @@
-// All limits of a request, one after the other. What has to treat every limit goes through them here: no limit that is
-// added can be forgotten.
+// All limits of a request, one after the other. What has to treat every limit goes through them here.
 #pragma once
 
 #include <string_view>
@@ -68,7 +67,7 @@ using LimitIs = std::integral_constant<Limit, kLimit>;
 /// Calls `visit(LimitIs<...>, value)` for each limit that is given, in the order of Limit.
 template <typename Visit>
 void each_limit(const Navigation& navigation, Visit&& visit) {
-  // All members are named, here and below: a limit that is added does not compile before it is visited.
+  // All members are named, here and below: one that is added does not compile before it is. Visit it then.
   const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
   if (altitude) visit(LimitIs<Limit::altitude>{}, *altitude);
   if (above_ground) visit(LimitIs<Limit::above_ground>{}, *above_ground);

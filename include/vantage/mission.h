@@ -338,7 +338,8 @@ struct RunOptions {
   int threads = 0;        ///< at most; 0: as many as the machine has
   StageSink stages = {};  ///< those of the spheres method
   /// The mission's scene (Mission::scene), where it is prepared already, and its scene_hash: to run many missions in
-  /// one scene. What is not given is made anew in each run.
+  /// one scene. What is not given is made anew in each run. Nothing tests that they are of this scene: with another
+  /// one the volume claims what this scene hides.
   std::optional<PreparedScene> prepared = {};
   std::string scene_hash = {};
   /// For runs of a mission that changes a little from one to the next, as while it is edited: what is kept of the last

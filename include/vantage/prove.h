@@ -151,7 +151,7 @@ struct HiddenView {
 
 /// One of the things that a volume claims besides sight.
 struct ClaimProof {
-  std::string name;  ///< "sight", "range", "front", or a limit's name as in vantage/query.h
+  std::string name;  ///< "sight", "range", "front", or name_of(Limit)
   ProofVerdict verdict = ProofVerdict::not_proved;
   std::string text;  ///< by what, why not, or where it is wrong
 
@@ -224,7 +224,7 @@ struct ProofReport {
   std::optional<MaximalProof> maximal;     ///< where it was asked for
   std::optional<Certificate> certificate;  ///< where sight, range and front are proved and nothing is wrong
 
-  /// The worst of the claims.
+  /// The worst of the claims; not_proved without any.
   VANTAGE_API ProofVerdict verdict() const;
 };
 

@@ -18,8 +18,9 @@
 namespace vantage {
 
 struct VerifyOptions {
-  std::size_t points = 20000;  ///< viewpoints tried: half near the boundary, half over the volume and its surroundings
-  int target_samples = 64;     ///< points of the target looked at besides its vertices and edge points
+  std::size_t points =
+      20000;  ///< > 0; viewpoints tried: half near the boundary, half over the volume and its surroundings
+  int target_samples = 64;  ///< points of the target looked at besides its vertices and edge points
   std::uint64_t seed = 1;
   double depth_tolerance = 1e-6;  ///< a point counts as claimed wrongly, or wrongly not, when it lies deeper on the
                                   ///< wrong side of the surface than this times its distance to the target's centre

@@ -13,8 +13,8 @@ namespace vantage::internal::exact {
 ///
 /// Proof. Square |b - p| < t + e - d: with the angle a between the two directions, 1 - cos a < e (2 (t - d) + e) / (2 t
 /// d). If the foot of b on the line lies between A and p, the distance is d sin a, and its square at most
-/// 2 d^2 (1 - cos a) < e d (2 (t - d) + e) / t. For d >= e / 2 that grows with t: t = D gives R(d). If the foot is not
-/// beyond A, 1 - cos a >= 1, and the distance is d: d^2 <= d^2 (1 - cos a) is half of that. If it is beyond p,
+/// 2 d^2 (1 - cos a) < e d (2 (t - d) + e) / t. For d >= e / 2 that grows with t: t = D gives R(d). If the foot is
+/// behind A, 1 - cos a >= 1, and the distance is d: d^2 <= d^2 (1 - cos a) is half of that. If it is beyond p,
 /// |b - p| <= t + e - |b|, and with h for the distance from the line h + sqrt(t^2 + h^2) <= t + e: |b - p| <= e. For
 /// d < e / 2 the distance is d at most, and R(d)^2 >= 2 e d > d^2.
 class ZoneRadius {

@@ -551,7 +551,7 @@ const char* name_of(ProofVerdict verdict) {
 }
 
 ProofVerdict ProofReport::verdict() const {
-  ProofVerdict worst = ProofVerdict::proved;
+  ProofVerdict worst = claims.empty() ? ProofVerdict::not_proved : ProofVerdict::proved;
   for (const ClaimProof& claim : claims) worst = std::max(worst, claim.verdict);
   return worst;
 }

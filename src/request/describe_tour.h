@@ -76,7 +76,8 @@ void describe(Settings& settings, Visit& visit) {
   visit.number({"time_limit", "or after so long",
                 "The search for the bound may take as long again. Preparing the scene and the volumes is not counted, "
                 "and a first flight is found all the same."},
-               time_limit_s, {1e-9, 604'800, Unit::seconds, "give seconds", "a week"}, Only{});
+               time_limit_s, {0, 604'800, Unit::seconds, "give seconds", "a week", Bounds::Ends::without_least},
+               Only{});
 }
 
 }  // namespace vantage::internal::request

@@ -39,8 +39,6 @@ std::string grouped(double value) {
   }
 }
 
-constexpr double kTiny = 1e-6;  ///< a bound below that only excludes 0
-
 }  // namespace
 
 std::string_view symbol_of(Unit unit) {
@@ -96,11 +94,12 @@ bool Bounds::hold(double value) const {
 }
 
 std::string Bounds::text() const {
-  const bool is_above_zero = (least > 0 && least < kTiny) || (least == 0 && !takes_least());
+  const bool is_above_zero = least == 0 && !takes_least();
   if (is_above_zero && most >= kLongest) return "> 0";
   const std::string end = grouped(most) + (most_word.empty() ? "" : ", " + std::string(most_word));
   if (is_above_zero) return (takes_most() ? "> 0, at most " : "> 0 and < ") + end;
-  return grouped(least) + " to " + end;
+  if (!takes_most()) return grouped(least) + " or more and < " + end;
+  return (takes_least() ? "" : "> ") + grouped(least) + " to " + end;
 }
 
 void check_within(const Bounds& bounds, double value, const std::string& where) {
@@ -109,9 +108,20 @@ void check_within(const Bounds& bounds, double value, const std::string& where) 
   if (bounds.least >= 0 && !(value > 0 && std::isfinite(value))) {
     range = bounds.least > 0 || !bounds.takes_least() ? "greater than 0" : "0 or more";
   } else {
-    range = "between " + plain(bounds.least) + " and " + plain(bounds.most);
-    if (bounds.ends == Bounds::Ends::without_most) {
-      range = plain(bounds.least) + " or more, and less than " + plain(bounds.most);
+    const std::string least = plain(bounds.least), most = plain(bounds.most);
+    switch (bounds.ends) {
+      case Bounds::Ends::both:
+        range = "between " + least + " and " + most;
+        break;
+      case Bounds::Ends::without_least:
+        range = "greater than " + least + ", and at most " + most;
+        break;
+      case Bounds::Ends::without_most:
+        range = least + " or more, and less than " + most;
+        break;
+      case Bounds::Ends::neither:
+        range = "greater than " + least + " and less than " + most;
+        break;
     }
     if (bounds.unit != Unit::none) range.append(" ").append(words_of(bounds.unit));
     if (!bounds.most_word.empty()) range.append(", ").append(bounds.most_word);

@@ -339,6 +339,7 @@ void check_arguments(const VerifyOptions& options) {
   require(std::isfinite(options.tolerance_m) && options.tolerance_m >= 0, "the tolerance is negative",
           "verify tolerance");
   require(std::isfinite(options.rounding_m) && options.rounding_m >= 0, "the rounding is negative", "verify rounding");
+  require(options.points > 0, "there are no viewpoints to try", "verify points");
   require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
 }
 
