@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/atomic_file.h"
+#include "support/formats.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -193,13 +194,13 @@ TEST(AtomicFile, AFileThatCannotGrowLeavesTheOldOne) {
 TEST(AtomicFile, EveryFormatLeavesTheOldFileWhenItCannotGrow) {
   const TemporaryDirectory directory;
   const Volume volume = vantage::testing::make_hemisphere(Vec3::Zero(), 100, 100, 50);
-  for (const std::string name : {"v.ply", "v.obj", "v.stl", "v.glb"}) {
+  for (const std::string& name : vantage::testing::in_each_format("v")) {
     write_bytes(directory / name, "old");
     const FileSizeLimit limit(20000);
     expect_error([&] { write_volume(volume, directory / name); }, ErrorCode::output_unwritable, name);
     EXPECT_EQ(read_bytes(directory / name), "old") << name;
   }
-  EXPECT_EQ(directory.names().size(), 4u);
+  EXPECT_EQ(directory.names().size(), known_formats().size());
 }
 
 TEST(AtomicFile, AFullDiskLeavesTheOldFile) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "support/formats.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/mission.h"
@@ -26,7 +27,7 @@ class BothSidesMission : public ::testing::Test {
     const MeshMeasures measures = measure(volume.mesh);
     EXPECT_TRUE(measures.closed && measures.oriented);
     EXPECT_GT(measures.volume_m3, 0);
-    for (const char* name : {"v.ply", "v.obj", "v.glb", "v.stl"}) {
+    for (const std::string& name : testing::in_each_format("v")) {
       write_volume(volume, folder_ / name);
       EXPECT_EQ(find_open_edges(read_volume(folder_ / name).volume.mesh).count, 0U) << name;
     }

@@ -2,6 +2,7 @@
 #include <array>
 #include <csignal>
 
+#include "common/output.h"
 #include "support/cli_fixture.h"
 #include "vantage/version.h"
 
@@ -142,7 +143,7 @@ TEST_F(CliUsage, AMissionFromStandardInput) {
 }
 
 TEST_F(CliUsage, AVolumeToStandardOutput) {
-  for (const std::string format : {"ply", "obj", "stl", "glb"}) {
+  for (const std::string& format : format_words()) {
     output_of({"compute", "mission.yaml", "-q", "-o", "v." + format});
     const auto before = files();
     EXPECT_TRUE(output_of({"compute", "mission.yaml", "-q", "-o", "-", "--format", format}) ==

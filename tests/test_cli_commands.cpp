@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "support/cli_fixture.h"
+#include "support/formats.h"
 #include "vantage/geometry.h"
 
 namespace vantage::testing {
@@ -211,8 +212,10 @@ TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
 }
 
 TEST_F(CliVerify, PassesWhatWasComputed) {
-  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "-o", "v.obj", "-o", "v.stl", "-o", "v.glb"});
-  for (const char* name : {"v.ply", "v.obj", "v.stl", "v.glb"}) {
+  std::vector<std::string> compute = {"compute", "mission.yaml", "-q"};
+  for (const std::string& name : testing::in_each_format("v")) compute.insert(compute.end(), {"-o", name});
+  output_of(compute);
+  for (const std::string& name : testing::in_each_format("v")) {
     const ProgramRun result = run({"verify", "mission.yaml", name, "--points", "4000", "--json"});
     EXPECT_EQ(result.exit_code, 0) << name << result.err << result.out;
     const auto report = nlohmann::json::parse(result.out);

@@ -20,9 +20,9 @@
 #include "request/json_object.h"
 #include "request/key_lists.h"
 #include "support/key_table.h"
-#include "support/places.h"
 #include "support/random.h"
 #include "support/wording.h"
+#include "support/written_part.h"
 #include "vantage/mission.h"
 #include "vantage/mission_keys.h"
 
@@ -32,30 +32,7 @@ namespace {
 using internal::app::section_text;
 using internal::request::key_lists;
 using internal::request::kSection;
-
-bool is_written_anew() { return std::getenv("VANTAGE_UPDATE_GOLDEN") != nullptr; }
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ostringstream content;
-  content << std::ifstream(file).rdbuf();
-  return content.str();
-}
-
-/// What lies between two lines of a file. It is written anew with VANTAGE_UPDATE_GOLDEN=1.
-void expect_between(const std::string& file_name, const std::string& begin, const std::string& end,
-                    const std::string& expected) {
-  const std::filesystem::path file = testing::source_folder() / file_name;
-  std::string text = content_of(file);
-  const std::size_t at = text.find(begin);
-  ASSERT_NE(at, std::string::npos) << begin;
-  const std::size_t from = at + begin.size(), to = text.find(end, from);
-  ASSERT_NE(to, std::string::npos) << begin;
-  if (is_written_anew()) {
-    std::ofstream(file) << text.replace(from, to - from, expected);
-    return;
-  }
-  EXPECT_EQ(text.substr(from, to - from), expected) << "run it with VANTAGE_UPDATE_GOLDEN=1";
-}
+using testing::expect_between;
 
 TEST(DescribedKeys, AreDocumented) {
   std::vector<std::string> sections;

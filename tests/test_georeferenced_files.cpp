@@ -6,6 +6,7 @@
 #include "geo/local_frame.h"
 #include "io/georeference_text.h"
 #include "io/sidecar.h"
+#include "support/formats.h"
 #include "support/mesh_reading.h"
 #include "support/objects.h"
 #include "support/solids.h"
@@ -52,7 +53,7 @@ Volume one_volume() {
 TEST(Place, TravelsInScenes) {
   const TemporaryDirectory directory;
   Scene scene = one_box();
-  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.stl"}) {
+  for (const std::string& name : testing::in_each_format("a")) {
     scene.georeference = kPlace;
     write_scene(scene, directory / name);
     const Scene read = read_scene(directory / name);
@@ -68,7 +69,7 @@ TEST(Place, TravelsInVolumesAndReports) {
   const TemporaryDirectory directory;
   Volume volume = one_volume();
   volume.georeference = kPlace;
-  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.stl"}) {
+  for (const std::string& name : testing::in_each_format("a")) {
     write_volume(volume, directory / name);
     expect_same(read_scene(directory / name).georeference, kPlace);
   }
@@ -123,7 +124,7 @@ TEST(Place, NamesWhomTheDataIsFrom) {
   scene.georeference->attribution = kOpenStreetMapCredit;
   Volume volume = one_volume();
   volume.georeference = scene.georeference;
-  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.stl"}) {
+  for (const std::string& name : testing::in_each_format("a")) {
     write_scene(scene, directory / name);
     EXPECT_EQ(attribution_of(read_scene(directory / name)), kOpenStreetMapCredit) << name;
     write_volume(volume, directory / name);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "support/formats.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -76,7 +77,7 @@ TEST_F(LinkMission, TheHashTellsLinksApart) {
 TEST_F(LinkMission, FilesStateTheLink) {
   const Mission mission = resolve_mission(read("{max_range: 120, link: {frequency: 5.8, clear: 0.75}}"));
   const Result result = run_mission(mission);
-  for (const char* name : {"a.ply", "a.obj", "a.glb", "a.stl"}) {
+  for (const std::string& name : testing::in_each_format("a")) {
     SCOPED_TRACE(name);
     write_volume(result.volume, folder_ / name);
     const VolumeFile file = read_volume(folder_ / name);

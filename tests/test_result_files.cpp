@@ -13,6 +13,7 @@
 #include "common/output.h"
 #include "core/png_mark.h"
 #include "core/progress_reporter.h"
+#include "support/formats.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -221,7 +222,7 @@ TEST(ResultFiles, AFileThatVantageDidNotWriteIsNotReplacedByWhatLiesBesideAnOutp
 TEST(ResultFiles, WhatVantageWroteIsKnownByItsBeginning) {
   const TemporaryDirectory directory;
   const Volume volume = make_hemisphere(Vec3::Zero(), 100);
-  for (const char* const name : {"v.ply", "v.obj", "v.stl", "v.glb"}) {
+  for (const std::string& name : vantage::testing::in_each_format("v")) {
     write_bytes(directory / name, "mine");
     vantage::testing::expect_code([&] { check_derived_output(directory / name); }, ErrorCode::output_of_others, name);
     write_volume(volume, directory / name);
@@ -270,15 +271,15 @@ TEST(ResultFiles, WhatOnlyBeginsLikeAFileOfVantageIsOfOthers) {
                                   changed.name);
     EXPECT_EQ(read_bytes(directory / changed.name), own);
   }
-  for (const char* name : {"v.obj", "v.ply", "v.stl", "v.glb"}) {
-    write_changed({name, version, "vantage 12.0.345"});
+  for (const std::string& name : vantage::testing::in_each_format("v")) {
+    write_changed({name.c_str(), version, "vantage 12.0.345"});
     check_derived_output(directory / name);  // of another version
   }
   Scene scene;
   scene.mesh = volume.mesh;
   scene.object_of.assign(scene.mesh.triangles.size(), 0);
   scene.objects.resize(1);
-  for (const char* name : {"s.obj", "s.ply", "s.stl", "s.glb"}) {
+  for (const std::string& name : vantage::testing::in_each_format("s")) {
     write_scene(scene, directory / name);
     check_derived_output(directory / name);
   }

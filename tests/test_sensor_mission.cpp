@@ -8,6 +8,7 @@
 
 #include "app/mission_parser.h"
 #include "app/sensor_section.h"
+#include "support/formats.h"
 #include "support/internals.h"
 #include "support/scenes.h"
 #include "support/temporary_directory.h"
@@ -229,7 +230,7 @@ TEST(SensorMission, LimitsTravelInTheFile) {
   const Result result = run_mission(mission);
   ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
   const testing::TemporaryDirectory folder;
-  for (const char* const name : {"v.ply", "v.obj", "v.glb", "v.stl"}) {
+  for (const std::string& name : testing::in_each_format("v")) {
     SCOPED_TRACE(name);
     write_volume(result.volume, folder / name);
     const VolumeFile read = read_volume(folder / name);
@@ -258,7 +259,7 @@ TEST(SensorMission, AShareTravelsInTheFile) {
   const Result result = run_mission(mission);
   ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
   const testing::TemporaryDirectory folder;
-  for (const char* const name : {"v.ply", "v.obj", "v.glb", "v.stl"}) {
+  for (const std::string& name : testing::in_each_format("v")) {
     SCOPED_TRACE(name);
     write_volume(result.volume, folder / name);
     const VolumeFile read = read_volume(folder / name);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/formats.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -363,7 +364,7 @@ TEST(WriteVolume, EmptyVolumesMakeValidFiles) {
   const TemporaryDirectory directory;
   Volume volume;
   volume.outcome = Outcome::outside_limits;
-  for (const std::string name : {"v.ply", "v.obj", "v.stl", "v.glb"}) write_volume(volume, directory / name);
+  for (const std::string& name : testing::in_each_format("v")) write_volume(volume, directory / name);
   EXPECT_TRUE(parse_ply(read_bytes(directory / "v.ply")).mesh.empty());
   EXPECT_TRUE(parse_obj(read_bytes(directory / "v.obj")).mesh.empty());
   EXPECT_EQ(read_bytes(directory / "v.stl").size(), 84u);

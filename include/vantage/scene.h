@@ -137,8 +137,8 @@ struct SceneStatistics {
   Box bounds;                            ///< of the triangles that have an area; metres, scene frame
 };
 
-/// Writes a scene, in the scene frame; the format follows the extension. Written whole or not at all. Objects without
-/// triangles, and vertices that none uses, are not written.
+/// Writes a scene, in the scene frame; the format follows the extension: docs/command-line.md#formats. Written whole or
+/// not at all. Objects without triangles, and vertices that none uses, are not written.
 ///   .obj  an object ("o") for each object, double precision, metres, z up
 ///   .glb  a node and a mesh for each object; y up, as the specification demands. Positions are single precision about
 ///         an origin of the object's own: of one that is 100 m wide right to 4 um, wherever it lies

@@ -206,10 +206,10 @@ struct WrittenVolume {
       0;  ///< of the volume's facets, those that rounding turned over: narrower than the rounding
 };
 
-/// Writes the mesh; the format follows the extension. Written whole or not at all. Read back, with vertices in one
-/// place taken for one as readers do, every file is closed (each edge is run as often in one direction as in the other)
-/// and has no facet without area. Rounding cannot keep inside: where it moves the surface, by up to rounding_m, the
-/// file says so, and `vantage verify` allows that much.
+/// Writes the mesh; the format follows the extension: docs/command-line.md#formats lists them. Written whole or not at
+/// all. Read back, with vertices in one place taken for one as readers do, every file is closed (each edge is run as
+/// often in one direction as in the other) and has no facet without area. Rounding cannot keep inside: where it moves
+/// the surface, by up to rounding_m, the file says so, and `vantage verify` allows that much.
 ///   .ply  binary, little-endian, double coordinates in the scene frame, facet property `cause` (index) and the causes'
 ///         names in comments
 ///   .obj  a group per cause; the axes and the unit of the scene file: give Scene::up and Scene::scale (metres in one

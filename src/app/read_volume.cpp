@@ -135,7 +135,7 @@ double most_rounding(const std::filesystem::path& file, const Mesh& mesh) {
   const Grid grid(mesh);
   const double of_doubles = std::ldexp(grid.largest(), -53);
   if (!is_single) return kDoubles * of_doubles;
-  const bool is_local = format_extension(name) != ".stl";
+  const bool is_local = !format || format->is_local;
   const double coarsest = std::ldexp(is_local ? grid.extent() : grid.largest(), -23);
   return kSteps * std::min(grid.step_m, std::max(coarsest, 2 * of_doubles));
 }

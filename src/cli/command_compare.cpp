@@ -53,7 +53,7 @@ SceneReadOptions obj_options(const CompareArguments& options) {
   const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return is_obj(*f); });
   if (!has_obj && !(options.up.empty() && options.scale.empty())) {
     throw Error(ErrorCode::not_applicable, "--up and --scale are for OBJ files, and none is named", "command line",
-                "leave them out: PLY and STL are in the scene frame, and glTF is y up");
+                "leave them out: " + scene_frame_names_text() + " are in the scene frame, and glTF is y up");
   }
   SceneReadOptions result;
   if (options.up == "y") result.up = UpAxis::y;
@@ -169,7 +169,7 @@ void add_compare(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("A");
   command->add_option("b", options->file_b, "Another")->required()->option_text("B");
-  command->add_option("--only-a", options->only_a, "Write what only A claims: .ply, .obj, .stl or .glb")
+  command->add_option("--only-a", options->only_a, "Write what only A claims: " + extensions_text())
       ->option_text("FILE");
   command->add_option("--only-b", options->only_b, "Write what only B claims")->option_text("FILE");
   command->add_option("--up", options->up, "Axis of the OBJ files that points up: y or z (default)")

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kComputeExamples =
+constexpr const char* kComputeExamples[] = {
     "EXAMPLES\n"
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
@@ -33,10 +33,10 @@ constexpr const char* kComputeExamples =
     "  vantage compute mission.yaml --method spheres -o volume.ply --stages stages/\n"
     "  make_mission | vantage compute - -o - --format ply > volume.ply\n"
     "\n"
-    "The format follows the extension: .ply (scene frame, double precision, causes), .obj (axes and unit of the\n"
-    "scene file, a group per cause), .stl (scene frame), .glb (y up, a material per kind of cause). Beside each\n"
-    "output goes a report, volume.report.json. Where there is no volume, the report says why, no mesh is written,\n"
-    "and the exit code is 0, or 1 with --fail-empty.\n"
+    "The format follows the extension:\n",
+    "\n"
+    "Beside each output goes a report, volume.report.json. Where there is no volume, the report says why, no mesh is\n"
+    "written, and the exit code is 0, or 1 with --fail-empty.\n"
     "\n"
     "With -o - the volume goes to standard output, when it is whole, and the summary to standard error; the report of\n"
     "that output is written only with --report.\n"
@@ -48,10 +48,20 @@ constexpr const char* kComputeExamples =
     "--stages writes each step of the spheres method as a mesh (PLY, scene frame), and stages.json. The folder is put\n"
     "in place as a whole when the run is over; an older one of the same kind is replaced.\n"
     "\n"
-    "--prove proves the mesh as it was computed, before it is written. A PLY file keeps its numbers; STL, GLB, and "
-    "OBJ\n"
-    "in another unit, round them, and a note says by how much: 'vantage prove' judges the file. With 'combine: each'\n"
-    "all volumes must be proved, or none is written.\n";
+    "--prove proves the mesh as it was computed, before it is written. A PLY file keeps its numbers; single "
+    "precision,\n"
+    "and OBJ in another unit, round them, and a note says by how much: 'vantage prove' judges the file. With\n"
+    "'combine: each' all volumes must be proved, or none is written.\n"};
+
+/// With a line for each format.
+std::string compute_examples() {
+  std::string text = kComputeExamples[0];
+  for (const FormatFacts& format : known_formats()) {
+    text.append("  ").append(format.extension).append("  ").append(format.is_single ? "single" : "double");
+    text.append(" precision, ").append(format.holds).append("\n");
+  }
+  return text + kComputeExamples[1];
+}
 
 constexpr std::size_t kCausesListed = 10, kCausesInLine = 3;
 
@@ -95,7 +105,7 @@ void check_compute_outputs(const ComputeArguments& options) {
   }
   if (options.format.empty()) {
     fail_option(ErrorCode::missing_key, "-o - does not say in which format", "-o -",
-                "add --format ply, obj, stl or glb");
+                "add --format " + format_words_text());
   }
   if (options.json) {
     fail_option(ErrorCode::conflicting_keys, "-o - and --json both want standard output", "--json",
@@ -226,14 +236,15 @@ std::string summary(const Mission& mission, const Result& run, const MeshMeasure
   return table.text();
 }
 
-/// STL and GLB have single precision only: with map coordinates that may be far less than what was computed.
+/// Some formats have single precision only: with map coordinates that may be far less than what was computed.
 void warn_of_rounding(const ComputeArguments& options, const Volume& volume, const WrittenResults& written) {
   if (options.common.quiet) return;
   for (std::size_t i = 0; i < written.written.size(); ++i) {
     const double rounding = written.written[i].rounding_m;
     if (rounding <= volume.tolerance_m) continue;
     note(options.outputs[i] + ": rounding to single precision moved the surface by up to " + fixed(rounding, 3) +
-         " m, more than the tolerance of " + fixed(volume.tolerance_m, 3) + " m; write .ply or .obj for more");
+         " m, more than the tolerance of " + fixed(volume.tolerance_m, 3) + " m; write " + double_extensions_text() +
+         " for more");
   }
 }
 
@@ -506,7 +517,7 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("MISSION");
   command
       ->add_option("-o,--output", options->outputs,
-                   "Where to write: .ply, .obj, .stl or .glb, or - for standard output; may be repeated")
+                   "Where to write: " + extensions_text() + ", or - for standard output; may be repeated")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE");
@@ -519,8 +530,8 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("DEVICE");
   command->add_option("--stages", options->stages, "Of the method of spheres: write its steps to this folder")
       ->option_text("FOLDER");
-  command->add_option("--format", options->format, "Format for -o -: ply, obj, stl or glb")
-      ->check(CLI::IsMember({"ply", "obj", "stl", "glb"}))
+  command->add_option("--format", options->format, "Format for -o -: " + format_words_text())
+      ->check(CLI::IsMember(format_words()))
       ->option_text("FORMAT");
   command->add_option("--report", options->report, "File for the report of -o -; default: none is written")
       ->option_text("FILE");
@@ -530,7 +541,7 @@ void add_compute(CLI::App& app, Command& chosen) {
   command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 if there is no volume");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
   command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times instead of five lines");
-  finish<ComputeArguments>(*command, options, kComputeExamples, chosen, run_compute);
+  finish<ComputeArguments>(*command, options, compute_examples(), chosen, run_compute);
 }
 
 }  // namespace vantage::cli

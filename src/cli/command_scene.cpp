@@ -94,7 +94,7 @@ void add_scene(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   command
       ->add_option("-o,--output", options->outputs,
-                   "Where to write: .glb, .obj, .ply or .stl; may be repeated. Without it, only the report is printed")
+                   "Where to write: " + extensions_text() + "; may be repeated. Without it, only the report is printed")
       ->allow_extra_args(false)
       ->option_text("FILE");
   add_scene_options(*command, options->scene);

@@ -27,8 +27,9 @@ constexpr const char* kSimplifyExamples =
     "  vantage simplify volume.ply --facets 500 --error 2 -o small.ply && vantage prove mission.yaml small.ply\n"
     "\n"
     "The result is a subset of the volume, exactly, in numbers of double precision (PLY, OBJ): what was proved of a\n"
-    "volume that does not pass through itself holds of it. Formats of single precision (STL, GLB) round, and state by\n"
-    "how much. The file says what it is for, as the volume's does, so that it can be proved, verified and compared.\n"
+    "volume that does not pass through itself holds of it. Formats of single precision round, and state by how much:\n"
+    "'vantage compute --help' lists them. The file says what it is for, as the volume's does, so that it can be "
+    "proved, verified and compared.\n"
     "With both --facets and --error it ends where one of them is reached. How it works: docs/simplify.md.\n"
     "\n"
     "Where more facets are left than --facets asks for, the file is written all the same, and the exit code is 1.\n";
@@ -45,7 +46,7 @@ struct SimplifyArguments {
 SceneReadOptions obj_options(const SimplifyArguments& options) {
   if (!is_obj(options.input) && !is_obj(options.output) && !(options.up.empty() && options.scale.empty())) {
     throw Error(ErrorCode::not_applicable, "--up and --scale are for OBJ files, and none is named", "command line",
-                "leave them out: PLY and STL are in the scene frame, and glTF is y up");
+                "leave them out: " + scene_frame_names_text() + " are in the scene frame, and glTF is y up");
   }
   SceneReadOptions result;
   if (options.up == "y") result.up = UpAxis::y;
@@ -122,7 +123,7 @@ void add_simplify(CLI::App& app, Command& chosen) {
       ->add_option("volume", options->input, "A closed mesh: PLY, OBJ, STL, glTF or GLB; may be compressed with gzip")
       ->required()
       ->option_text("VOLUME");
-  command->add_option("-o,--output", options->output, "The result: .ply, .obj, .stl or .glb")
+  command->add_option("-o,--output", options->output, "The result: " + extensions_text())
       ->required()
       ->option_text("FILE");
   command->add_option("--facets", options->facets, "Stop at so many facets; at least 4")->option_text("N");

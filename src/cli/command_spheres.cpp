@@ -21,7 +21,7 @@ constexpr const char* kSpheresExamples =
     "\n"
     "Runs a configuration file of the program published with the paper of Willis et al.: a visibility sphere for each "
     "block\n"
-    "visibility_vol, written where its output_file says (.obj in world axes; .ply, .stl, .glb). Paths start from the\n"
+    "visibility_vol, written where its output_file says (.obj in world axes, or another format). Paths start from the\n"
     "configuration file. All files are written, or none. The keys: docs/willis-config.md\n";
 
 struct SpheresArguments {

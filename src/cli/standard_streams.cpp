@@ -2,11 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <string_view>
+#include <vector>
 
 #include "cli/command.h"
+#include "common/output.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -14,7 +17,10 @@ namespace vantage::cli {
 namespace {
 
 const std::string& checked(const std::string& extension) {
-  if (extension != ".obj" && ::isatty(STDOUT_FILENO) == 1) {
+  const std::vector<FormatFacts> formats = known_formats();
+  const auto format = std::ranges::find(formats, std::string_view(extension), &FormatFacts::extension);
+  const bool is_text = format != formats.end() && format->is_text;
+  if (!is_text && ::isatty(STDOUT_FILENO) == 1) {
     throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is not text",
                 "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
   }

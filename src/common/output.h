@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/atomic_file.h"
@@ -26,6 +27,30 @@ VANTAGE_API void check_derived_output(const std::filesystem::path& file);
 
 /// What chooses the format: the extension in lower case, ".ply".
 VANTAGE_API std::string format_extension(const std::filesystem::path& file);
+
+/// What is told of a format that volumes and scenes are written in. Lists of formats, in help, messages, documents,
+/// Python and the page, are made of it.
+struct FormatFacts {
+  std::string_view name;       ///< "PLY"
+  std::string_view extension;  ///< ".ply": in lower case, with its dot
+  std::string_view holds;      ///< for lists: "scene frame, causes"
+  bool is_single;              ///< its coordinates have single precision, not double
+  bool is_text;                ///< a terminal can show it
+  bool in_scene_frame;         ///< metres, z up; else in axes of its own, or of the scene's file
+};
+
+/// All of them; src/io/output_formats.cpp has the table.
+VANTAGE_API std::vector<FormatFacts> known_formats();
+
+/// What --format takes: the extensions without the dot.
+VANTAGE_API std::vector<std::string> format_words();
+
+/// ".ply, .obj, .stl or .glb"; of those that keep double precision; "ply, obj, stl or glb"; "PLY and STL", those in the
+/// scene frame.
+VANTAGE_API std::string extensions_text();
+VANTAGE_API std::string double_extensions_text();
+VANTAGE_API std::string format_words_text();
+VANTAGE_API std::string scene_frame_names_text();
 
 /// check_can_write, and the extension must be one that write_volume knows. Of a format with a file beside it
 /// ("volume.stl.place.json") check_derived_output of that, too.

@@ -3,46 +3,106 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "common/input.h"
 #include "common/output.h"
 #include "io/scene_writers.h"
 #include "io/writers.h"
+#include "io/written_marks.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::io {
 namespace {
 
-constexpr std::array<OutputFormat, 4> kFormats = {{
-    {".ply", false, false, [](const Volume& volume, const ObjFrame&) { return stored_as_doubles(volume); },
-     [](const Volume& volume, const StoredMesh& stored, const ObjFrame&, AtomicFile& file) {
-       write_ply(volume, stored, file);
-     },
-     write_scene_ply},
-    {".obj", false, false,
-     [](const Volume& volume, const ObjFrame& obj) {
-       return obj.scale == 1 ? stored_as_doubles(volume) : stored_in_units(volume, obj.scale);
-     },
-     [](const Volume& volume, const StoredMesh& stored, const ObjFrame& obj, AtomicFile& file) {
-       write_obj(volume, stored, obj.up, obj.scale, file);
-     },
-     write_scene_obj},
-    {".stl", true, true, [](const Volume& volume, const ObjFrame&) { return stored_as_floats(volume); },
-     [](const Volume&, const StoredMesh& stored, const ObjFrame&, AtomicFile& file) { write_stl(stored, file); },
-     write_scene_stl},
-    {".glb", true, false, [](const Volume& volume, const ObjFrame&) { return stored_as_local_floats(volume); },
-     [](const Volume& volume, const StoredMesh& stored, const ObjFrame&, AtomicFile& file) {
-       write_glb(volume, stored, file);
-     },
-     write_scene_glb},
-}};
+constexpr OutputFormat kPly = {{.name = "PLY",
+                                .extension = ".ply",
+                                .holds = "scene frame, causes; of scenes no names",
+                                .is_single = false,
+                                .is_text = false,
+                                .in_scene_frame = true},
+                               /*has_sidecar=*/false,
+                               /*is_local=*/false,
+                               is_own_ply,
+                               /*check_frame=*/nullptr,
+                               [](const Volume& volume, const FileFrame&) { return stored_as_doubles(volume); },
+                               [](const Volume& volume, const StoredMesh& stored, const FileFrame&, AtomicFile& file) {
+                                 write_ply(volume, stored, file);
+                               },
+                               write_scene_ply};
 
-/// ".ply, .obj, .stl or .glb".
-std::string list_of_extensions() {
-  std::string list;
+constexpr OutputFormat kObj = {
+    {.name = "OBJ",
+     .extension = ".obj",
+     .holds = "volumes in the axes and the unit of the scene file, a group per cause; objects of scenes",
+     .is_single = false,
+     .is_text = true,
+     .in_scene_frame = false},
+    /*has_sidecar=*/false,
+    /*is_local=*/false,
+    is_own_obj,
+    [](const Volume& volume, const FileFrame& frame) { check_obj_scale(volume, frame.scale); },
+    [](const Volume& volume, const FileFrame& frame) {
+      return frame.scale == 1 ? stored_as_doubles(volume) : stored_in_units(volume, frame.scale);
+    },
+    [](const Volume& volume, const StoredMesh& stored, const FileFrame& frame, AtomicFile& file) {
+      write_obj(volume, stored, frame.up, frame.scale, file);
+    },
+    write_scene_obj};
+
+constexpr OutputFormat kStl = {
+    {.name = "STL",
+     .extension = ".stl",
+     .holds = "scene frame; no causes, no names",
+     .is_single = true,
+     .is_text = false,
+     .in_scene_frame = true},
+    /*has_sidecar=*/true,
+    /*is_local=*/false,
+    is_own_stl,
+    /*check_frame=*/nullptr,
+    [](const Volume& volume, const FileFrame&) { return stored_as_floats(volume); },
+    [](const Volume&, const StoredMesh& stored, const FileFrame&, AtomicFile& file) { write_stl(stored, file); },
+    write_scene_stl};
+
+constexpr OutputFormat kGlb = {{.name = "GLB",
+                                .extension = ".glb",
+                                .holds = "y up, a material per kind of cause; objects of scenes",
+                                .is_single = true,
+                                .is_text = false,
+                                .in_scene_frame = false},
+                               /*has_sidecar=*/false,
+                               /*is_local=*/true,
+                               is_own_glb,
+                               /*check_frame=*/nullptr,
+                               [](const Volume& volume, const FileFrame&) { return stored_as_local_floats(volume); },
+                               [](const Volume& volume, const StoredMesh& stored, const FileFrame&, AtomicFile& file) {
+                                 write_glb(volume, stored, file);
+                               },
+                               write_scene_glb};
+
+constexpr std::array kFormats = {kPly, kObj, kStl, kGlb};
+
+using Texts = std::vector<std::string>;
+
+/// Of the formats that `is_listed`.
+template <typename IsListed>
+Texts texts_of(std::string_view FormatFacts::*text, const IsListed& is_listed) {
+  Texts texts;
   for (const OutputFormat& format : kFormats) {
-    if (!list.empty()) list += &format == &kFormats.back() ? " or " : ", ";
-    list += format.extension;
+    if (is_listed(format)) texts.emplace_back(format.*text);
+  }
+  return texts;
+}
+
+constexpr auto kAll = [](const FormatFacts&) { return true; };
+
+/// "a, b or c".
+std::string joined(const Texts& texts, const char* last) {
+  std::string list;
+  for (const std::string& text : texts) {
+    if (!list.empty()) list += &text == &texts.back() ? last : ", ";
+    list += text;
   }
   return list;
 }
@@ -62,7 +122,33 @@ const OutputFormat& output_format(const std::filesystem::path& file) {
   throw Error(ErrorCode::output_format_unknown,
               extension.empty() ? "the output has no extension, so that its format is unknown"
                                 : "no format is known for the extension " + in_quotes(extension),
-              file.string(), "write " + list_of_extensions());
+              file.string(), "write " + extensions_text());
 }
 
 }  // namespace vantage::internal::io
+
+namespace vantage {
+
+using namespace internal::io;
+
+std::vector<FormatFacts> known_formats() { return {kFormats.begin(), kFormats.end()}; }
+
+std::vector<std::string> format_words() {
+  std::vector<std::string> words = texts_of(&FormatFacts::extension, kAll);
+  for (std::string& word : words) word.erase(0, 1);
+  return words;
+}
+
+std::string extensions_text() { return joined(texts_of(&FormatFacts::extension, kAll), " or "); }
+
+std::string double_extensions_text() {
+  return joined(texts_of(&FormatFacts::extension, [](const FormatFacts& format) { return !format.is_single; }), " or ");
+}
+
+std::string format_words_text() { return joined(format_words(), " or "); }
+
+std::string scene_frame_names_text() {
+  return joined(texts_of(&FormatFacts::name, [](const FormatFacts& format) { return format.in_scene_frame; }), " and ");
+}
+
+}  // namespace vantage

@@ -6,25 +6,28 @@
 #include <string_view>
 
 #include "common/atomic_file.h"
+#include "common/output.h"
 #include "io/stored_mesh.h"
-#include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::io {
 
-/// The axes of an OBJ, and the metres in one of its units.
-struct ObjFrame {
+/// The axes of a format that is in those of the scene's file, and the metres in one of its units.
+struct FileFrame {
   UpAxis up = UpAxis::z;
   double scale = 1;
 };
 
-struct OutputFormat {
-  std::string_view extension;  ///< in lower case, with its dot
-  bool is_single;              ///< its coordinates have single precision
+struct OutputFormat : FormatFacts {
   bool has_sidecar;  ///< it has no room for a georeference, a rounding and a statement: they are in a file beside it
-  StoredMesh (*store)(const Volume& volume, const ObjFrame& obj);
-  void (*write_volume)(const Volume& volume, const StoredMesh& stored, const ObjFrame& obj, AtomicFile& file);
+  bool is_local;     ///< in single precision: its numbers are about an origin of the file's own
+  /// Whether a file that begins so was written by vantage.
+  bool (*is_own)(std::string_view beginning);
+  /// Throws Error(input) for a frame that it cannot be written in; null where the frame is nothing to it.
+  void (*check_frame)(const Volume& volume, const FileFrame& frame);
+  StoredMesh (*store)(const Volume& volume, const FileFrame& frame);
+  void (*write_volume)(const Volume& volume, const StoredMesh& stored, const FileFrame& frame, AtomicFile& file);
   double (*write_scene)(const Scene& scene, AtomicFile& file);  ///< how far it moves a vertex, metres
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "common/output.h"
 #include "core/mend_welded.h"
 #include "vantage/error.h"
 
@@ -60,7 +61,7 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   const double largest = largest_coordinate(local);
   if (largest > static_cast<double>(std::numeric_limits<float>::max())) {
     throw Error(ErrorCode::format_too_small, "the volume's coordinates are too large for single precision", "",
-                "write .ply or .obj");
+                "write " + double_extensions_text());
   }
   // Origin and number must also add up exactly where they are read.
   const double step = std::max({spacing(largest, kFloatDigits), spacing(largest_coordinate(box), kDoubleDigits),
@@ -75,7 +76,7 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   if (result.mesh.empty()) {
     throw Error(ErrorCode::format_too_small,
                 "nothing of the volume is left in single precision: at these coordinates it is coarse", "",
-                "write .ply or .obj");
+                "write " + double_extensions_text());
   }
   return result;
 }

@@ -34,9 +34,9 @@ namespace {
 
 /// The mesh as the file will hold it. Errors of rounding are told of the file.
 StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, const OutputFormat& format,
-                      const ObjFrame& obj) {
+                      const FileFrame& frame) {
   try {
-    return format.store(volume, obj);
+    return format.store(volume, frame);
   } catch (const Error& error) {
     throw error.with_where(file.string());
   }
@@ -52,11 +52,11 @@ StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& fil
   auto output = std::make_unique<AtomicFile>(file);
   const OutputFormat& format = output_format(file);
   internal::core::check_volume(volume);
-  if (format.extension == ".obj") check_obj_scale(volume, obj_scale);
-  const ObjFrame obj{obj_up, obj_scale};
-  StoredMesh stored = stored_for(volume, file, format, obj);
+  const FileFrame frame{obj_up, obj_scale};
+  if (format.check_frame) format.check_frame(volume, frame);
+  StoredMesh stored = stored_for(volume, file, format, frame);
   stored.rounding_m += volume.read_rounding_m;
-  format.write_volume(volume, stored, obj, *output);
+  format.write_volume(volume, stored, frame, *output);
   StagedVolume staged;
   staged.report = {stored.rounding_m, stored.mesh.triangles.size(), stored.turned_facets};
   staged.files.push_back(std::move(output));

@@ -10,6 +10,7 @@
 #include "common/output.h"
 #include "core/png_mark.h"
 #include "core/version_text.h"
+#include "io/output_formats.h"
 
 namespace vantage::internal::io {
 namespace {
@@ -73,6 +74,14 @@ std::string_view behind_version(std::string_view text, std::string_view start) {
                                                                                     : std::string_view();
 }
 
+}  // namespace
+
+bool begins_as_own(std::string_view bytes, std::string_view start) { return is_content(behind_version(bytes, start)); }
+
+bool is_own_ply(std::string_view bytes) { return begins_as_own(bytes, kPlyStart) || is_own_region(bytes); }
+
+bool is_own_obj(std::string_view bytes) { return begins_as_own(bytes, "# vantage "); }
+
 /// All 80 bytes of the header.
 bool is_own_stl(std::string_view bytes) {
   constexpr std::size_t kHeaderBytes = 80;
@@ -96,18 +105,13 @@ bool is_own_glb(std::string_view bytes) {
   return end != std::string_view::npos && core::is_version(version.substr(0, end));
 }
 
-}  // namespace
-
 bool is_own_file(const std::filesystem::path& file) {
   const std::string extension = format_extension(file);
   if (extension == ".json") return is_own_json(file);
   const std::string bytes = beginning_of(file, kLooked);
   const std::string_view text = bytes;
   if (extension == ".csv") return text.substr(0, text.find_first_of("\r\n")) == kVolumeTableHeader;
-  if (extension == ".ply") return is_content(behind_version(text, kPlyStart)) || is_own_region(text);
-  if (extension == ".obj") return is_content(behind_version(text, "# vantage "));
-  if (extension == ".stl") return is_own_stl(text);
-  if (extension == ".glb") return is_own_glb(text);
+  if (const OutputFormat* format = find_output_format(file)) return format->is_own(text);
   return extension == ".png" && core::has_png_mark(text);
 }
 

@@ -13,4 +13,14 @@ inline constexpr std::string_view kVolumeTableHeader =
 /// Whether the file, which is there, is one that vantage wrote; false where it cannot be read.
 bool is_own_file(const std::filesystem::path& file);
 
+/// Whether `bytes` begin with `start`, a version, and words for a scene or a volume: what the writers of formats with
+/// comments write first.
+bool begins_as_own(std::string_view bytes, std::string_view start);
+
+/// Whether vantage wrote a file of the format that begins so; for the table of formats.
+bool is_own_ply(std::string_view bytes);
+bool is_own_obj(std::string_view bytes);
+bool is_own_stl(std::string_view bytes);
+bool is_own_glb(std::string_view bytes);
+
 }  // namespace vantage::internal::io

@@ -1,7 +1,6 @@
 #include "live/session.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "common/input.h"
 #include "common/json.h"
+#include "common/output.h"
 #include "common/temporary_folder.h"
 #include "live/file_bytes.h"
 #include "live/limit_list.h"
@@ -153,7 +153,7 @@ std::string about() {
                        {"model", camera.model},
                        {"fov_deg", pinhole_of(camera).fov_deg()}});
   }
-  return text_of(Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}});
+  return text_of(Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}, {"formats", format_words()}});
 }
 
 Session Session::fork() const {
@@ -430,10 +430,10 @@ std::string Session::slice(double z_m) {
 }
 
 std::string Session::save(const std::string& format) {
-  constexpr std::array kFormats = {"ply", "glb", "stl", "obj"};
-  if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end()) {
+  const std::vector<std::string> formats = format_words();
+  if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
     throw Error(ErrorCode::output_format_unknown, in_quotes(format) + " is not a format of volumes", "",
-                "take ply, glb, stl or obj");
+                "take " + format_words_text());
   }
   const Mission& saved = mission();
   if (const Volume& last = result_->volume; last.outcome != Outcome::computed) {

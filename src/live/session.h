@@ -76,7 +76,7 @@ class Session {
   /// Polygons in which a plane at the height z meets the last volume.
   std::string slice(double z_m);
 
-  /// The last volume as a file, "ply", "glb", "stl" or "obj": bytes() has it. JSON: its size.
+  /// The last volume as a file, one of format_words(): bytes() has it. JSON: its size.
   std::string save(const std::string& format);
 
   const SceneSource& source() const { return source_; }

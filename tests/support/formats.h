@@ -1,0 +1,18 @@
+// Names of files, one for each format that volumes and scenes are written in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/output.h"
+
+namespace vantage::testing {
+
+/// "v.ply", "v.obj" and so on for "v".
+inline std::vector<std::string> in_each_format(const std::string& stem) {
+  std::vector<std::string> names;
+  for (const FormatFacts& format : known_formats()) names.push_back(stem + std::string(format.extension));
+  return names;
+}
+
+}  // namespace vantage::testing
