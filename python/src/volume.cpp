@@ -14,6 +14,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "common/json.h"
+#include "common/output.h"
 #include "places.h"
 #include "scene.h"
 #include "vantage/result.h"
@@ -196,6 +197,7 @@ void bind_volume(nb::module_& module) {
         return PyVolume(std::move(volume));
       },
       "outcome"_a, "reason"_a);
+  module.def("output_formats", &format_words);
   module.def(
       "intersect_volumes",
       [](const std::vector<const PyVolume*>& volumes, nb::object progress) {

@@ -50,7 +50,7 @@ __all__ = [
     "SceneObject", "Sensor", "Slice", "Span", "Standpoint", "Standpoints", "Target", "TargetCheck", "Tile", "Tiles",
     "Tour", "TourBound", "TourSettings", "View", "Visit", "Volume", "__version__", "areas", "cameras", "check",
     "compute", "compute_many", "devices", "error_codes", "fewest_positions", "fraction_field", "intersect",
-    "orbits", "standpoints", "tiles", "tour", "unite", "visibility_sphere",
+    "orbits", "output_formats", "standpoints", "tiles", "tour", "unite", "visibility_sphere",
 ]
 
 if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along
@@ -86,6 +86,16 @@ def error_codes() -> list[str]:
         True
     """
     return _core.error_codes()
+
+
+def output_formats() -> list[str]:
+    """The formats that volumes and scenes are saved in, as the ends of names; docs/command-line.md says what each holds.
+
+    Example:
+        >>> "ply" in vt.output_formats()
+        True
+    """
+    return _core.output_formats()
 
 
 def visibility_sphere(scene: Scene, viewpoint: Vector, radius_m: float, *, cubemap: int = 200, conservative: bool = True,

@@ -268,7 +268,7 @@ class Result(Solid):
         return self.mission.verify(self.volume, points=points, seed=seed, threads=threads, progress=progress)
 
     def save(self, *paths: Path, progress: Progress = None) -> list[str]:
-        """Writes the volume to each path (PLY, OBJ, STL, GLB), and a report beside it; all or none. Returns the reports.
+        """Writes the volume to each path (`vantage.output_formats()`), and a report beside it; all or none. Returns the reports.
 
         The report of "a.ply" is "a.report.json". So "a.ply" and "a.glb" share one, which names the first: give volumes names
         of their own where each is to have its report.

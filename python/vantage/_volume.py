@@ -176,7 +176,7 @@ class Volume(Solid):
     # ---- elsewhere
 
     def save(self, path: Path, *, up: str = "z", scale: float = 1.0) -> None:
-        """Writes PLY, OBJ, STL or GLB, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ."""
+        """Writes one of `vantage.output_formats()`, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ."""
         self._core.save(checked_path(path), choice(up, "up", ("y", "z")), _arrays.number(scale, "scale"))
 
     def __reduce__(self) -> tuple[Any, ...]:
