@@ -36,7 +36,7 @@ export interface Volume {
 
 export class Engine {
   private awaited = 0;
-  about: About = { version: "", cameras: [] };
+  about: About = { version: "", cameras: [], formats: [] };
   /** the last volume in this scene: what query, prove, slice and save speak of, as their answers come in the same order */
   last: Volume | null = null;
 

@@ -13,6 +13,8 @@ export interface EngineError {
 export interface About {
   version: string;
   cameras: { name: string; maker: string; model: string; fov_deg: [number, number] }[];
+  /** that volumes are saved in: ends of names */
+  formats: string[];
 }
 
 export interface SceneInfo {

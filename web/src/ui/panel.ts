@@ -19,6 +19,9 @@ export class Panel {
     const pixel = input("pixel");
     pixel.append(option("", "any"), ...PIXELS_M.map((size) => option(String(size), size < 0.01 ? `${size * 1e3} mm` : `${size * 100} cm`)));
     pixel.onchange = () => app.edit((mission) => this.setPixel(mission, pixel.value === "" ? null : Number(pixel.value)), true);
+    const formats = input("format");
+    formats.prepend(...about.formats.map((format) => option(format, format)));
+    formats.value = about.formats.includes("glb") ? "glb" : about.formats[0] ?? "mission"; // it has the colours of the page
     app.onChange(() => this.show());
   }
 
