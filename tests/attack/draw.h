@@ -19,6 +19,15 @@ Case draw_case(std::uint64_t seed, std::size_t index);
 
 // ---- what the files of the drawing share ----
 
+/// Where the drawing stands in the world.
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vec3 shift = Vec3::Zero();
+  double scale = 1;
+
+  Vec3 operator()(const Vec3& p) const { return scale * (rotation * p) + shift; }
+};
+
 /// Corners in the plane z = 0 round the origin, counter-clockwise, about one across. `kind` gets its name.
 std::vector<Vec3> draw_outline(Random& random, double scale, std::string& kind);
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "draw.h"
+#include "limit_attack.h"
 
 namespace attack {
 
@@ -153,15 +154,6 @@ vantage::Scene SceneDrawing::finish() {
 
 namespace {
 
-/// Where the drawing stands in the world.
-struct Pose {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vec3 shift = Vec3::Zero();
-  double scale = 1;
-
-  Vec3 operator()(const Vec3& p) const { return scale * (rotation * p) + shift; }
-};
-
 Pose draw_pose(Random& random, double scale, std::string& kind) {
   Pose pose;
   pose.scale = scale;
@@ -191,48 +183,9 @@ Pose draw_pose(Random& random, double scale, std::string& kind) {
   return pose;
 }
 
-vantage::Box draw_box(Random& random, const Pose& pose, double reach) {
-  const Vec3 middle = pose(random.point(-1, 1) * (0.5 * reach / pose.scale));
-  const Vec3 half = random.point(0.1, 0.8) * reach;
-  vantage::Box box;
-  box.extend(Vec3(middle - half));
-  box.extend(Vec3(middle + half));
-  return box;
-}
-
-/// Round a middle in equal steps, with corners near and far: not convex, as a rule.
-vantage::Zone draw_zone(Random& random, const Pose& pose, double reach) {
-  const vantage::Box box = draw_box(random, pose, reach);
-  const Vec3 middle = (box.min + box.max) / 2, half = (box.max - box.min) / 2;
-  const int count = 3 + static_cast<int>(random.uniform(0, 6));
-  const double begin = random.uniform(0, 2 * std::numbers::pi);
-  vantage::Zone zone;
-  for (int i = 0; i < count; ++i) {
-    const double angle = begin + 2 * std::numbers::pi * i / count;
-    const double share = random.uniform(0.3, 1.5);
-    zone.outer.emplace_back(middle.x() + share * half.x() * std::cos(angle),
-                            middle.y() + share * half.y() * std::sin(angle));
-  }
-  zone.min_z_m = box.min.z();
-  zone.max_z_m = box.max.z();
-  zone.name = "drawn";
-  return zone;
-}
-
 void draw_limits(Random& random, const Pose& pose, Case& c) {
-  const Vec3 origin = pose(Vec3::Zero());
-  if (random.chance(0.5)) {
-    const double low = random.uniform(-0.2, 0.4) * c.range;
-    c.navigation.altitude = {origin.z() + low, origin.z() + low + random.uniform(0.1, 0.8) * c.range};
-  }
-  if (random.chance(0.2)) {
-    const double low = random.uniform(-0.2, 0.4) * c.range, plane_z_m = origin.z() - random.uniform(0, 0.2) * c.range;
-    c.navigation.above_ground = {low, low + random.uniform(0.1, 0.8) * c.range, vantage::Ground{plane_z_m}};
-  }
-  if (random.chance(0.4)) c.navigation.keep_in = {draw_box(random, pose, c.range), draw_box(random, pose, c.range)};
-  if (random.chance(0.4)) c.navigation.keep_out = {draw_box(random, pose, 0.5 * c.range)};
-  if (random.chance(0.3)) c.navigation.keep_in.push_back(draw_zone(random, pose, c.range));
-  if (random.chance(0.3)) c.navigation.keep_out.push_back(draw_zone(random, pose, 0.5 * c.range));
+  CaseDraws draws{random, pose, c};
+  every_navigation_limit([&](auto limit) { draw_in_case<limit>(draws); });
 }
 
 /// An antenna in the target's place, or somewhat above it. Its zone is up to a thirtieth of the range wide. Not in
@@ -254,11 +207,8 @@ bool draw_link(Random& random, const Pose& pose, Case& c) {
 
 void draw_sensor(Random& random, const Pose& pose, Case& c) {
   if (random.chance(0.5) && draw_link(random, pose, c)) return;
-  const vantage::Target& target = c.parts[0];
-  vantage::Sensor& sensor = c.sensor;
-  if (random.chance(0.5)) sensor.min_range_m = c.range * random.magnitude(1e-3, 0.7);
-  if ((!target.is_point() || target.front) && random.chance(0.5)) sensor.incidence_deg = random.uniform(1, 89);
-  if (random.chance(0.5)) sensor.sun = vantage::SunLimit{random.direction(), random.uniform(0.5, 90)};
+  CaseDraws draws{random, pose, c};
+  every_sensor_limit([&](auto limit) { draw_in_case<limit>(draws); });
   c.kind += ", sensor";
 }
 

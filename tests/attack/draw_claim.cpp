@@ -5,18 +5,14 @@
 #include <memory>
 #include <numbers>
 
+#include "limit_attack.h"
 #include "mesh_case.h"
-#include "vantage/camera.h"
 
 namespace attack {
 namespace {
 
 using vantage::Box;
 using vantage::Mesh;
-using vantage::Navigation;
-using vantage::Zone;
-
-constexpr double kRange = 40, kDegree = std::numbers::pi / 180;
 
 void add_object(vantage::Scene& scene, const char* name, const std::vector<Vec3>& vertices,
                 const std::vector<vantage::Triangle>& triangles) {
@@ -28,20 +24,6 @@ void add_object(vantage::Scene& scene, const char* name, const std::vector<Vec3>
     scene.mesh.triangles.push_back({a + first, b + first, c + first});
     scene.object_of.push_back(object);
   }
-}
-
-Mesh block(const Vec3& low, const Vec3& high) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
-  }
-  constexpr std::uint32_t kSides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const auto& [a, b, c, d] : kSides) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  }
-  return mesh;
 }
 
 void add_ground(Random& random, MeshCase& c) {
@@ -143,9 +125,53 @@ void draw_claimed_target(Random& random, MeshCase& c) {
   }
 }
 
+Vec3 normal_of(const MeshCase& c) { return vantage::make_target_frame(c.target).normal; }
+
+void draw_limit(Random& random, MeshCase& c) {
+  std::vector<ClaimWay> ways;
+  every_limit([&](auto limit) {
+    for (const ClaimWay& way : facts_of<limit>().ways) ways.push_back(way);
+  });
+  std::sort(ways.begin(), ways.end(), [](const ClaimWay& a, const ClaimWay& b) { return a.number < b.number; });
+  const ClaimWay& one = ways[static_cast<std::size_t>(random.integer(0, static_cast<int>(ways.size()) - 1))];
+  c.kind += std::string(" | ") + one.name;
+  one.draw(random, c);
+}
+
+// ---- where it stands, and how large it is ----
+
+void move(MeshCase& c, const Placement& pose) {
+  c.unit = pose.unit;
+  pose.move(c.scene.mesh);
+  for (std::vector<Vec3>& part : c.target.parts) {
+    for (Vec3& v : part) pose.move(v);
+  }
+  c.sensor.max_range_m *= pose.unit;
+  auto& pixel = c.sensor.pixel;
+  if (pixel && pixel->kind == vantage::PixelLimit::Kind::perpendicular) pixel->size_m *= pose.unit;  // a range, too
+  every_limit([&](auto limit) {
+    const auto* value = given<limit>(c.navigation, c.sensor);
+    if (value != nullptr) move<limit>(const_cast<LimitValueOf<limit>&>(*value), pose);  // it is of `c`
+  });
+}
+
+}  // namespace
+
 Vec3 middle_of(const MeshCase& c) { return vantage::make_target_frame(c.target).origin; }
 
-Vec3 normal_of(const MeshCase& c) { return vantage::make_target_frame(c.target).normal; }
+Mesh block(const Vec3& low, const Vec3& high) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+  }
+  constexpr std::uint32_t kSides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& [a, b, c, d] : kSides) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  }
+  return mesh;
+}
 
 Box box_about(Random& random, const Vec3& middle, double least, double most) {
   const Vec3 half = random.point(least, most);
@@ -155,273 +181,13 @@ Box box_about(Random& random, const Vec3& middle, double least, double most) {
   return box;
 }
 
-Zone::Ring ring_about(Random& random, const Vec3& middle, double size, double least) {
-  Zone::Ring ring;
-  const int count = random.integer(3, 6);
-  const double begin = random.uniform(0, 2 * std::numbers::pi);
-  for (int i = 0; i < count; ++i) {
-    const double turn = begin + 2 * std::numbers::pi * i / count, radius = size * random.uniform(least, 1);
-    ring.emplace_back(middle.x() + radius * std::cos(turn), middle.y() + radius * std::sin(turn));
-  }
-  return ring;
-}
-
-Zone zone_about(Random& random, const MeshCase& c, const Vec3& middle, double size) {
-  Zone zone;
-  zone.name = "drawn";
-  zone.outer = ring_about(random, middle, size, random.pick({0.5, 0.5, 0.02}));  // or with narrow places
-  if (random.chance(0.25)) zone.holes.push_back(ring_about(random, middle, 0.2 * size, 0.5));
-  if (random.chance(0.7)) {
-    zone.min_z_m = middle.z() - random.uniform(0.2, 1) * size;
-    zone.max_z_m = middle.z() + random.uniform(0.2, 1) * size;
-  }
-  if (random.chance(0.25)) {
-    zone.above_ground = vantage::AboveGround{random.uniform(-2, 6), random.uniform(10, 40), vantage::Ground{}};
-    if (c.ground) zone.above_ground->ground = vantage::ground_of(c.scene, *c.ground);
-  }
-  return zone;
-}
-
-void draw_camera(Random& random, MeshCase& c) {
-  c.fov_deg = {random.uniform(15, 90), random.uniform(12, 70)};
-  c.sensor.camera = vantage::pinhole_of_fov(c.fov_deg[0], c.fov_deg[1], 400, 300);
-  vantage::Mount& mount = c.sensor.mount;
-  const Vec3 way = middle_of(c) - draw_place(c, random);  // somebody can look from there
-  const double yaw = std::atan2(way.x(), way.y()) / kDegree,
-               pitch = std::atan2(way.z(), way.head<2>().norm()) / kDegree;
-  if (random.chance(0.35)) {
-    mount.yaw_deg = yaw + random.uniform(-5, 5);
-    mount.min_pitch_deg = mount.max_pitch_deg = std::clamp(pitch + random.uniform(-5, 5), -90.0, 90.0);
-  } else if (random.chance(0.5)) {
-    if (random.chance(0.3)) mount.yaw_deg = yaw;
-    mount.min_pitch_deg = std::clamp(pitch - random.uniform(0, 50), -90.0, 89.0);
-    mount.max_pitch_deg = std::clamp(pitch + random.uniform(0, 50), mount.min_pitch_deg, 90.0);
-  }
-  if (random.chance(0.3)) mount.roll_deg = random.uniform(-180, 180);
-}
-
-/// What is not convex: a block without one of its corners.
-Mesh bent_block(const Vec3& low, const Vec3& high) {
-  const Vec3 middle = (low + high) / 2;
-  Mesh mesh;
-  const double x[3] = {low.x(), middle.x(), high.x()}, y[3] = {low.y(), middle.y(), high.y()};
-  constexpr int kOutline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-  for (const double z : {low.z(), high.z()}) {
-    for (const auto& [i, j] : kOutline) mesh.vertices.emplace_back(x[i], y[j], z);
-  }
-  constexpr std::uint32_t kTop[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}};
-  for (const auto& [a, b, d] : kTop) {
-    mesh.triangles.push_back({a + 6, b + 6, d + 6});
-    mesh.triangles.push_back({a, d, b});
-  }
-  for (std::uint32_t i = 0; i < 6; ++i) {
-    const std::uint32_t next = (i + 1) % 6;
-    mesh.triangles.push_back({i, next, next + 6});
-    mesh.triangles.push_back({i, next + 6, i + 6});
-  }
-  return mesh;
-}
-
-void limit_heights(Random& random, MeshCase& c) {
-  const double low = random.uniform(-1, 8);
-  c.navigation.altitude = {low, low + random.uniform(6, 40)};
-}
-
-void limit_one_box(Random& random, MeshCase& c) {
-  c.navigation.keep_in = {box_about(random, draw_place(c, random), 4, 25)};
-}
-
-void limit_boxes(Random& random, MeshCase& c) {
-  for (int count = random.integer(2, 4); count > 0; --count) {
-    const Vec3 middle = c.navigation.keep_in.empty() || random.chance(0.3)
-                            ? draw_place(c, random)
-                            : Vec3((c.navigation.keep_in.back().box().min + c.navigation.keep_in.back().box().max) / 2 +
-                                   random.point(-9, 9));
-    c.navigation.keep_in.push_back(box_about(random, middle, 3, 15));
-  }
-  if (random.chance(0.5)) c.navigation.keep_in.push_back(zone_about(random, c, draw_place(c, random), 15));
-}
-
-void limit_out_boxes(Random& random, MeshCase& c) {
-  for (int count = random.integer(1, 2); count > 0; --count) {
-    c.navigation.keep_out.push_back(box_about(random, draw_place(c, random), 0.5, 8));
-  }
-}
-
-void limit_zone(Random& random, MeshCase& c) {
-  c.navigation.keep_in = {zone_about(random, c, draw_place(c, random), random.uniform(8, 40))};
-}
-
-void limit_out_zones(Random& random, MeshCase& c) {
-  for (int count = random.integer(1, 2); count > 0; --count) {
-    c.navigation.keep_out.push_back(zone_about(random, c, draw_place(c, random), random.uniform(2, 15)));
-    c.navigation.keep_out.back().name += std::to_string(count);
-  }
-}
-
-void limit_mesh(Random& random, MeshCase& c) {
-  const Box box = box_about(random, draw_place(c, random), 5, 25);
-  c.navigation.meshes = {{random.chance(0.75) ? block(box.min, box.max) : bent_block(box.min, box.max), "airspace"}};
-  if (random.chance(0.3)) {  // turned
-    const Vec3 middle = (box.min + box.max) / 2;
-    const Eigen::Matrix3d turned = random.rotation();
-    for (Vec3& v : c.navigation.meshes[0].mesh.vertices) v = middle + turned * (v - middle);
-  }
-}
-
-void limit_above_ground(Random& random, MeshCase& c) {
-  const double low = random.uniform(0, 8);
-  c.navigation.above_ground = vantage::AboveGround{low, low + random.uniform(6, 40), vantage::Ground{}};
-  if (c.ground && random.chance(0.7)) c.navigation.above_ground->ground = vantage::ground_of(c.scene, *c.ground);
-}
-
-void limit_clearance(Random& random, MeshCase& c) {
-  std::vector<std::uint32_t> ground;
-  if (c.ground) ground.push_back(*c.ground);
-  c.navigation.clearance = vantage::Clearance{random.uniform(0.3, 6), vantage::obstacles_of(c.scene, ground)};
-}
-
-void limit_min_range(Random& random, MeshCase& c) { c.sensor.min_range_m = random.magnitude(0.3, 20); }
-
-void limit_incidence(Random& random, MeshCase& c) {
-  if (c.target.is_point() && !c.target.front) return limit_min_range(random, c);
-  c.sensor.incidence_deg = random.uniform(10, 85);
-}
-
-void limit_worst_pixel(Random& random, MeshCase& c) {
-  if (c.target.is_point() && !c.target.front) return limit_min_range(random, c);
-  draw_camera(random, c);
-  c.sensor.mount = {};
-  c.sensor.pixel = vantage::PixelLimit{random.uniform(0.3, 1.5) * kRange / *c.sensor.camera->focal_px,
-                                       vantage::PixelLimit::Kind::worst};
-}
-
-void limit_pixel(Random& random, MeshCase& c) {
-  draw_camera(random, c);
-  c.sensor.pixel = vantage::PixelLimit{random.uniform(0.3, 1.2) * kRange / *c.sensor.camera->focal_px,
-                                       vantage::PixelLimit::Kind::perpendicular};
-}
-
-void limit_sun(Random& random, MeshCase& c) {
-  const double exclude = random.magnitude(2, 90);
-  Vec3 direction = random.direction();
-  if (random.chance(0.7)) {
-    direction = (middle_of(c) - draw_place(c, random)).normalized();  // the target is seen before it from there
-    direction = (direction + random.uniform(0, 2) * std::sin(exclude * kDegree) * random.direction()).normalized();
-  }
-  if (random.chance(0.8)) direction.z() = std::abs(direction.z());  // missions know no other
-  c.sensor.sun = vantage::SunLimit{direction, exclude};
-}
-
-void draw_limit(Random& random, MeshCase& c) {
-  struct Named {
-    const char* name;
-    void (*draw)(Random&, MeshCase&);
-  };
-  static constexpr Named kLimits[] = {{"altitude", limit_heights},
-                                      {"keep_in", limit_one_box},
-                                      {"several boxes", limit_boxes},
-                                      {"keep_out", limit_out_boxes},
-                                      {"zone", limit_zone},
-                                      {"keep_out zones", limit_out_zones},
-                                      {"mesh", limit_mesh},
-                                      {"agl", limit_above_ground},
-                                      {"clearance", limit_clearance},
-                                      {"min_range", limit_min_range},
-                                      {"incidence", limit_incidence},
-                                      {"frame", draw_camera},
-                                      {"frame", draw_camera},
-                                      {"pixel", limit_worst_pixel},
-                                      {"pixel face on", limit_pixel},
-                                      {"sun", limit_sun},
-                                      {"sun", limit_sun}};
-  const Named& one = kLimits[random.integer(0, static_cast<int>(std::size(kLimits)) - 1)];
-  c.kind += std::string(" | ") + one.name;
-  one.draw(random, c);
-}
-
-// ---- where it stands, and how large it is ----
-
-struct Placement {
-  double unit;
-  Vec3 shift;
-
-  void move(Vec3& v) const { v = unit * v + shift; }
-  void move(Box& box) const {
-    move(box.min);
-    move(box.max);
-  }
-  void move(double& z) const { z = unit * z + shift.z(); }
-  void move(vantage::Ground& ground) const {
-    move(ground.plane_z_m);
-    if (!ground.surface) return;
-    Mesh moved = *ground.surface;
-    for (Vec3& v : moved.vertices) move(v);
-    ground.surface = std::make_shared<const Mesh>(std::move(moved));
-  }
-  void move(vantage::AboveGround& above) const {
-    above.min_m *= unit;
-    above.max_m *= unit;
-    move(above.ground);
-  }
-  void move(Zone& zone) const {
-    zone.holes.push_back(zone.outer);
-    for (Zone::Ring& ring : zone.holes) {
-      for (Eigen::Vector2d& corner : ring) corner = unit * corner + shift.head<2>();
-    }
-    zone.outer = std::move(zone.holes.back());
-    zone.holes.pop_back();
-    move(zone.min_z_m);
-    move(zone.max_z_m);
-    if (zone.above_ground) move(*zone.above_ground);
-  }
-};
-
-void move(MeshCase& c, const Placement& pose) {
-  c.unit = pose.unit;
-  for (Vec3& v : c.scene.mesh.vertices) pose.move(v);
-  for (std::vector<Vec3>& part : c.target.parts) {
-    for (Vec3& v : part) pose.move(v);
-  }
-  c.sensor.max_range_m *= pose.unit;
-  c.sensor.min_range_m *= pose.unit;
-  if (c.sensor.pixel) c.sensor.pixel->size_m *= pose.unit;
-  auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = c.navigation;
-  if (altitude) {
-    pose.move(altitude->min_m);
-    pose.move(altitude->max_m);
-  }
-  for (auto* zones : {&keep_in, &keep_out}) {
-    for (Zone& zone : *zones) {
-      if (!zone.is_box) {
-        pose.move(zone);
-        continue;
-      }
-      Box box = zone.box();
-      pose.move(box);
-      zone = box;
-    }
-  }
-  for (vantage::KeepInMesh& mesh : meshes) {
-    for (Vec3& v : mesh.mesh.vertices) pose.move(v);
-  }
-  if (above_ground) pose.move(*above_ground);
-  if (clearance) {
-    Mesh moved = *clearance->obstacles;
-    for (Vec3& v : moved.vertices) pose.move(v);
-    clearance = vantage::Clearance{clearance->distance_m * pose.unit, std::make_shared<const Mesh>(std::move(moved))};
-  }
-}
-
-}  // namespace
-
 Vec3 draw_place(const MeshCase& c, Random& random) {
   Vec3 direction = random.direction();
   const Vec3 normal = normal_of(c);
   const bool sees_back = c.both_sides || (c.target.is_point() && !c.target.front);
   if (direction.dot(normal) < 0 && !sees_back) direction = -direction;
   if (direction.z() < 0 && std::abs(normal.z()) < 0.5 && random.chance(0.7)) direction.z() *= -1;
-  const double range = std::isfinite(c.sensor.max_range_m) ? c.sensor.max_range_m : kRange * c.unit;
+  const double range = std::isfinite(c.sensor.max_range_m) ? c.sensor.max_range_m : kClaimRange * c.unit;
   const double away = random.chance(0.6) ? random.uniform(0.05, 1.02) : random.magnitude(0.01, 1);
   return middle_of(c) + away * range * direction;
 }
@@ -438,7 +204,7 @@ void draw_cover(Random& random, MeshCase& c) {
 
 MeshCase draw_claim(Random& random) {
   MeshCase c;
-  c.sensor.max_range_m = kRange;
+  c.sensor.max_range_m = kClaimRange;
   if (random.chance(0.6)) add_ground(random, c);
   add_obstacles(random, c);
   draw_claimed_target(random, c);
@@ -450,7 +216,7 @@ MeshCase draw_claim(Random& random) {
   if (random.chance(0.15)) shift = Vec3(random.pick({5e5, -3e6}), random.pick({5.4e6, 4.7e6}), 100);
   move(c, {unit, shift});
   if (random.chance(0.15)) c.shrink = random.pick({0.0, 1e-9, 1e-4});
-  if (random.chance(0.05)) c.rounding_m = kRange * unit * random.magnitude(1e-8, 1e-3);
+  if (random.chance(0.05)) c.rounding_m = kClaimRange * unit * random.magnitude(1e-8, 1e-3);
   return c;
 }
 

@@ -5,9 +5,9 @@
 
 #include "draw.h"
 #include "flights.h"
+#include "limit_attack.h"
 #include "missions.h"
 #include "random.h"
-#include "vantage/camera.h"
 #include "vantage/mission.h"
 
 namespace attack {
@@ -63,14 +63,10 @@ class FlightDrawing {
     Case c = draw_case(seed, index);
     drawn_.kind = c.kind;
     if (c.scale == 1e-3 && !c.sensor.link && random_.chance(0.3)) make_smaller(c);
-    if (!c.sensor.link && random_.chance(0.25)) draw_camera(c);
-    if (!c.navigation.clearance && random_.chance(0.1) && !c.scene.mesh.empty()) {
-      c.navigation.clearance = vantage::Clearance{c.range * random_.magnitude(1e-3, 0.3), obstacles_of(c.scene)};
-    }
-    if (random_.chance(0.1)) {
-      const double low = c.parts[0].parts[0][0].z() + random_.uniform(-0.2, 0.3) * c.range;
-      c.navigation.altitude = {low, low + random_.uniform(0.1, 0.6) * c.range};
-    }
+    FlightDraws draws{random_, c};
+    const auto draw = [&](auto limit) { draw_in_flight<limit>(draws); };
+    every_sensor_limit(draw);
+    every_navigation_limit<Limit::clearance>(draw);
     drawn_.mission = mission_of_case(c);
   }
 
@@ -86,22 +82,6 @@ class FlightDrawing {
     c.sensor.min_range_m *= kSmaller;
     c.navigation = {};
     c.kind += ", micrometres";
-  }
-
-  void draw_camera(Case& c) {
-    c.sensor.camera = vantage::pinhole_of_fov(random_.uniform(15, 120), random_.uniform(15, 90), 4000, 3000);
-    if (random_.chance(0.6)) {
-      const double low = random_.uniform(-90, 60);
-      c.sensor.mount.min_pitch_deg = low;
-      c.sensor.mount.max_pitch_deg = random_.chance(0.4) ? low : random_.uniform(low, 90);
-      c.sensor.mount.roll_deg = random_.chance(0.5) ? 0 : random_.uniform(-180, 180);
-      if (random_.chance(0.4)) c.sensor.mount.yaw_deg = random_.uniform(0, 360);
-    }
-    if (random_.chance(0.4) && (!c.parts[0].is_point() || c.parts[0].front)) {
-      c.sensor.pixel = vantage::PixelLimit{c.range * random_.magnitude(2e-5, 1e-3), vantage::PixelLimit::Kind::worst};
-      if (random_.chance(0.3)) c.sensor.pixel->kind = vantage::PixelLimit::Kind::perpendicular;
-    }
-    c.kind += ", camera";
   }
 
   void draw_from_mission(std::uint64_t seed, std::size_t index) {
@@ -127,29 +107,10 @@ class FlightDrawing {
       for (const vantage::Target& target : list) add_target(target);
     }
     middle_ = targets_[0];
-    const vantage::Navigation& navigation = mission.navigation;
-    const auto add_box = [&](const vantage::Box& box) {
-      for (int k = 0; k < 8; ++k) {
-        limits_.emplace_back((k & 1 ? box.max : box.min).x(), (k & 2 ? box.max : box.min).y(),
-                             (k & 4 ? box.max : box.min).z());
-      }
-    };
-    const auto add_zone = [&](const vantage::Zone& zone) {
-      if (zone.is_box) return add_box(zone.box());
-      for (const Eigen::Vector2d& p : zone.outer) {
-        for (const double z : {zone.min_z_m, zone.max_z_m})
-          limits_.emplace_back(p.x(), p.y(), std::isfinite(z) ? z : middle_.z());
-      }
-    };
-    for (const vantage::Zone& zone : navigation.keep_in) add_zone(zone);
-    for (const vantage::Zone& zone : navigation.keep_out) add_zone(zone);
-    for (const vantage::KeepInMesh& mesh : navigation.meshes) {
-      limits_.insert(limits_.end(), mesh.mesh.vertices.begin(), mesh.mesh.vertices.end());
-    }
-    if (navigation.altitude) {
-      for (const double z : {navigation.altitude->min_m, navigation.altitude->max_m})
-        limits_.emplace_back(middle_.x(), middle_.y(), z);
-    }
+    every_limit<Limit::keep_in, Limit::keep_out, Limit::meshes>([&](auto limit) {
+      const auto* value = given<limit>(mission.navigation, mission.sensor);
+      if (value != nullptr) add_anchors<limit>(*value, middle_, limits_);
+    });
   }
 
   /// Not in worlds so small that a point on a surface is raised out of them.

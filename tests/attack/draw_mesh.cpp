@@ -134,35 +134,11 @@ class MeshDrawing {
  private:
   /// Where limits are, which other places rarely meet.
   void add_special_places(std::vector<Vec3>& places) {
-    const auto about = [&](const Vec3& at, double size) {
-      for (int i = 0; i < 6; ++i) places.push_back(at + size * random_.magnitude(1e-3, 1) * random_.direction());
-    };
-    if (const auto& sun = c_.sensor.sun) {
-      for (int i = 0; i < 10; ++i) {
-        const double away = c_.sensor.max_range_m * random_.uniform(0.05, 0.95);
-        about(centre_ - away * sun->direction.normalized(), 0.3 * away);
-      }
-    }
-    for (const auto* zones : {&c_.navigation.keep_in, &c_.navigation.keep_out}) {
-      for (const vantage::Zone& zone : *zones) {
-        if (zone.is_box) {
-          const vantage::Box box = zone.box();
-          about((box.min + box.max) / 2, (box.max - box.min).norm());
-          continue;
-        }
-        Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-        for (const auto& corner : zone.outer) middle += corner / static_cast<double>(zone.outer.size());
-        const double z = std::isfinite(zone.min_z_m) ? (zone.min_z_m + zone.max_z_m) / 2 : centre_.z();
-        about({middle.x(), middle.y(), z}, 10 * c_.unit);
-      }
-    }
-    if (c_.sensor.min_range_m > 0) about(centre_, 1.5 * c_.sensor.min_range_m);
-    if (c_.sensor.camera) about(centre_, 8 * c_.unit);
-    if (c_.navigation.clearance) {
-      for (const Vec3& corner : c_.navigation.clearance->obstacles->vertices) {
-        places.push_back(corner + c_.navigation.clearance->distance_m * random_.uniform(0, 1.5) * random_.direction());
-      }
-    }
+    MeshPlaces around{random_, c_, centre_, places};
+    every_limit<Limit::sun, Limit::keep_in, Limit::keep_out, Limit::min_range, Limit::frame>([&](auto limit) {
+      const auto* value = given<limit>(c_.navigation, c_.sensor);
+      if (value != nullptr) attack::add_places<limit>(*value, around);
+    });
   }
 
   const Vec3& pick(const std::vector<Vec3>& places) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "limit_attack.h"
 #include "missions.h"
 #include "random.h"
 
@@ -50,7 +51,7 @@ class MissionDrawing {
  private:
   Vec3 placed(const Vec3& p) const { return scale_ * p + shift_; }
   std::string length(double metres) const { return exactly(scale_ * metres); }
-  double height(double z) const { return scale_ * z + shift_.z(); }
+  MissionDraws limit_draws() { return {random_, scale_, range_, shift_, has_ground_, {}, {}, {}}; }
 
   void begin_object(const std::string& name, ObjectKind kind) { drawn_.scene.objects.push_back({name, "", kind}); }
   void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -73,9 +74,7 @@ class MissionDrawing {
   std::string front_text();
   std::string target();
   void draw_targets();
-  std::string camera_keys(bool& has_pixels);
   void draw_sensor();
-  std::string zone();
   void draw_navigation();
 
   Random random_;
@@ -219,20 +218,6 @@ void MissionDrawing::draw_targets() {
   text_ += std::string("combine: ") + random_.pick({"all", "any", "each"}) + "\n";
 }
 
-std::string MissionDrawing::camera_keys(bool& has_pixels) {
-  std::string text = ", fov: " + pair(random_.uniform(20, 90), random_.uniform(20, 70));
-  has_pixels = random_.chance(0.7);
-  if (has_pixels) text += ", camera: {width: 4000, height: 3000}";
-  const std::string roll = ", roll: " + exactly(random_.chance(0.5) ? 0 : random_.uniform(-90, 90));
-  const double low = random_.uniform(-90, 60);
-  if (random_.chance(0.3)) {
-    const std::string yaw = random_.chance(0.5) ? "any" : exactly(random_.uniform(0, 360));
-    return text + ", mount: {yaw: " + yaw + ", pitch: " + exactly(low) + roll + "}";
-  }
-  if (random_.chance(0.5)) text += ", gimbal: {pitch: " + pair(low, random_.uniform(low, 90)) + roll + "}";
-  return text;
-}
-
 void MissionDrawing::draw_sensor() {
   text_ += "sensor: {max_range: " + length(range_);
   if (are_points_ && random_.chance(0.5)) {
@@ -240,75 +225,22 @@ void MissionDrawing::draw_sensor() {
     const double frequency = 0.299792458 * clear * clear / (2 * excess);
     if (frequency < 3000) text_ += ", link: {frequency: " + exactly(frequency) + ", clear: " + exactly(clear) + "}";
   }
-  if (random_.chance(0.2)) text_ += ", min_range: " + length(range_ * random_.uniform(0.02, 0.6));
-  if (random_.chance(0.15)) text_ += ", incidence: " + exactly(random_.uniform(20, 88));
-  if (random_.chance(0.15)) {
-    text_ += ", sun: {azimuth: " + exactly(random_.uniform(0, 360)) +
-             ", elevation: " + exactly(random_.uniform(0, 89)) + ", exclude: " + exactly(random_.uniform(5, 60)) + "}";
-  }
-  if (random_.chance(0.25)) {
-    bool has_pixels = false;
-    text_ += camera_keys(has_pixels);
-    if (has_pixels && random_.chance(0.5)) {
-      text_ += ", pixel: {size: " + length(range_ * random_.magnitude(1e-4, 1e-3)) +
-               ", kind: " + random_.pick({"worst", "perpendicular"}) + "}";
-    }
-  }
+  MissionDraws draws = limit_draws();
+  every_sensor_limit<Limit::min_range, Limit::incidence, Limit::sun>(
+      [&](auto limit) { draw_in_mission<limit>(draws); });
+  text_ += draws.sensor;
   if (!are_points_ && random_.chance(0.08)) {
     text_ += ", visible: " + exactly(random_.uniform(0.4, 0.95)) + ", cells: " + std::to_string(random_.integer(1, 5));
   }
   text_ += "}\n";
 }
 
-std::string MissionDrawing::zone() {
-  const Vec3 middle = random_.point(-0.5, 0.5) * range_, half = random_.point(0.15, 0.9) * range_;
-  const Vec3 low = placed(middle - half), high = placed(middle + half);
-  if (random_.chance(0.5)) return "{min: " + triple(low) + ", max: " + triple(high) + "}";
-  const int count = random_.integer(3, 8);
-  std::string text;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count, share = random_.uniform(0.4, 1.4);
-    const Vec3 at = placed(middle + share * Vec3(half.x() * std::cos(angle), half.y() * std::sin(angle), 0));
-    text += (text.empty() ? "{polygon: [" : ", ") + pair(at.x(), at.y());
-  }
-  if (has_ground_ && random_.chance(0.3)) {
-    return text + "], agl: " + pair(scale_ * random_.uniform(0, 5), scale_ * random_.uniform(6, 30)) + "}";
-  }
-  return text + "], z: " + pair(low.z(), high.z()) + "}";
-}
-
 void MissionDrawing::draw_navigation() {
-  std::string keys;
-  const auto add = [&](const std::string& key) { keys += (keys.empty() ? "" : ", ") + key; };
-  const double low = random_.uniform(-5, 12);
-  if (random_.chance(0.2)) {
-    const bool is_agl = has_ground_ && random_.chance(0.5);
-    const double high = low + random_.uniform(2, 30);
-    add(is_agl ? "altitude: {agl: " + pair(scale_ * low, scale_ * high) + "}"
-               : "altitude: " + pair(height(low), height(high)));
-  }
-  if (random_.chance(0.15)) add("clearance: " + length(random_.uniform(0.1, 3)));
-  if (random_.chance(0.15)) add("keep_in: [" + zone() + (random_.chance(0.5) ? ", " + zone() : "") + "]");
-  if (random_.chance(0.2)) add("keep_out: [" + zone() + (random_.chance(0.3) ? ", " + zone() : "") + "]");
-  if (!keys.empty()) text_ += "navigation: {" + keys + "}\n";
-  if (!random_.chance(0.08)) return;
-  MissionDrawing box(drawn_.seed, 0);  // a box with vertices and triangles of its own
-  box.scale_ = scale_;
-  box.shift_ = shift_;
-  box.begin_object("airspace", ObjectKind::other);
-  box.add_box(random_.point(-30, -2), random_.point(2, 30));
-  vantage::Mesh mesh;
-  // One vertex for each corner, as solids need it.
-  for (const vantage::Triangle& t : box.drawn_.scene.mesh.triangles) {
-    vantage::Triangle& made = mesh.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& corner = box.drawn_.scene.mesh.vertices[t[k]];
-      const auto known = std::find(mesh.vertices.begin(), mesh.vertices.end(), corner);
-      made[k] = static_cast<std::uint32_t>(known - mesh.vertices.begin());
-      if (known == mesh.vertices.end()) mesh.vertices.push_back(corner);
-    }
-  }
-  drawn_.meshes.push_back({mesh, "airspace"});
+  MissionDraws draws = limit_draws();
+  every_navigation_limit<Limit::altitude, Limit::above_ground, Limit::clearance>(
+      [&](auto limit) { draw_in_mission<limit>(draws); });
+  if (!draws.navigation.empty()) text_ += "navigation: {" + draws.navigation + "}\n";
+  drawn_.meshes = draws.meshes;
 }
 
 }  // namespace

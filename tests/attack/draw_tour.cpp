@@ -1,11 +1,11 @@
 // Towns of boxes, targets on their roofs, walls and streets, and regions in their air.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
 
+#include "limit_attack.h"
 #include "random.h"
 #include "tours.h"
 #include "vantage/error.h"
@@ -57,6 +57,8 @@ class TourDrawing {
   DrawnTour run() {
     size_ = random_.uniform(40, 120);
     draw_town();
+    limits_.size = size_;
+    limits_.has_ground = has_ground_;
     draw_settings();
     draw_navigation();
     if (is_mission_) {
@@ -133,29 +135,8 @@ class TourDrawing {
   }
 
   void draw_navigation() {
-    vantage::Navigation& navigation = drawn_.navigation;
-    if (random_.chance(0.6)) navigation.altitude = {random_.uniform(0.5, 15), random_.uniform(35, 90)};
-    if (has_ground_ && random_.chance(0.3)) {
-      wants_agl_ = true;
-      agl_ = {random_.uniform(1, 12), random_.uniform(30, 90)};
-    }
-    for (int i = random_.integer(0, 2); i > 0; --i) {
-      vantage::Zone zone;
-      const Vec3 middle = random_.point(-size_, size_);
-      const double radius = random_.uniform(4, 0.35 * size_);
-      const int corners = random_.integer(3, 6);
-      for (int k = 0; k < corners; ++k) {
-        const double angle = 2 * std::numbers::pi * k / corners, reach = radius * random_.uniform(0.6, 1);
-        zone.outer.emplace_back(middle.x() + reach * std::cos(angle), middle.y() + reach * std::sin(angle));
-      }
-      if (random_.chance(0.5)) zone.max_z_m = random_.uniform(15, 60);
-      zone.name = "zone " + std::to_string(i);
-      navigation.keep_out.push_back(zone);
-    }
-    if (random_.chance(0.3)) {
-      const double far = size_ * random_.uniform(1, 1.6);
-      navigation.keep_in.push_back(vantage::Box{Vec3(-far, -far, -1), Vec3(far, far, random_.uniform(40, 120))});
-    }
+    every_navigation_limit<Limit::altitude, Limit::above_ground, Limit::keep_out>(
+        [&](auto limit) { draw_in_tour<limit>(limits_); });
   }
 
   /// Away from buildings, and from zones to stay out of, at height 0.
@@ -216,12 +197,9 @@ class TourDrawing {
       text += "]}\n";
     }
     text += "sensor: {max_range: " + tour_number(random_.uniform(25, 90));
-    if (random_.chance(0.2)) text += ", incidence: " + tour_number(random_.uniform(40, 85));
-    if (random_.chance(0.2)) text += ", min_range: " + tour_number(random_.uniform(2, 10));
-    text += "}\nexact: {tolerance: 0.05}\n";
-    if (wants_agl_) {
-      text += "navigation: {altitude: {agl: [" + tour_number(agl_[0]) + ", " + tour_number(agl_[1]) + "]}}\n";
-    }
+    every_sensor_limit<Limit::incidence, Limit::min_range>([&](auto limit) { draw_in_tour<limit>(limits_); });
+    text += limits_.mission_sensor + "}\nexact: {tolerance: 0.05}\n";
+    if (!limits_.mission_navigation.empty()) text += "navigation: {" + limits_.mission_navigation + "}\n";
     auto loaded = std::make_shared<vantage::LoadedScene>();
     loaded->scene = drawn_.scene;
     vantage::Mission mission =
@@ -262,9 +240,9 @@ class TourDrawing {
   Random random_;
   DrawnTour drawn_;
   std::vector<Building> buildings_;
-  std::array<double, 2> agl_ = {0, 1};
   double size_ = 1;
-  bool is_mission_ = true, has_ground_ = false, wants_agl_ = false;
+  bool is_mission_ = true, has_ground_ = false;
+  TourDraws limits_{random_, 0, false, drawn_.navigation, {}, {}};
 };
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "engine_calls.h"
 
-#include <cmath>
-#include <cstdio>
 #include <fstream>
-#include <numbers>
 
+#include "limit_attack.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 #include "vantage/scene_source.h"
@@ -41,85 +39,29 @@ std::string refusal_of(const Error& error) {
   return "other";
 }
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string list(const Vec3& p) {
-  std::string text = "[";
-  for (int axis = 0; axis < 3; ++axis) text.append(axis > 0 ? ", " : "").append(number(p[axis]));
-  return text.append("]");
-}
-
-void write_box(std::ostream& out, const Box& box) {
-  out << "    - {min: " << list(box.min) << ", max: " << list(box.max) << "}\n";
-}
-
-// The attack draws zones without holes.
-void write_zone(std::ostream& out, const Zone& zone) {
-  out << "    - {polygon: [";
-  for (std::size_t i = 0; i < zone.outer.size(); ++i) {
-    out << (i > 0 ? ", [" : "[") << number(zone.outer[i].x()) << ", " << number(zone.outer[i].y()) << "]";
-  }
-  out << "], z: [" << number(zone.min_z_m) << ", " << number(zone.max_z_m) << "]}\n";
-}
-
-// The attack draws no meshes to stay in, and of ground a plane alone.
-void write_navigation(const Navigation& navigation, std::ostream& out) {
-  if (navigation.empty()) return;
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
-  out << "navigation:\n";
-  if (altitude || above_ground) {
-    out << "  altitude: {";
-    if (altitude) out << "z: [" << number(altitude->min_m) << ", " << number(altitude->max_m) << "]";
-    if (altitude && above_ground) out << ", ";
-    if (above_ground) out << "agl: [" << number(above_ground->min_m) << ", " << number(above_ground->max_m) << "]";
-    out << "}\n";
-  }
-  if (clearance) out << "  clearance: " << number(clearance->distance_m) << "\n";
-  if (above_ground) out << "  ground: " << number(above_ground->ground.plane_z_m) << "\n";
-  const auto write = [&](const std::vector<Zone>& zones) {
-    for (const Zone& zone : zones) zone.is_box ? write_box(out, zone.box()) : write_zone(out, zone);
-  };
-  if (!keep_in.empty()) out << "  keep_in:\n";
-  write(keep_in);
-  if (!keep_out.empty()) out << "  keep_out:\n";
-  write(keep_out);
-}
-
 // The attack draws no cameras.
-void write_sensor(const Case& c, std::ostream& out) {
-  out << "sensor:\n  max_range: " << number(c.range) << "\n";
-  if (c.sensor.min_range_m > 0) out << "  min_range: " << number(c.sensor.min_range_m) << "\n";
-  if (c.sensor.incidence_deg) out << "  incidence: " << number(*c.sensor.incidence_deg) << "\n";
-  if (const auto& sun = c.sensor.sun) {
-    const Vec3 to_sun = sun->direction.normalized();
-    const double degree = std::numbers::pi / 180;
-    out << "  sun: {azimuth: " << number(std::atan2(to_sun.x(), to_sun.y()) / degree)
-        << ", elevation: " << number(std::asin(to_sun.z()) / degree) << ", exclude: " << number(sun->exclude_deg)
-        << "}\n";
-  }
+void write_limits(const Case& c, std::ostream& out) {
+  const MissionLines lines = lines_of(c.navigation, c.sensor);
+  out << "sensor:\n  max_range: " << exact_text(c.range) << "\n" << lines.sensor;
   if (const auto& link = c.sensor.link) {
-    out << "  link: {frequency: " << number(link->frequency_ghz) << ", clear: " << number(link->clear) << "}\n";
+    out << "  link: {frequency: " << exact_text(link->frequency_ghz) << ", clear: " << exact_text(link->clear) << "}\n";
   }
+  if (!lines.navigation.empty()) out << "navigation:\n" << lines.navigation;
 }
 
 void write_mission(const Case& c, const Target& target, const std::filesystem::path& file) {
   std::ofstream out(file);
   out << "scene: {mesh: scene.obj}\ntarget:\n";
   if (target.is_point()) {
-    out << "  point: " << list(target.parts[0][0]) << "\n";
+    out << "  point: " << exact_text(target.parts[0][0]) << "\n";
   } else {
     out << "  vertices:\n";
-    for (const Vec3& v : target.parts[0]) out << "    - " << list(v) << "\n";
+    for (const Vec3& v : target.parts[0]) out << "    - " << exact_text(v) << "\n";
   }
-  if (target.offset_m != 0) out << "  offset: " << number(target.offset_m) << "\n";
-  if (target.front) out << "  front: " << list(*target.front) << "\n";
-  write_sensor(c, out);
-  write_navigation(c.navigation, out);
-  out << "exact: {tolerance: " << number(c.tolerance) << "}\n";
+  if (target.offset_m != 0) out << "  offset: " << exact_text(target.offset_m) << "\n";
+  if (target.front) out << "  front: " << exact_text(*target.front) << "\n";
+  write_limits(c, out);
+  out << "exact: {tolerance: " << exact_text(c.tolerance) << "}\n";
 }
 
 }  // namespace
@@ -164,7 +106,7 @@ std::string reversed_differs(const Case& c, const Volume& volume) {
     const Comparison comparison = compare_volumes(volume.mesh, reversed.mesh);
     const double worst = std::max(comparison.only_a_m3, comparison.only_b_m3) / comparison.volume_a_m3;
     const double allowed = 3 * c.tolerance * surface_area(volume.mesh) / comparison.volume_a_m3 + 1e-4;
-    if (worst > allowed) return number(100 * worst) + " % of the volume differ";
+    if (worst > allowed) return exact_text(100 * worst) + " % of the volume differ";
   } catch (const std::exception& error) {
     return std::string("throws: ") + error.what();
   }
@@ -175,7 +117,7 @@ void write_case(const Case& c, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::ofstream out(folder / "scene.obj");
   for (const Vec3& v : c.scene.mesh.vertices)
-    out << "v " << number(v.x()) << " " << number(v.y()) << " " << number(v.z()) << "\n";
+    out << "v " << exact_text(v.x()) << " " << exact_text(v.y()) << " " << exact_text(v.z()) << "\n";
   std::uint32_t last = ~0u;
   for (std::size_t i = 0; i < c.scene.mesh.triangles.size(); ++i) {
     const std::uint32_t object = c.scene.object_of.empty() ? 0 : c.scene.object_of[i];

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 
+#include "flight_margins.h"
 #include "sensor_oracle.h"
 #include "trial.h"
 
@@ -12,19 +13,25 @@ namespace {
 
 class Claims {
  public:
-  explicit Claims(Trial& trial) : trial_(trial), mesh_(local_mesh(trial, trial.answer.volume)) {}
+  explicit Claims(Trial& trial)
+      : trial_(trial),
+        mesh_(local_mesh(trial, trial.answer.volume)),
+        navigation_(trial.c.navigation),
+        sensor_(trial.c.sensor, {trial.parts[0].exact.target()}) {}
 
   /// False for a mesh that has no inside.
   bool check_mesh() {
     const vantage::Volume& volume = trial_.answer.volume;
     const MeshFaults found = faults(volume.mesh);
     if (found.bad_index) trial_.result.add({FindingKind::bad_mesh, 0, Vec3::Zero(), "an index is out of range"});
-    if (found.open_edges > 0)
+    if (found.open_edges > 0) {
       trial_.result.add(
           {FindingKind::bad_mesh, 0, Vec3::Zero(), std::to_string(found.open_edges) + " edges do not cancel"});
-    if (found.flat_facets > 0)
+    }
+    if (found.flat_facets > 0) {
       trial_.result.add(
           {FindingKind::flat_facets, 0, Vec3::Zero(), std::to_string(found.flat_facets) + " without area"});
+    }
     if (volume.cause_of.size() != volume.mesh.triangles.size())
       trial_.result.add({FindingKind::bad_causes, 0, Vec3::Zero(), "not one cause a facet"});
     for (const std::uint32_t cause : volume.cause_of) {
@@ -111,13 +118,12 @@ class Claims {
     if (mesh_.locate(p) != Place::inside) return;
     ++trial_.result.viewpoints;
     for (const PartView& part : trial_.parts) check(p, part);
-    const std::string broken = limit_broken(trial_.to_scene(p));
+    const std::string broken = broken_among(navigation_.at(trial_.to_scene(p)));
     if (!broken.empty()) report(FindingKind::outside_limits, p, broken);
-    const SeenTarget& target = trial_.parts[0].exact.target();
-    const std::string of_sensor = sensor_limit_broken(trial_.c.sensor, target, p);
+    const std::string of_sensor = broken_among(sensor_.of_limits(p));
     if (!of_sensor.empty()) report(FindingKind::outside_limits, p, of_sensor);
     if (const auto& link = trial_.c.sensor.link) {
-      const auto entering = entering_zone(*link, trial_.blockers, target.corners[0], p);
+      const auto entering = entering_zone(*link, trial_.blockers, trial_.parts[0].exact.target().corners[0], p);
       if (entering) report(FindingKind::over_claim, p, trial_.object_of(*entering) + " enters the zone");
     }
   }
@@ -155,43 +161,6 @@ class Claims {
       if (which == FindingKind::over_claim && mesh_.locate(outer) == Place::inside)
         trial_.result.add({FindingKind::shallow, share, trial_.to_scene(p), detail});
     }
-  }
-
-  /// Triangles from the first corner to each side cover the zone an odd number of times, and all else an even one.
-  static bool is_in_zone(const vantage::Zone& zone, const Vec3& p) {
-    if (p.z() < zone.min_z_m || p.z() > zone.max_z_m) return false;
-    const auto turn = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-      return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) > 0;
-    };
-    const Eigen::Vector2d at = p.head<2>();
-    bool inside = false;
-    for (std::size_t i = 1; i + 1 < zone.outer.size(); ++i) {
-      const Eigen::Vector2d &a = zone.outer[0], &b = zone.outer[i], &c = zone.outer[i + 1];
-      if (turn(a, b, at) == turn(b, c, at) && turn(b, c, at) == turn(c, a, at)) inside = !inside;
-    }
-    return inside;
-  }
-
-  std::string limit_broken(const Vec3& p) const {
-    const vantage::Navigation& limits = trial_.c.navigation;
-    const auto holds = [&p](const vantage::Box& box) {
-      return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
-    };
-    const auto holds_inside = [&p](const vantage::Box& box) {
-      return (p.array() > box.min.array()).all() && (p.array() < box.max.array()).all();
-    };
-    if (limits.altitude && (p.z() < limits.altitude->min_m || p.z() > limits.altitude->max_m)) return "altitude";
-    if (limits.above_ground) {
-      const double above = p.z() - limits.above_ground->ground.plane_z_m;
-      if (above < limits.above_ground->min_m || above > limits.above_ground->max_m) return "agl";
-    }
-    const auto keeps = [&](const vantage::Zone& zone) { return zone.is_box ? holds(zone.box()) : is_in_zone(zone, p); };
-    const auto forbids = [&](const vantage::Zone& zone) {
-      return zone.is_box ? holds_inside(zone.box()) : is_in_zone(zone, p);
-    };
-    if (!limits.keep_in.empty() && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), keeps)) return "keep_in";
-    if (std::any_of(limits.keep_out.begin(), limits.keep_out.end(), forbids)) return "keep_out";
-    return {};
   }
 
   /// A facet moved in by kDepth about the centre. Corners that rounding left under the target's plane are raised to
@@ -272,6 +241,8 @@ class Claims {
 
   Trial& trial_;
   ClosedMesh mesh_;
+  NavigationMargins navigation_;
+  SensorMargins sensor_;
 };
 
 }  // namespace

@@ -131,8 +131,6 @@ class FlightJudge {
 
   void judge_navigation();
 
-  bool has_agl(const std::string& limit) const;
-
   /// It is what the place says, and hardly less than elsewhere.
   void judge_worst(const vantage::BrokenLimit& limit, const MarginsAt& margins, bool is_measured);
 

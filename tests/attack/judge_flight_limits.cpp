@@ -48,24 +48,11 @@ void FlightJudge::judge_navigation() {
   for (const Margin& margin : limits.at(leg(0).from)) {
     const auto found = told.find(margin.limit);
     const std::vector<FlightSpan> none;
-    // Above ground, heights count, not distances.
-    const bool is_measured =
-        margin.limit.find("agl") == std::string::npos && margin.limit != "ground edge" && !has_agl(margin.limit);
-    judge_limit(margin.limit, found == told.end() ? none : found->second->spans, margins, is_measured || !(radius_ > 0),
-                false);
-    if (found != told.end()) judge_worst(*found->second, margins, is_measured);
+    judge_limit(margin.limit, found == told.end() ? none : found->second->spans, margins, margin.is_measured, false);
+    if (found != told.end()) judge_worst(*found->second, margins, margin.is_measured);
     told.erase(margin.limit);
   }
   for (const auto& [name, limit] : told) wrong("limit", "there is none of the name " + name);
-}
-
-bool FlightJudge::has_agl(const std::string& limit) const {
-  const auto has = [](const std::vector<vantage::Zone>& zones) {
-    return std::any_of(zones.begin(), zones.end(),
-                       [](const vantage::Zone& zone) { return zone.above_ground.has_value(); });
-  };
-  const vantage::Navigation& navigation = drawn_.mission.navigation;
-  return limit.starts_with("keep_out zone") ? has(navigation.keep_out) : limit == "keep_in" && has(navigation.keep_in);
 }
 
 void FlightJudge::judge_worst(const vantage::BrokenLimit& limit, const MarginsAt& margins, bool is_measured) {

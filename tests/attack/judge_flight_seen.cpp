@@ -126,15 +126,12 @@ void FlightJudge::judge_reasons(const vantage::TargetCheck& check, const OneTarg
   using Kind = vantage::NotSeen::Kind;
   if (!target.sensor().link) judge_hidden(check, target);
   const auto margins = [&](const Vec3& p) { return target.margins(p); };
-  const bool turns = target.sensor().camera && !target.sensor().mount.is_fixed();
   for (const Margin& margin : target.margins(leg(0).from)) {
     const bool is_range = margin.limit == "max_range", is_behind = margin.limit == "behind";
-    const std::vector<std::string> names = is_range || is_behind     ? std::vector<std::string>{""}
-                                           : margin.limit == "frame" ? std::vector<std::string>{"frame", "gimbal"}
-                                                                     : std::vector<std::string>{margin.limit};
+    std::vector<std::string> names = {""};
+    if (const auto limit = facts_named(margin.limit)) names = limit->names;
     const Kind kind = is_range ? Kind::out_of_range : is_behind ? Kind::behind : Kind::limit;
-    const bool is_measured = margin.limit != "sun" && !(margin.limit == "frame" && (turns || radius_ > 0));
-    judge_limit(margin.limit, spans_of(check, kind, names), margins, is_measured, turns && margin.limit == "frame");
+    judge_limit(margin.limit, spans_of(check, kind, names), margins, margin.is_measured, margin.is_searched);
   }
 }
 

@@ -175,8 +175,12 @@ class VolumeJudge {
 
   /// Limits whose surfaces are flat, and so cut where they are.
   bool has_exact_limits() const {
-    const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = mission_.sensor;
-    return min_range_m == 0 && !incidence_deg && !camera && !sun && !link && !visible && !mission_.navigation.clearance;
+    const vantage::Sensor& sensor = mission_.sensor;
+    bool are_flat = !sensor.link && !sensor.visible;
+    const auto look = [&](auto limit, const auto& /*value*/) { are_flat = are_flat && facts_of<limit>().is_flat; };
+    each_limit(mission_.navigation, look);
+    each_limit(sensor, look);
+    return are_flat;
   }
 
   void judge_losses(const ClosedMesh& mesh) {
@@ -216,13 +220,15 @@ class VolumeJudge {
 
 /// Words of the mission's text that are counted.
 std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> counted = {"combine: all", "combine: any", "combine: each", "sides: both", "targets:",
+                                      "point:",       "outline:",     "parts:",        "part: roof",  "part: facade",
+                                      "vertices:",    "link:",        "visible:"};
+  every_limit([&](auto limit) {
+    for (const std::string& word : facts_of<limit>().words) counted.push_back(word);
+  });
   std::vector<std::string> words;
-  for (const char* word :
-       {"combine: all",   "combine: any", "combine: each", "sides: both", "targets:",   "point:",     "outline:",
-        "parts:",         "part: roof",   "part: facade",  "vertices:",   "min_range:", "incidence:", "sun:",
-        "fov:",           "mount:",       "gimbal:",       "pixel:",      "link:",      "visible:",   "altitude: [",
-        "altitude: {agl", "clearance:",   "keep_in:",      "keep_out:"}) {
-    if (text.find(word) != std::string::npos) words.emplace_back(word);
+  for (const std::string& word : counted) {
+    if (text.find(word) != std::string::npos) words.push_back(word);
   }
   return words;
 }

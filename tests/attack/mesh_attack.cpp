@@ -95,25 +95,10 @@ class MeshMinimiser {
   }
 
   void drop_limits() {
-    const auto without = [&](auto&& drop) {
+    every_limit([&](auto limit) {
       MeshCase c = best_;
-      drop(c);
+      leave_out<limit>(c.navigation, c.sensor);
       keep_if_wrong(c);
-    };
-    without([](MeshCase& c) { c.navigation.altitude.reset(); });
-    without([](MeshCase& c) { c.navigation.keep_in.clear(); });
-    without([](MeshCase& c) { c.navigation.keep_out.clear(); });
-    without([](MeshCase& c) { c.navigation.meshes.clear(); });
-    without([](MeshCase& c) { c.navigation.above_ground.reset(); });
-    without([](MeshCase& c) { c.navigation.clearance.reset(); });
-    without([](MeshCase& c) { c.sensor.min_range_m = 0; });
-    without([](MeshCase& c) { c.sensor.incidence_deg.reset(); });
-    without([](MeshCase& c) { c.sensor.sun.reset(); });
-    without([](MeshCase& c) { c.sensor.pixel.reset(); });
-    without([](MeshCase& c) {
-      c.sensor.pixel.reset();
-      c.sensor.camera.reset();
-      c.sensor.mount = {};
     });
   }
 

@@ -1,10 +1,10 @@
 // What the attack by meshes asks of vantage, and how it writes a case down.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <map>
 
+#include "limit_attack.h"
 #include "mesh_case.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
@@ -18,15 +18,10 @@ using namespace vantage;
 
 /// The claim that a name of PointAnswer::outside_of belongs to.
 std::string claim_of(const std::string& name, const Sensor& sensor) {
-  const auto starts = [&](const char* with) { return name.rfind(with, 0) == 0; };
-  if (starts("altitude")) return "altitude";
-  if (starts("agl") || starts("ground edge")) return "agl";
-  if (starts("keep_out")) return "keep_out";
-  if (starts("keep_in")) return "keep_in";
-  if (starts("mesh ")) return "meshes";
-  if (starts("gimbal")) return "frame";
-  if (starts("pixel") && sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::perpendicular) return "range";
-  return name;
+  const auto limit = facts_named(name);
+  if (!limit) return name;
+  const bool is_range = sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::perpendicular;
+  return is_range && name == "pixel" ? "range" : limit->claim;
 }
 
 std::vector<std::string> claims_of(const PointAnswer& answer, const Sensor& sensor) {
@@ -39,17 +34,11 @@ std::vector<std::string> claims_of(const PointAnswer& answer, const Sensor& sens
   return claims;
 }
 
-std::string digits_of(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 void write_obj(const Mesh& mesh, const std::vector<std::string>& names, const std::vector<std::uint32_t>& object_of,
                const std::filesystem::path& file) {
   std::ofstream out(file);
   for (const Vec3& v : mesh.vertices)
-    out << "v " << digits_of(v.x()) << " " << digits_of(v.y()) << " " << digits_of(v.z()) << "\n";
+    out << "v " << exact_text(v.x()) << " " << exact_text(v.y()) << " " << exact_text(v.z()) << "\n";
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!object_of.empty() && (i == 0 || object_of[i] != object_of[i - 1])) out << "o " << names[object_of[i]] << "\n";
     const auto& [a, b, c] = mesh.triangles[i];
@@ -69,18 +58,6 @@ Mesh without_unused(const Mesh& mesh) {
     used.triangles.push_back(t);
   }
   return used;
-}
-
-/// Every bit of it, and nothing mended.
-void write_ply(const Mesh& whole, const std::filesystem::path& file) {
-  const Mesh mesh = without_unused(whole);
-  std::ofstream out(file, std::ios::binary);
-  out << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
-      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << mesh.triangles.size()
-      << "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const Vec3& v : mesh.vertices)
-    out << digits_of(v.x()) << " " << digits_of(v.y()) << " " << digits_of(v.z()) << "\n";
-  for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << " " << b << " " << c << "\n";
 }
 
 }  // namespace
@@ -164,6 +141,17 @@ std::vector<std::vector<std::string>> QueryOracle::broken(const std::vector<Vec3
   return broken;
 }
 
+void write_ply(const Mesh& whole, const std::filesystem::path& file) {
+  const Mesh mesh = without_unused(whole);
+  std::ofstream out(file, std::ios::binary);
+  out << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << mesh.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& v : mesh.vertices)
+    out << exact_text(v.x()) << " " << exact_text(v.y()) << " " << exact_text(v.z()) << "\n";
+  for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << " " << b << " " << c << "\n";
+}
+
 void write_mesh_case(const MeshCase& c, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::vector<std::string> names;
@@ -173,37 +161,22 @@ void write_mesh_case(const MeshCase& c, const std::filesystem::path& folder) {
   }
   write_obj(without_unused(c.scene.mesh), names, c.scene.object_of, folder / "scene.obj");
   write_ply(c.volume, folder / "volume.ply");
-  if (c.lift_m > 0) std::ofstream(folder / "volume.report.json") << "{\"lift_m\": " << digits_of(c.lift_m) << "}\n";
+  if (c.lift_m > 0) std::ofstream(folder / "volume.report.json") << "{\"lift_m\": " << exact_text(c.lift_m) << "}\n";
   MissionFile mission;
   mission.scene.file = std::filesystem::absolute(folder / "scene.obj");
   mission.target = c.target;
   mission.both_sides = c.both_sides;
   if (c.both_sides) mission.target.front.reset();
   mission.sensor = c.sensor;
-  if (c.sensor.camera) {
-    mission.camera = CameraSource{{}, {}, c.fov_deg};
-    if (c.sensor.camera->width_px > 0) {
-      Camera& numbers = mission.camera->numbers.emplace();
-      numbers.width_px = c.sensor.camera->width_px;
-      numbers.height_px = c.sensor.camera->height_px;
-    }
-  }
   mission.navigation = c.navigation;
-  mission.navigation.meshes.clear();
-  for (const KeepInMesh& mesh : c.navigation.meshes) {
-    write_ply(mesh.mesh, folder / (mesh.name + ".ply"));
-    mission.navigation_meshes.push_back({std::filesystem::absolute(folder / (mesh.name + ".ply")), mesh.name + ".ply"});
-  }
-  std::optional<Ground> ground;
-  if (c.navigation.above_ground) ground = c.navigation.above_ground->ground;
-  for (const auto* zones : {&c.navigation.keep_in, &c.navigation.keep_out}) {
-    for (const Zone& zone : *zones) {
-      if (zone.above_ground) ground = zone.above_ground->ground;
-    }
-  }
+  WrittenClaim claim{c, folder, mission};
+  const auto write = [&](auto limit, const auto& value) { write_beside<limit>(value, claim); };
+  each_limit(c.navigation, write);
+  each_limit(c.sensor, write);
+  const auto& ground = claim.ground;
   if (ground && !ground->surface) mission.ground = GroundSource{ground->plane_z_m};
-  const bool is_no_obstacle = c.ground && c.navigation.clearance && !ground;
-  if (is_no_obstacle || (ground && ground->surface)) mission.ground = GroundSource{std::nullopt, names[*c.ground]};
+  const bool is_named = ground ? ground->surface != nullptr : claim.names_ground;
+  if (is_named) mission.ground = GroundSource{std::nullopt, names[*c.ground]};
   std::ofstream(folder / "mission.yaml") << mission_text(mission, folder);
 }
 

@@ -38,6 +38,17 @@ struct MeshCase {
   std::vector<Vec3> suspects;  ///< places from which not all is as it should be
 };
 
+// ---- what the drawing of claims shares ----
+
+inline constexpr double kClaimRange = 40;  ///< before all is moved
+
+/// Of the target.
+Vec3 middle_of(const MeshCase& c);
+vantage::Mesh block(const Vec3& low, const Vec3& high);
+vantage::Box box_about(Random& random, const Vec3& middle, double least, double most);
+void claim_min_range(Random& random, MeshCase& c);
+void claim_camera(Random& random, MeshCase& c);
+
 /// Scene, target and limits; without volume.
 MeshCase draw_claim(Random& random);
 
@@ -73,6 +84,9 @@ class QueryOracle {
   struct Data;
   std::shared_ptr<Data> data_;
 };
+
+/// Every bit of it, and nothing mended.
+void write_ply(const vantage::Mesh& mesh, const std::filesystem::path& file);
 
 /// Writes mission.yaml, scene.obj and volume.ply into the folder, which is made.
 void write_mesh_case(const MeshCase& c, const std::filesystem::path& folder);

@@ -97,12 +97,15 @@ class MeshJudge {
   double allowed(const std::string& claim, const Vec3& point) const {
     const double away = (point - centres_[0]).norm();
     const double rounding = 64 * kEpsilon * (largest_ + away) + 2 * c_.rounding_m;
-    const vantage::Navigation& limits = c_.navigation;
     if (claim == "sight") return std::max(4 * margin_, 1e-7 * away) + rounding;
     if (claim == "range" || claim == "front") return 4 * margin_ + 1e-9 * away + rounding;
-    if (claim == "altitude") return rounding;
-    if (claim == "keep_in" && limits.keep_in.size() == 1 && limits.keep_in[0].is_box) return rounding;
-    if (claim == "agl" && !limits.above_ground->ground.surface) return rounding;
+    bool is_told_exactly = false;
+    const auto look = [&](auto limit, const auto& value) {
+      if (claim == facts_of<limit>().claim) is_told_exactly = is_exact<limit>(value);
+    };
+    each_limit(c_.navigation, look);
+    each_limit(c_.sensor, look);
+    if (is_told_exactly) return rounding;
     return 2.5 * tolerance_ + rounding;
   }
 

@@ -6,6 +6,7 @@
 
 #include "flights.h"
 #include "isolated.h"
+#include "limit_attack.h"
 #include "vantage/error.h"
 
 namespace attack {
@@ -76,11 +77,10 @@ class FlightMinimiser {
     try_without([](DrawnFlight& d) { d.mission.navigation = {}; });
     try_without([](DrawnFlight& d) { d.options = {}; });
     try_without([](DrawnFlight& d) { d.options.tube_radius_m = d.flight.chord_error_m = 0; });
-    try_without([](DrawnFlight& d) { d.mission.sensor.camera.reset(), d.mission.sensor.pixel.reset(); });
-    try_without([](DrawnFlight& d) { d.mission.sensor.sun.reset(); });
-    try_without([](DrawnFlight& d) { d.mission.sensor.incidence_deg.reset(); });
-    try_without([](DrawnFlight& d) { d.mission.sensor.min_range_m = 0; });
     try_without([](DrawnFlight& d) { d.mission.views.clear(); });
+    every_limit([&](auto limit) {
+      try_without([&](DrawnFlight& d) { leave_out<limit>(d.mission.navigation, d.mission.sensor); });
+    });
     for (auto list : {&vantage::Navigation::keep_in, &vantage::Navigation::keep_out}) {
       for (std::size_t i = (drawn_.mission.navigation.*list).size(); i-- > 0;) {
         try_without([&](DrawnFlight& d) {
@@ -89,10 +89,6 @@ class FlightMinimiser {
         });
       }
     }
-    try_without([](DrawnFlight& d) { d.mission.navigation.meshes.clear(); });
-    try_without([](DrawnFlight& d) { d.mission.navigation.altitude.reset(); });
-    try_without([](DrawnFlight& d) { d.mission.navigation.above_ground.reset(); });
-    try_without([](DrawnFlight& d) { d.mission.navigation.clearance.reset(); });
   }
 
   DrawnFlight drawn_;
@@ -143,15 +139,10 @@ void write_flight(const DrawnFlight& drawn, const std::string& wrong, const std:
   }
   note << "tube: " << drawn.options.tube_radius_m << " + " << drawn.flight.chord_error_m << "\n";
   const vantage::Sensor& sensor = drawn.mission.sensor;
-  note << "range: " << sensor.max_range_m << "\nmin_range: " << sensor.min_range_m << "\n";
-  if (sensor.incidence_deg) note << "incidence: " << *sensor.incidence_deg << "\n";
-  if (sensor.camera) {
-    note << "camera: " << sensor.camera->half_width << " " << sensor.camera->half_height << ", pitch "
-         << sensor.mount.min_pitch_deg << " to " << sensor.mount.max_pitch_deg << ", roll " << sensor.mount.roll_deg
-         << ", yaw " << (sensor.mount.yaw_deg ? std::to_string(*sensor.mount.yaw_deg) : "any") << "\n";
-  }
-  if (sensor.pixel) note << "pixel: " << sensor.pixel->size_m << "\n";
-  if (sensor.sun) note << "sun: " << numbers(sensor.sun->direction, ", ") << ", " << sensor.sun->exclude_deg << "\n";
+  const MissionLines lines = lines_of(drawn.mission.navigation, sensor);
+  note << "sensor:\n  max_range: " << sensor.max_range_m << "\n" << lines.sensor;
+  const bool is_face_on = sensor.pixel && sensor.pixel->kind == vantage::PixelLimit::Kind::perpendicular;
+  if (is_face_on) note << "  pixel: {size: " << sensor.pixel->size_m << ", kind: perpendicular}\n";
   if (sensor.link) note << "link: " << sensor.link->frequency_ghz << ", " << sensor.link->clear << "\n";
   for (const vantage::FlightLink& link : drawn.mission.links) {
     note << "flight link: " << numbers(link.point, ", ");
@@ -159,15 +150,7 @@ void write_flight(const DrawnFlight& drawn, const std::string& wrong, const std:
     if (link.radio) note << ", radio " << link.radio->frequency_ghz << ", " << link.radio->clear;
     note << "\n";
   }
-  for (const auto* zones : {&drawn.mission.navigation.keep_in, &drawn.mission.navigation.keep_out}) {
-    for (const vantage::Zone& zone : *zones) {
-      note << "zone:";
-      for (const auto& p : zone.outer) note << " [" << p.x() << ", " << p.y() << "]";
-      note << " z " << zone.min_z_m << " to " << zone.max_z_m;
-      if (zone.above_ground) note << " agl " << zone.above_ground->min_m << " to " << zone.above_ground->max_m;
-      note << "\n";
-    }
-  }
+  note << "navigation:\n" << lines.navigation;
 }
 
 }  // namespace attack

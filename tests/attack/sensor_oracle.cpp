@@ -47,6 +47,8 @@ double greatest_on(const Corners& t, const Function& value) {
   });
 }
 
+}  // namespace
+
 double distance_to_target(const SeenTarget& target, const Vec3& point) {
   if (target.is_point()) return (point - target.corners[0]).norm();
   double least = std::numeric_limits<double>::infinity();
@@ -54,8 +56,6 @@ double distance_to_target(const SeenTarget& target, const Vec3& point) {
     least = std::min(least, distance_to_triangle(point, target.fan_triangle(i)));
   return least;
 }
-
-}  // namespace
 
 // A concave function of the target's points, for angles up to 90 degrees.
 double depth_in_sun(const vantage::SunLimit& sun, const SeenTarget& target, const Vec3& point) {
@@ -66,19 +66,6 @@ double depth_in_sun(const vantage::SunLimit& sun, const SeenTarget& target, cons
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < target.fan(); ++i) most = std::max(most, greatest_on(target.fan_triangle(i), depth));
   return most;
-}
-
-std::string sensor_limit_broken(const vantage::Sensor& sensor, const SeenTarget& target, const Vec3& point) {
-  if (distance_to_target(target, point) < sensor.min_range_m) return "min_range";
-  if (sensor.incidence_deg) {
-    const double tangent = std::tan(*sensor.incidence_deg * kDegree);
-    for (const Vec3& corner : target.corners) {
-      const double height = target.normal.dot(point - corner);
-      if ((point - corner - height * target.normal).norm() > tangent * height) return "incidence";
-    }
-  }
-  if (sensor.sun && depth_in_sun(*sensor.sun, target, point) > 0) return "sun";
-  return {};
 }
 
 std::optional<std::size_t> entering_zone(const vantage::RadioLink& link, const Blockers& blockers, const Vec3& antenna,

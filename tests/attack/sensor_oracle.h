@@ -1,16 +1,14 @@
-// Limits of the sensor by their definitions: docs/camera.md.
+// What limits of the sensor are made of, by their definitions: docs/camera.md.
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "oracle.h"
 #include "vantage/sensor.h"
 
 namespace attack {
 
-/// Which of the least range, the incidence and the sun a viewpoint breaks; empty: none. Oracle's coordinates.
-std::string sensor_limit_broken(const vantage::Sensor& sensor, const SeenTarget& target, const Vec3& point);
+double distance_to_target(const SeenTarget& target, const Vec3& point);
 
 /// By how much the target reaches into the cone about the direction to the sun: metres, above 0 where it does. It
 /// changes by at most twice what the viewpoint moves.
