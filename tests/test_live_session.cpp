@@ -12,6 +12,7 @@
 #include "live/report_page.h"
 #include "live/request.h"
 #include "live/session.h"
+#include "support/limit_samples.h"
 #include "support/live_session.h"
 #include "support/map_text.h"
 #include "vantage/camera.h"
@@ -217,6 +218,27 @@ TEST_F(LiveSession, ListsEveryLimitOfTheMission) {
   EXPECT_GE(zones[2]["high"].get<double>(), 60);
   EXPECT_EQ(zones[3]["low"], 0);
   EXPECT_EQ(zones[3]["high"], 12);
+}
+
+/// Each limit alone makes the list longer.
+TEST_F(LiveSession, ListsEachLimitThatThereIs) {
+  const auto lines = [&](const std::string& text) {
+    write("mission.yaml", text);
+    session_.open_file(folder_ / "mission.yaml");
+    std::vector<std::string> told;
+    const Message answer = ask({{"call", "compute"}, {"text", text.substr(text.find("target:"))}});
+    for (const Json& line : answer.header["value"]["limits"]["all"]) told.push_back(line["name"]);
+    return told;
+  };
+  write_scene(testing::world_of_samples().scene, folder_ / "scene.obj");
+  const std::vector<std::string> free = lines(testing::mission_text_without_limit());
+  ASSERT_FALSE(free.empty());
+  for (const testing::LimitSample& sample : testing::limit_samples()) {
+    SCOPED_TRACE(name_of(sample.limit));
+    const std::vector<std::string> told = lines(testing::mission_text_of(sample, folder_));
+    EXPECT_GT(told.size(), free.size());
+    for (const std::string& line : free) EXPECT_EQ(std::count(told.begin(), told.end(), line), 1) << line;
+  }
 }
 
 TEST_F(LiveSession, SaysWhereTheSceneLiesAndWhomToName) {

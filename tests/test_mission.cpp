@@ -10,6 +10,7 @@
 #include "app/yaml_tree.h"
 #include "common/input.h"
 #include "support/internals.h"
+#include "support/limit_samples.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
@@ -121,41 +122,6 @@ TEST(Mission, OfSeveralPolygons) {
   EXPECT_EQ(refusal(text_of_mission("", "target: {parts: []}\n")).kind(), ErrorKind::input);
 }
 
-// What is written reads back as the same text: nothing that a mission says is lost.
-void expect_same_zones(const std::vector<Zone>& found, const std::vector<Zone>& expected) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_EQ(found[i].outer, expected[i].outer);
-    EXPECT_EQ(found[i].holes, expected[i].holes);
-    EXPECT_EQ(found[i].min_z_m, expected[i].min_z_m);
-    EXPECT_EQ(found[i].max_z_m, expected[i].max_z_m);
-    EXPECT_EQ(found[i].name, expected[i].name);
-    EXPECT_EQ(found[i].is_box, expected[i].is_box);
-  }
-}
-
-// All members are named: a limit that is added does not compile here before it is compared.
-void expect_same_limits(const Navigation& found, const Navigation& expected) {
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = found;
-  ASSERT_EQ(above_ground.has_value(), expected.above_ground.has_value());
-  if (above_ground) {
-    EXPECT_EQ(above_ground->min_m, expected.above_ground->min_m);
-    EXPECT_EQ(above_ground->max_m, expected.above_ground->max_m);
-  }
-  ASSERT_EQ(clearance.has_value(), expected.clearance.has_value());
-  if (clearance) {
-    EXPECT_EQ(clearance->distance_m, expected.clearance->distance_m);
-  }
-  ASSERT_EQ(altitude.has_value(), expected.altitude.has_value());
-  if (altitude) {
-    EXPECT_EQ(altitude->min_m, expected.altitude->min_m);
-    EXPECT_EQ(altitude->max_m, expected.altitude->max_m);
-  }
-  expect_same_zones(keep_in, expected.keep_in);
-  expect_same_zones(keep_out, expected.keep_out);
-  EXPECT_EQ(meshes.size(), expected.meshes.size());
-}
-
 TEST(Mission, SaysWhomPicturesHaveToName) {
   const MissionFile mission = parse(with_scene("mesh: city.obj\n  attribution: \"\u00a9 the city's surveyors\""));
   EXPECT_EQ(mission.scene.attribution, "\u00a9 the city's surveyors");
@@ -163,6 +129,7 @@ TEST(Mission, SaysWhomPicturesHaveToName) {
   EXPECT_EQ(refusal(with_scene("mesh: city.obj\n  attribution: [a, b]")).code(), ErrorCode::wrong_type);
 }
 
+// What is written reads back as the same text: nothing that a mission says is lost.
 TEST(Mission, TextReadsBackAsTheSameMission) {
   const std::string scenes[] = {
       "scene: {mesh: ../city.obj, up: y, scale: 0.3048, lod: '2.2', crs: 'EPSG:28992', origin: [52, 4.3]}\n",
@@ -198,7 +165,8 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
         EXPECT_EQ(again.target.parts, read.target.parts);
         EXPECT_EQ(again.target.name, read.target.name);
         EXPECT_EQ(again.sensor.max_range_m, read.sensor.max_range_m);
-        expect_same_limits(again.navigation, read.navigation);
+        testing::expect_same_limits(again.navigation, read.navigation);
+        testing::expect_same_limits(again.sensor, read.sensor);
         EXPECT_EQ(again.navigation_meshes.size(), read.navigation_meshes.size());
         EXPECT_EQ(again.scene.city.defaults.levels_of, read.scene.city.defaults.levels_of);
         EXPECT_EQ(again.spheres.resolution, read.spheres.resolution);

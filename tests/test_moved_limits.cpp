@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "support/limit_samples.h"
 #include "support/mesh_probe.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -24,116 +25,17 @@ namespace vantage {
 namespace {
 
 using testing::first_open_edge;
+using testing::LimitDraw;
+using testing::LimitSample;
+using testing::LimitWorld;
 using testing::MeshProbe;
+using testing::Motion;
+using testing::moved;
 using testing::Random;
 using testing::SceneBuilder;
+using testing::Turns;
 
 constexpr double kRangeOfMoved = 40, kToleranceOfMoved = 0.1;  // metres, before scaling
-
-struct World {
-  Scene scene;
-  Target target;
-  Sensor sensor;
-  Navigation navigation;
-};
-
-/// Turns, scales, then shifts.
-struct Motion {
-  const char* name;
-  double scale = 1;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  Vec3 shift = Vec3::Zero();
-
-  Vec3 of(const Vec3& point) const { return scale * (turn * point) + shift; }
-  double of_z(double z) const { return scale * z + shift.z(); }
-};
-
-Mesh moved(Mesh mesh, const Motion& motion) {
-  for (Vec3& vertex : mesh.vertices) vertex = motion.of(vertex);
-  return mesh;
-}
-
-/// Of quarter turns.
-Box moved(const Box& box, const Motion& motion) {
-  Box result;
-  result.extend(motion.of(box.min));
-  result.extend(motion.of(box.max));
-  return result;
-}
-
-AboveGround moved(const AboveGround& limit, const Motion& motion) {
-  AboveGround result = limit;
-  result.min_m *= motion.scale;
-  result.max_m *= motion.scale;
-  result.ground.plane_z_m = motion.of_z(limit.ground.plane_z_m);
-  if (limit.ground.surface) {
-    result.ground.surface = std::make_shared<const Mesh>(moved(*limit.ground.surface, motion));
-  }
-  return result;
-}
-
-Zone moved(const Zone& zone, const Motion& motion) {
-  Zone result = zone;
-  const auto move = [&](Zone::Ring& ring) {
-    for (Eigen::Vector2d& p : ring) p = motion.of({p.x(), p.y(), 0}).head<2>();
-  };
-  move(result.outer);
-  for (Zone::Ring& hole : result.holes) move(hole);
-  result.min_z_m = motion.of_z(zone.min_z_m);
-  result.max_z_m = motion.of_z(zone.max_z_m);
-  if (zone.above_ground) result.above_ground = moved(*zone.above_ground, motion);
-  return result;
-}
-
-// All members are named: a limit that is added does not compile here before it is moved, and drawn below.
-Navigation moved(const Navigation& navigation, const Motion& motion) {
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground, clearance] = navigation;
-  Navigation result;
-  if (altitude) result.altitude = {motion.of_z(altitude->min_m), motion.of_z(altitude->max_m)};
-  const auto any_moved = [&](const Zone& zone) {
-    return zone.is_box ? Zone(moved(zone.box(), motion)) : moved(zone, motion);
-  };
-  for (const Zone& zone : keep_in) result.keep_in.push_back(any_moved(zone));
-  for (const Zone& zone : keep_out) result.keep_out.push_back(any_moved(zone));
-  for (const KeepInMesh& mesh : meshes) result.meshes.push_back({moved(mesh.mesh, motion), mesh.name});
-  if (above_ground) result.above_ground = moved(*above_ground, motion);
-  if (clearance) {
-    result.clearance = {motion.scale * clearance->distance_m,
-                        std::make_shared<const Mesh>(moved(*clearance->obstacles, motion))};
-  }
-  return result;
-}
-
-Sensor moved(const Sensor& sensor, const Motion& motion) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
-  Sensor result;
-  result.max_range_m = motion.scale * max_range_m;
-  result.min_range_m = motion.scale * min_range_m;
-  result.incidence_deg = incidence_deg;
-  result.camera = camera;
-  result.mount = mount;
-  if (mount.yaw_deg) {  // clockwise from north
-    const double turned = std::atan2(motion.turn(1, 0), motion.turn(0, 0)) * 180 / std::numbers::pi;
-    result.mount.yaw_deg = std::remainder(*mount.yaw_deg - turned, 360.0);
-  }
-  if (pixel) result.pixel = {motion.scale * pixel->size_m, pixel->kind};
-  if (sun) result.sun = {motion.turn * sun->direction, sun->exclude_deg};
-  if (link) result.link = {link->frequency_ghz / motion.scale, link->clear};
-  result.visible = visible;
-  return result;
-}
-
-World moved(const World& world, const Motion& motion) {
-  World result = world;
-  result.scene.mesh = moved(world.scene.mesh, motion);
-  for (std::vector<Vec3>& part : result.target.parts) {
-    for (Vec3& corner : part) corner = motion.of(corner);
-  }
-  if (world.target.front) result.target.front = motion.turn * *world.target.front;
-  result.sensor = moved(world.sensor, motion);
-  result.navigation = moved(world.navigation, motion);
-  return result;
-}
 
 /// Each triangle in two along its first side, in any order, with corners of its own, any of them first.
 Mesh split_and_shuffled(const Mesh& mesh, Random& random, std::vector<std::uint32_t>& object_of) {
@@ -160,18 +62,11 @@ Mesh split_and_shuffled(const Mesh& mesh, Random& random, std::vector<std::uint3
   return result;
 }
 
-World split_and_shuffled(const World& world, Random& random) {
-  World result = world;
+LimitWorld split_and_shuffled(const LimitWorld& world, Random& random) {
+  LimitWorld result = world;
   result.scene.mesh = split_and_shuffled(world.scene.mesh, random, result.scene.object_of);
   std::vector<std::uint32_t> unused;
-  if (const auto& clearance = world.navigation.clearance) {
-    result.navigation.clearance->obstacles =
-        std::make_shared<const Mesh>(split_and_shuffled(*clearance->obstacles, random, unused));
-  }
-  if (world.navigation.above_ground && world.navigation.above_ground->ground.surface) {
-    result.navigation.above_ground->ground.surface = std::make_shared<const Mesh>(
-        split_and_shuffled(*world.navigation.above_ground->ground.surface, random, unused));
-  }
+  testing::change_soups(result.navigation, [&](const Mesh& mesh) { return split_and_shuffled(mesh, random, unused); });
   return result;
 }
 
@@ -188,131 +83,28 @@ Scene draw_scene(Random& random) {
   return builder;
 }
 
-Pinhole camera(double half_width, double half_height) {
-  return {half_width, half_height, 4000, 3000, 2000 / half_width};
-}
-
-/// What turns a limit allows.
-enum class Turns { all, about_z, quarters };
-
-struct Limit {
-  const char* name;
-  Turns turns;
-  /// So much, of the range, may the surfaces of two volumes be apart: that facets of the limit stand off from it.
-  double apart;
-  bool has_proof;
-  std::function<void(World&, Random&)> add;
-};
-
-Zone draw_zone(Random& random) {
-  Zone zone;
-  const int count = random.integer(3, 7);
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count, share = random.uniform(10, 30);
-    zone.outer.emplace_back(3 + share * std::cos(angle), share * std::sin(angle) - 4);
-  }
-  zone.min_z_m = random.uniform(-5, 5);
-  zone.max_z_m = random.uniform(12, 30);
-  zone.name = "drawn";
-  return zone;
-}
-
-std::shared_ptr<const Mesh> draw_terrain(Random& random) {
-  constexpr std::uint32_t kPosts = 5;
-  Mesh mesh;
-  for (std::uint32_t i = 0; i < kPosts; ++i) {
-    for (std::uint32_t k = 0; k < kPosts; ++k)
-      mesh.vertices.emplace_back(25.0 * i - 50, 25.0 * k - 50, random.uniform(-4, 0));
-  }
-  for (std::uint32_t i = 0; i + 1 < kPosts; ++i) {
-    for (std::uint32_t k = 0; k + 1 < kPosts; ++k) {
-      const std::uint32_t a = kPosts * i + k, b = a + kPosts;
-      mesh.triangles.push_back({a, b, b + 1});
-      mesh.triangles.push_back({a, b + 1, a + 1});
-    }
-  }
-  return std::make_shared<const Mesh>(std::move(mesh));
-}
-
-const std::vector<Limit>& limits() {
-  static const std::vector<Limit> kLimits = {
-      {"max_range", Turns::all, 0, true, [](World&, Random&) {}},
-      {"min_range", Turns::all, 2e-3, true, [](World& w, Random& r) { w.sensor.min_range_m = r.uniform(6, 20); }},
-      {"incidence", Turns::all, 2e-3, true, [](World& w, Random& r) { w.sensor.incidence_deg = r.uniform(30, 80); }},
-      // Of a camera that turns, the proof of the frame often stays open, after minutes.
-      {"frame", Turns::about_z, 2e-2, false,
-       [](World& w, Random& r) {
-         w.sensor.camera = camera(r.uniform(0.15, 0.4), r.uniform(0.12, 0.3));
-         if (r.chance(0.7)) w.sensor.mount = {{}, -90, r.uniform(-60, 0), r.uniform(-60, 60)};
-       }},
-      {"fixed frame", Turns::about_z, 2e-3, true,
-       [](World& w, Random& r) {
-         w.sensor.camera = camera(0.7, 0.6);
-         w.sensor.mount = {r.uniform(0, 360), -60, -60, r.uniform(-20, 20)};
-       }},
-      {"pixel, worst", Turns::all, 2e-2, false,
-       [](World& w, Random& r) {
-         w.sensor.camera = camera(0.5, 0.4);
-         w.sensor.pixel = {r.uniform(20, 45) / 4000, PixelLimit::Kind::worst};
-       }},
-      {"pixel, perpendicular", Turns::all, 2e-2, false,
-       [](World& w, Random& r) {
-         w.sensor.camera = camera(0.5, 0.4);
-         w.sensor.pixel = {r.uniform(20, 35) / 4000, PixelLimit::Kind::perpendicular};
-       }},
-      {"sun", Turns::all, 2e-3, true,
-       [](World& w, Random& r) {
-         w.sensor.sun = SunLimit{r.direction() + Vec3(0, 0, 1), r.uniform(10, 50)};
-       }},
-      {"link", Turns::all, 2e-2, false,
-       [](World& w, Random& r) {
-         w.target.parts = {{Vec3(0, 0, 0.7)}};
-         w.target.front.reset();
-         w.sensor.link = {r.uniform(1, 30), r.uniform(0.3, 1)};
-       }},
-      {"visible", Turns::all, 1e-2, false,
-       [](World& w, Random&) {
-         w.sensor.visible = VisibleShare{0.6, 4};
-       }},
-      {"altitude", Turns::about_z, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.altitude = {r.uniform(1, 6), 21.3};
-       }},
-      {"above ground", Turns::about_z, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.above_ground = {3, r.uniform(12, 25), Ground{-1.7}};
-       }},
-      {"above terrain", Turns::about_z, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.above_ground = {3, r.uniform(12, 25), Ground{0, draw_terrain(r)}};
-       }},
-      {"keep_in", Turns::quarters, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.keep_in = {Box{r.point(-22, -2), r.point(4, 25)}, Box{r.point(-30, -20), r.point(-8, 9)}};
-       }},
-      {"keep_in zones", Turns::about_z, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.keep_in = {draw_zone(r)};
-         w.navigation.keep_in[0].holes = {{{-4, -3}, {6, -2}, {1, 5}}};
-       }},
-      {"keep_out", Turns::quarters, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.keep_out = {Box{r.point(-14, 2), r.point(5, 19)}};
-       }},
-      {"keep_out zones", Turns::about_z, 0, false,  // there is no proof of heights above terrain
-       [](World& w, Random& r) {
-         w.navigation.keep_out = {draw_zone(r)};
-         w.navigation.keep_out[0].above_ground = {2, r.uniform(9, 20), Ground{0, draw_terrain(r)}};
-       }},
-      {"meshes", Turns::all, 0, true,
-       [](World& w, Random& r) {
-         w.navigation.meshes = {{testing::make_box_mesh(r.point(-25, -3), r.point(5, 30)), "airspace"}};
-       }},
-      {"clearance", Turns::all, 0.16 * 3.1 / kRangeOfMoved, true,
-       [](World& w, Random& r) {
-         w.navigation.clearance = {r.uniform(0.5, 3.1), obstacles_of(w.scene)};
-       }},
-  };
+/// Every way to draw a limit, and what else bounds a volume. In this order: the place of each is its seed.
+const std::vector<LimitDraw>& limits() {
+  static const std::vector<LimitDraw> kLimits = [] {
+    std::vector<LimitDraw> all = {{"max_range", Turns::all, 0, true, [](LimitWorld&, Random&) {}}};
+    const auto add = [&](bool is_of_navigation) {
+      for (const LimitSample& sample : testing::limit_samples()) {
+        if (testing::is_of_navigation(sample.limit) != is_of_navigation) continue;
+        all.insert(all.end(), sample.draws.begin(), sample.draws.end());
+      }
+    };
+    add(false);
+    all.push_back({"link", Turns::all, 2e-2, false, [](LimitWorld& w, Random& r) {
+                     w.target.parts = {{Vec3(0, 0, 0.7)}};
+                     w.target.front.reset();
+                     w.sensor.link = {r.uniform(1, 30), r.uniform(0.3, 1)};
+                   }});
+    all.push_back({"visible", Turns::all, 1e-2, false, [](LimitWorld& w, Random&) {
+                     w.sensor.visible = VisibleShare{0.6, 4};
+                   }});
+    add(true);
+    return all;
+  }();
   return kLimits;
 }
 
@@ -328,10 +120,10 @@ Eigen::Matrix3d draw_turn(Turns turns, Random& random) {
 
 class MovedLimits : public ::testing::TestWithParam<std::size_t> {
  protected:
-  const Limit& limit() const { return limits()[GetParam()]; }
+  const LimitDraw& limit() const { return limits()[GetParam()]; }
 
-  World draw(Random& random) const {
-    World world;
+  LimitWorld draw(Random& random) const {
+    LimitWorld world;
     world.scene = draw_scene(random);
     const int corners = random.integer(3, 6);
     const double radius = random.uniform(1, 3);
@@ -343,9 +135,9 @@ class MovedLimits : public ::testing::TestWithParam<std::size_t> {
   }
 
   /// Whether a draw has an obstacle in the target.
-  static bool is_pierced(const World& world) {
+  static bool is_pierced(const LimitWorld& world) {
     try {
-      PreparedTarget(PreparedScene(world.scene), world.target, world.sensor);
+      static_cast<void>(PreparedTarget(PreparedScene(world.scene), world.target, world.sensor));
       return false;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::target_pierced) throw;
@@ -353,18 +145,18 @@ class MovedLimits : public ::testing::TestWithParam<std::size_t> {
     }
   }
 
-  Volume compute(const World& world, double scale) const {
+  Volume compute(const LimitWorld& world, double scale) const {
     const PreparedTarget target(PreparedScene(world.scene), world.target, world.sensor);
     return compute_volume(target, world.navigation, {.tolerance_m = scale * kToleranceOfMoved});
   }
 
   /// No point inside, deeper than is stated, is outside for PointQuery, and the proof agrees.
-  void expect_right(const World& world, const Volume& volume, Random& random) const;
+  void expect_right(const LimitWorld& world, const Volume& volume, Random& random) const;
   /// The two are within the stated bound of each other, and of the same size.
   void expect_same(const Volume& base, const Volume& other, const Motion& motion, Random& random) const;
 };
 
-void MovedLimits::expect_right(const World& world, const Volume& volume, Random& random) const {
+void MovedLimits::expect_right(const LimitWorld& world, const Volume& volume, Random& random) const {
   EXPECT_EQ(first_open_edge(volume.mesh), "");
   const MeshProbe probe(volume);
   const Vec3 centre = make_target_frame(world.target).origin;
@@ -418,13 +210,13 @@ TEST_P(MovedLimits, AskForTheSameVolume) {
   Random random(1009 + GetParam());
   int computed = 0;
   for (int draw_number = 0; draw_number < 3; ++draw_number) {
-    const World world = draw(random);
+    const LimitWorld world = draw(random);
     if (is_pierced(world)) continue;
     const Volume base = compute(world, 1);
     if (base.outcome != Outcome::computed) continue;
     ++computed;
     expect_right(world, base, random);
-    const World split = split_and_shuffled(world, random);
+    const LimitWorld split = split_and_shuffled(world, random);
     const Volume of_split = compute(split, 1);
     ASSERT_EQ(of_split.outcome, Outcome::computed) << of_split.reason;
     expect_right(split, of_split, random);
@@ -441,7 +233,7 @@ TEST_P(MovedLimits, AskForTheSameVolume) {
         {"huge", 1e4, turn, Vec3::Zero()}};
     for (const Motion& motion : motions) {
       SCOPED_TRACE(motion.name);
-      const World there = moved(world, motion);
+      const LimitWorld there = moved(world, motion);
       if (there.sensor.link && there.sensor.link->frequency_ghz > 3000) continue;  // none is higher
       const Volume volume = compute(there, motion.scale);
       ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
