@@ -12,6 +12,7 @@
 #include "support/limit_samples.h"
 #include "support/temporary_directory.h"
 #include "vantage/each_limit.h"
+#include "vantage/error.h"
 #include "vantage/mission.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
@@ -143,6 +144,56 @@ TEST_P(EveryLimit, IsCutVerifiedAndProved) {
   const ProofVerdict of_free = prove(free.mesh), of_cut = prove(cut.mesh);
   EXPECT_EQ(of_free, sample_.has_proof ? ProofVerdict::wrong : ProofVerdict::not_proved);
   EXPECT_EQ(of_cut, sample_.has_proof ? ProofVerdict::proved : ProofVerdict::not_proved);
+}
+
+// Facets at the limit have a witness, or it is named as one of which there is none.
+TEST_P(EveryLimit, IsKnownToTheProofOfMaximality) {
+  const Mesh mesh = volume_of(world_).mesh;
+  const auto prove = [&](const LimitWorld& world) {
+    return prove_maximal(world.scene, world.target, world.sensor, world.navigation, mesh, {});
+  };
+  const MaximalProof with = prove(world_), without = prove(free_);
+  const bool has_no_witness =
+      std::find(with.sampled.begin(), with.sampled.end(), name_of(sample_.limit)) != with.sampled.end();
+  EXPECT_EQ(with.proved_share > without.proved_share + 0.02, !has_no_witness)
+      << with.proved_share << ", without it " << without.proved_share;
+}
+
+TEST_P(EveryLimit, IsRefusedByAllWhereItIsWrong) {
+  LimitWorld wrong = free_;
+  sample_.add_wrong(wrong);
+  const auto& [scene, target, sensor, navigation] = wrong;
+  const auto told = [](const auto& take) {
+    try {
+      take();
+    } catch (const Error& error) {
+      return std::pair(error.code(), std::string(error.what()));
+    }
+    return std::pair(ErrorCode{}, std::string("it is taken"));
+  };
+  const auto prepare = [&] { return PreparedTarget(PreparedScene(wrong.scene), wrong.target, wrong.sensor); };
+  const auto expected = told([&] {
+    check_sensor(wrong.sensor);
+    check_navigation(wrong.navigation);
+  });
+  EXPECT_EQ(expected.first, sample_.wrong_code) << expected.second;
+  const Volume free = volume_of(free_);
+  EXPECT_EQ(told([&] { volume_of(wrong); }), expected);
+  EXPECT_EQ(told([&] { cut_to_limits(free, prepare(), wrong.navigation); }), expected);
+  EXPECT_EQ(told([&] { query_points(prepare(), wrong.navigation, {{0, 0, 5}}); }), expected);
+  EXPECT_EQ(told([&] { LegLimits(prepare(), wrong.navigation); }), expected);
+  EXPECT_EQ(told([&] { verify_volume(scene, target, sensor, navigation, free.mesh); }), expected);
+  EXPECT_EQ(told([&] { prove_volume(scene, target, sensor, navigation, free.mesh); }), expected);
+  EXPECT_EQ(told([&] { prove_maximal(scene, target, sensor, navigation, free.mesh, {}); }), expected);
+  if (sample_.wrong_text.empty()) return;
+  try {
+    read_mission_text(testing::wrong_mission_text_of(sample_), "mission.yaml");
+    ADD_FAILURE() << "a mission may say it";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), sample_.wrong_code) << error.what();
+    const std::string line = testing::is_of_navigation(sample_.limit) ? "4" : "3";
+    EXPECT_EQ(error.where().rfind("mission.yaml:" + line + ":", 0), 0u) << error.where();
+  }
 }
 
 TEST_P(EveryLimit, BoundsOuterVolumesOrIsNamed) {

@@ -110,6 +110,9 @@ LimitSample sample_of<Limit::altitude>() {
   sample.is_flat = true;
   sample.has_proof = true;
   sample.bounds_outer = true;
+  sample.add_wrong = [](LimitWorld& w) { w.navigation.altitude = {5, 3}; };
+  sample.wrong_code = ErrorCode::limits_reversed;
+  sample.wrong_text = "altitude: [5, 3]";
   sample.draws = {
       {"altitude", Turns::about_z, 0, true,
        [](LimitWorld& w, Random& r) {
@@ -147,6 +150,9 @@ LimitSample sample_of<Limit::above_ground>() {
   sample.is_flat = true;
   sample.has_proof = true;
   sample.bounds_outer = true;
+  sample.add_wrong = [](LimitWorld& w) { w.navigation.above_ground = AboveGround{5, 3, Ground{-2}}; };
+  sample.wrong_code = ErrorCode::limits_reversed;
+  sample.wrong_text = "altitude: {agl: [5, 3]}, ground: -2";
   sample.draws = {
       {"above ground", Turns::about_z, 0, true,
        [](LimitWorld& w, Random& r) {
@@ -193,6 +199,9 @@ LimitSample sample_of<Limit::keep_in>() {
   sample.is_flat = true;
   sample.has_proof = true;
   sample.bounds_outer = true;
+  sample.add_wrong = [](LimitWorld& w) { w.navigation.keep_in = {Box{{0, 9, 0}, {1, 2, 3}}}; };
+  sample.wrong_code = ErrorCode::limits_reversed;
+  sample.wrong_text = "keep_in: [{min: [0, 9, 0], max: [1, 2, 3]}]";
   sample.draws = {
       {"keep_in", Turns::quarters, 0, true,
        [](LimitWorld& w, Random& r) {
@@ -237,6 +246,9 @@ LimitSample sample_of<Limit::keep_out>() {
   sample.is_flat = true;
   sample.has_proof = true;
   sample.bounds_outer = true;
+  sample.add_wrong = [](LimitWorld& w) { w.navigation.keep_out = {Box{{0, 0, 0}, {1, 0, 3}}}; };
+  sample.wrong_code = ErrorCode::limits_empty;
+  sample.wrong_text = "keep_out: [{min: [0, 0, 0], max: [1, 0, 3]}]";
   sample.draws = {
       {"keep_out", Turns::quarters, 0, true,
        [](LimitWorld& w, Random& r) {
@@ -280,6 +292,9 @@ LimitSample sample_of<Limit::meshes>() {
   sample.is_flat = true;
   sample.has_proof = true;
   sample.bounds_outer = false;
+  sample.add_wrong = [](LimitWorld& w) { w.navigation.meshes = {{Mesh(), "airspace.obj"}}; };
+  sample.wrong_code = ErrorCode::mesh_empty;
+  sample.wrong_text = "";
   sample.draws = {
       {"meshes", Turns::all, 0, true,
        [](LimitWorld& w, Random& r) {
@@ -317,6 +332,9 @@ LimitSample sample_of<Limit::clearance>() {
   sample.is_flat = false;
   sample.has_proof = true;
   sample.bounds_outer = false;
+  sample.add_wrong = [](LimitWorld& w) { w.navigation.clearance = {-2, obstacles_of(w.scene)}; };
+  sample.wrong_code = ErrorCode::value_out_of_range;
+  sample.wrong_text = "clearance: -2";
   sample.draws = {
       {"clearance", Turns::all, 0.16 * 3.1 / kRangeOfDraws, true,
        [](LimitWorld& w, Random& r) {

@@ -31,6 +31,9 @@ LimitSample sample_of<Limit::min_range>() {
   sample.is_flat = false;
   sample.has_proof = true;
   sample.bounds_outer = false;
+  sample.add_wrong = [](LimitWorld& w) { w.sensor.min_range_m = -1; };
+  sample.wrong_code = ErrorCode::value_out_of_range;
+  sample.wrong_text = "min_range: -1";
   sample.draws = {
       {"min_range", Turns::all, 2e-3, true, [](LimitWorld& w, Random& r) { w.sensor.min_range_m = r.uniform(6, 20); }},
   };
@@ -64,6 +67,9 @@ LimitSample sample_of<Limit::incidence>() {
   sample.is_flat = false;
   sample.has_proof = true;
   sample.bounds_outer = true;
+  sample.add_wrong = [](LimitWorld& w) { w.sensor.incidence_deg = 95; };
+  sample.wrong_code = ErrorCode::value_out_of_range;
+  sample.wrong_text = "incidence: 95";
   sample.draws = {
       {"incidence", Turns::all, 2e-3, true,
        [](LimitWorld& w, Random& r) { w.sensor.incidence_deg = r.uniform(30, 80); }},
@@ -99,6 +105,12 @@ LimitSample sample_of<Limit::frame>() {
   sample.is_flat = false;
   sample.has_proof = false;
   sample.bounds_outer = false;
+  sample.add_wrong = [](LimitWorld& w) {
+    w.sensor.camera = pinhole_of_fov(60, 40);
+    w.sensor.mount.max_pitch_deg = 120;
+  };
+  sample.wrong_code = ErrorCode::value_out_of_range;
+  sample.wrong_text = "fov: [60, 40], gimbal: {pitch: [-90, 120]}";
   sample.draws = {
       // Of a camera that turns, the proof of the frame often stays open, after minutes.
       {"frame", Turns::about_z, 2e-2, false,
@@ -142,6 +154,12 @@ LimitSample sample_of<Limit::pixel>() {
   sample.is_flat = false;
   sample.has_proof = true;
   sample.bounds_outer = false;
+  sample.add_wrong = [](LimitWorld& w) {
+    w.sensor.camera = pinhole_of_fov(60, 40, 4000, 3000);
+    w.sensor.pixel = {-1, PixelLimit::Kind::worst};
+  };
+  sample.wrong_code = ErrorCode::value_out_of_range;
+  sample.wrong_text = "fov: [60, 40], camera: {width: 4000, height: 3000}, pixel: {size: -1}";
   sample.draws = {
       {"pixel, worst", Turns::all, 2e-2, false,
        [](LimitWorld& w, Random& r) {
@@ -187,6 +205,9 @@ LimitSample sample_of<Limit::sun>() {
   sample.is_flat = false;
   sample.has_proof = true;
   sample.bounds_outer = false;
+  sample.add_wrong = [](LimitWorld& w) { w.sensor.sun = SunLimit{Vec3::UnitZ(), 95}; };
+  sample.wrong_code = ErrorCode::value_out_of_range;
+  sample.wrong_text = "sun: {azimuth: 180, elevation: 10, exclude: 95}";
   sample.draws = {
       {"sun", Turns::all, 2e-3, true,
        [](LimitWorld& w, Random& r) {

@@ -81,6 +81,10 @@ std::string mission_text_with(const std::string& sensor, const std::string& navi
          sensor + "}\n" + (navigation.empty() ? "" : "navigation: {" + navigation + "}\n");
 }
 
+std::string mission_text_with(Limit limit, const std::string& text) {
+  return is_of_navigation(limit) ? mission_text_with("", text) : mission_text_with(", " + text, "");
+}
+
 }  // namespace
 
 std::string mission_text_without_limit() { return mission_text_with("", ""); }
@@ -90,8 +94,11 @@ std::string mission_text_of(const LimitSample& sample, const std::filesystem::pa
   for (const KeepInMesh& mesh : world.navigation.meshes) {
     write_scene(SceneBuilder().add(mesh.name, mesh.mesh), folder / mesh.name);
   }
-  return is_of_navigation(sample.limit) ? mission_text_with("", sample.text)
-                                        : mission_text_with(", " + sample.text, "");
+  return mission_text_with(sample.limit, sample.text);
+}
+
+std::string wrong_mission_text_of(const LimitSample& sample) {
+  return mission_text_with(sample.limit, sample.wrong_text);
 }
 
 Mesh moved(Mesh mesh, const Motion& motion) {

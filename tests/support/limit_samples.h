@@ -11,6 +11,7 @@
 
 #include "support/random.h"
 #include "vantage/each_limit.h"
+#include "vantage/error.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
 
@@ -58,6 +59,10 @@ struct LimitSample {
   bool is_flat;       ///< its surfaces are, and so it is cut where it is
   bool has_proof;     ///< a volume that is cut to it is proved, one that is not is refuted
   bool bounds_outer;  ///< an outer volume is cut to it
+  /// The limit with a number that no limit has; the same in a mission, where it can say so.
+  std::function<void(LimitWorld&)> add_wrong;
+  ErrorCode wrong_code;
+  std::string wrong_text;
   std::vector<LimitDraw> draws;
 };
 
@@ -70,6 +75,8 @@ LimitWorld world_of_samples();
 LimitWorld world_of(const LimitSample& sample);
 /// The same as a mission, whose scene is "scene.obj". Files that it names are written into the folder.
 std::string mission_text_of(const LimitSample& sample, const std::filesystem::path& folder);
+/// With `wrong_text`.
+std::string wrong_mission_text_of(const LimitSample& sample);
 std::string mission_text_without_limit();
 
 // ---- what a test does with the value of any limit ----
