@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "app/mission_parser.h"
 #include "support/legs.h"
 #include "support/limit_samples.h"
+#include "support/places.h"
 #include "support/temporary_directory.h"
 #include "vantage/each_limit.h"
 #include "vantage/error.h"
@@ -65,6 +68,20 @@ TEST(EachLimit, IsNoneOfWhatTheVolumeIsComputedWith) {
   none.sensor.visible = VisibleShare{0.5, 16};
   EXPECT_FALSE(none.sensor.limits_view());
   EXPECT_TRUE(visited(none).empty());
+}
+
+// A fuzzer finds the keys of a limit, and what is wrong with their reader, by the seeds.
+TEST(EachLimit, IsInASeedOfTheFuzzer) {
+  std::set<Limit> found;
+  for (const auto& seed :
+       std::filesystem::directory_iterator(testing::source_folder() / "tests" / "fuzz" / "seeds" / "mission")) {
+    const MissionFile mission = internal::app::parse_mission(testing::read_bytes(seed.path()), seed.path());
+    const std::vector<Limit> limits = visited({{}, {}, mission.sensor, mission.navigation});
+    found.insert(limits.begin(), limits.end());
+    if (!mission.navigation_meshes.empty()) found.insert(Limit::meshes);  // they are files
+    if (mission.camera) found.insert(Limit::frame);                       // it is told when the camera is known
+  }
+  for (const LimitSample& sample : limit_samples()) EXPECT_EQ(found.count(sample.limit), 1u) << name_of(sample.limit);
 }
 
 class EveryLimit : public ::testing::TestWithParam<std::size_t> {

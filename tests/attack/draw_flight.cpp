@@ -1,5 +1,4 @@
 // Flights that are degenerate on purpose.
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
