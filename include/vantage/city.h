@@ -266,8 +266,8 @@ struct MapArea {
 };
 
 /// The areas of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf) that `filter` wants, by type and id, each
-/// once. Areas are closed ways and multipolygons whose tags bound an area (docs/maps.md); closed ways that are lines,
-/// as a wall round a garden, are not listed. Neither are outlines that bound less than 0.01 m2, since they can be no
+/// once. Areas are closed ways and multipolygons whose tags bound an area; closed ways that are lines, as a wall round
+/// a garden, are not listed. Neither are outlines that bound less than 0.01 m2, since they can be no
 /// target. Memory: 24 bytes for each node of the file, and what is wanted. Cost: the file is read twice; a third and a
 /// fourth time to explain why there is none.
 ///
