@@ -18,8 +18,9 @@ namespace {
 
 const std::string& checked(const std::string& extension) {
   const std::vector<FormatFacts> formats = known_formats();
-  const auto format = std::ranges::find(formats, std::string_view(extension), &FormatFacts::extension);
-  const bool is_text = format != formats.end() && format->is_text;
+  const bool is_text = std::any_of(formats.begin(), formats.end(), [&](const FormatFacts& format) {
+    return format.extension == extension && format.is_text;
+  });
   if (!is_text && ::isatty(STDOUT_FILENO) == 1) {
     throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is not text",
                 "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
