@@ -41,6 +41,22 @@ TEST(IntersectVolumes, AMeshHasItsOriginInItsMiddle) {
   EXPECT_EQ(measure(intersect_volumes({volume, volume}).mesh).bounds.max, Vec3(12, 24, 36));
 }
 
+TEST(IntersectVolumes, StatesNothingThatDoesNotHoldOfAll) {
+  const PreparedScene scene = courtyard();
+  const std::vector<Vec3> triangle = {{0, 0, 1}, {2, 0, 1}, {0, 2, 1}}, other = {{0, 0, 2}, {2, 0, 2}, {0, 2, 2}};
+  const Volume near = volume_of(scene, triangle), beside = volume_of(scene, other);
+  const Volume far = compute_visibility(PreparedTarget(scene, target_of(triangle), {kRange + 1}), {1e-3, 0});
+  ASSERT_TRUE(near.provenance && far.provenance);
+  Volume elsewhere = beside;
+  elsewhere.provenance->scene_hash = "of another scene";
+  EXPECT_TRUE(intersect_volumes({near, beside}).provenance);
+  EXPECT_TRUE(unite_volumes({near, beside}).provenance);
+  for (const Volume& volume : {far, elsewhere}) {
+    EXPECT_FALSE(intersect_volumes({near, volume}).provenance);
+    EXPECT_FALSE(unite_volumes({near, volume}).provenance);
+  }
+}
+
 TEST(IntersectVolumes, HalvesMakeTheWhole) {
   const PreparedScene scene = courtyard();
   Random random(811);

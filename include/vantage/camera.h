@@ -35,6 +35,8 @@ struct Pinhole {
 
   /// Of the whole picture, horizontal and vertical, in degrees.
   VANTAGE_API std::array<double, 2> fov_deg() const;
+
+  bool operator==(const Pinhole&) const = default;
 };
 
 /// The camera with what follows from the rest: a side of the sensor that is 0, if the picture and the other side are

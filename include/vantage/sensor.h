@@ -20,6 +20,8 @@ struct Mount {
   double roll_deg = 0;                             ///< in [-180, 180]
 
   bool is_fixed() const { return yaw_deg && min_pitch_deg == max_pitch_deg; }
+
+  bool operator==(const Mount&) const = default;
 };
 
 /// How much of the target one pixel may cover.
@@ -30,12 +32,16 @@ struct PixelLimit {
   };
   double size_m = 0;  ///< of a step from one pixel to the next; > 0
   Kind kind = Kind::worst;
+
+  bool operator==(const PixelLimit&) const = default;
 };
 
 /// What must not shine into the camera.
 struct SunLimit {
   Vec3 direction = Vec3::Zero();  ///< towards the sun, scene frame, of any length but 0
   double exclude_deg = 0;         ///< no point of the target may be seen nearer to the sun than this; > 0, at most 90
+
+  bool operator==(const SunLimit&) const = default;
 };
 
 /// A radio link between the target, a point where an antenna is, and the vehicle. Its first Fresnel zone is the
@@ -46,6 +52,8 @@ struct SunLimit {
 struct RadioLink {
   double frequency_ghz = 0;  ///< > 0, at most 3000
   double clear = 0.6;        ///< share of the zone's radius that nothing of the scene may enter; > 0, at most 1
+
+  bool operator==(const RadioLink&) const = default;
 };
 
 /// How much of the target, which is no point, must be seen where that is not all of it. Of a target in parts it is the
@@ -55,6 +63,8 @@ struct VisibleShare {
   std::size_t cells = 16;  ///< into how many pieces of the same area it is cut, each of which counts where it is seen
                            ///< whole: 1 to 1024. The more there are the larger, up to what is right, is the volume.
                            ///< For volumes only: what is asked about points counts every part that is seen
+
+  bool operator==(const VisibleShare&) const = default;
 };
 
 /// The direction to the sun's centre, east, north and up, of unit length: where it is seen at 10 degrees and 1010 hPa.
@@ -79,6 +89,8 @@ struct Sensor {
 
   /// Whether there are limits that a volume is cut to once it is computed: all but the range, and a link.
   VANTAGE_API bool limits_view() const;
+
+  bool operator==(const Sensor&) const = default;
 };
 
 /// The farthest that a viewpoint can be from a point of the target: max_range_m, or what the size of a pixel allows

@@ -256,7 +256,8 @@ VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& tar
 /// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. The tolerance
 /// is the largest of the volumes', lifts are those of all, one after the other, the frame is the first one's, seconds
 /// and counts are sums, notes are those of all. Where one of the volumes is empty, so is the result, with its outcome
-/// and reason; where they have nothing in common, Outcome::no_common_view. Throws Error(input) for no volumes and for
+/// and reason; where they have nothing in common, Outcome::no_common_view. Its provenance states what all were computed
+/// for; none where their scenes or sensors differ. Throws Error(input) for no volumes and for
 /// one whose arrays do not fit together; Error(work_too_large); Error(cancelled) when told to stop; Error(internal)
 /// when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
 VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},

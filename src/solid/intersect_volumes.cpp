@@ -30,6 +30,11 @@ constexpr const char* kFewerParts =
 
 Views views_of(const VolumeProvenance& made) { return made.views.empty() ? Views{{made.target}} : made.views; }
 
+/// What is stated of both holds for one scene and one sensor.
+bool can_state_both(const VolumeProvenance& a, const VolumeProvenance& b) {
+  return a.sensor == b.sensor && a.scene_hash == b.scene_hash;
+}
+
 /// That all of several volumes are needed: of one target, or of several.
 void state_all(const VolumeProvenance& part, VolumeProvenance& result) {
   // Parts of one target have its side and its offset, and a point is none of several parts.
@@ -50,7 +55,7 @@ void state_any(const std::vector<Volume>& volumes, Volume& result) {
   std::vector<Target> list;
   for (const Volume& volume : volumes) {
     const Views views = volume.provenance ? views_of(*volume.provenance) : Views();
-    if (views.size() != 1) {
+    if (views.size() != 1 || !can_state_both(*volume.provenance, *result.provenance)) {
       result.provenance.reset();
       return;
     }
@@ -119,7 +124,13 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   check_any(volumes, "intersect");
   Volume result = volumes.front();
   for (std::size_t i = 1; i < volumes.size(); ++i) {
-    if (result.provenance && volumes[i].provenance) state_all(*volumes[i].provenance, *result.provenance);
+    if (result.provenance && volumes[i].provenance) {
+      if (can_state_both(*volumes[i].provenance, *result.provenance)) {
+        state_all(*volumes[i].provenance, *result.provenance);
+      } else {
+        result.provenance.reset();
+      }
+    }
     add_work(volumes[i], result);
   }
   for (std::size_t i = 0; i < volumes.size(); ++i) {
