@@ -2,9 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
 
+#include "query/ground_pool.h"
 #include "query/leg_limits.h"
 #include "sensor/viewed.h"
 #include "vantage/each_limit.h"
@@ -22,14 +22,7 @@ class LegLimit {
   virtual void add_breaks(const Tube& tube, std::vector<LegBreak>& breaks) const = 0;
 };
 
-/// The ground of all limits above one, each surface once.
-class LegGroundPool {
- public:
-  std::shared_ptr<const LegGround> of(const Ground& ground);
-
- private:
-  std::vector<std::pair<Ground, std::shared_ptr<const LegGround>>> known_;
-};
+using LegGroundPool = PoolOfGrounds<LegGround>;
 
 /// Declared alone: a limit whose room has no answer for legs does not link. The second one: of the sensor's limits.
 template <Limit kLimit>

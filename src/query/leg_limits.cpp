@@ -68,13 +68,6 @@ void add_break(std::vector<LegBreak>& breaks, const std::string& limit, LegBreak
   breaks.push_back(std::move(result));
 }
 
-std::shared_ptr<const LegGround> LegGroundPool::of(const Ground& ground) {
-  for (const auto& [known, made] : known_) {
-    if (known.surface == ground.surface && known.plane_z_m == ground.plane_z_m) return made;
-  }
-  return known_.emplace_back(ground, std::make_shared<const LegGround>(ground)).second;
-}
-
 }  // namespace internal::query
 
 namespace query = internal::query;

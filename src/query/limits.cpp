@@ -15,13 +15,6 @@ struct Part {
 
 }  // namespace
 
-std::shared_ptr<const GroundHeights> GroundPool::of(const Ground& ground) {
-  for (const auto& [known, heights] : known_) {
-    if (known.surface == ground.surface && known.plane_z_m == ground.plane_z_m) return heights;
-  }
-  return known_.emplace_back(ground, std::make_shared<const GroundHeights>(ground)).second;
-}
-
 Limits::Limits(const Navigation& navigation, const PreparedTarget& target) {
   GroundPool grounds;
   each_limit(navigation, [&](auto limit, const auto& value) {

@@ -4,10 +4,10 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "query/ground_heights.h"
+#include "query/ground_pool.h"
 #include "query/view_ray.h"
 #include "sensor/viewed.h"
 #include "vantage/each_limit.h"
@@ -29,14 +29,7 @@ class PointLimit {
   virtual void add_crossings(const ViewRay& line, std::vector<double>& cuts) const = 0;
 };
 
-/// The ground of all limits above one, each surface once.
-class GroundPool {
- public:
-  std::shared_ptr<const GroundHeights> of(const Ground& ground);
-
- private:
-  std::vector<std::pair<Ground, std::shared_ptr<const GroundHeights>>> known_;
-};
+using GroundPool = PoolOfGrounds<GroundHeights>;
 
 /// Declared alone: a limit whose room has no answer for points does not link. The second one: of the sensor's limits.
 template <Limit kLimit>
