@@ -36,11 +36,12 @@ struct MissionKey {
   std::string path;     ///< in the section: "pixel.size"
   Kind kind = Kind::text;
   std::vector<std::string> words = {};
-  std::string unit = {};              ///< "m"; empty without one
-  std::optional<double> least, most;  ///< of a number
-  bool is_required = false;           ///< in its map
-  bool is_old = false;                ///< another key has taken its place
-  std::string text = {};              ///< sentences in Markdown, with the range and the default
+  std::string unit = {};                       ///< "m"; empty without one
+  std::optional<double> least, most;           ///< of a number
+  bool takes_least = true, takes_most = true;  ///< whether these two are numbers that it takes
+  bool is_required = false;                    ///< in its map
+  bool is_old = false;                         ///< another key has taken its place
+  std::string text = {};                       ///< sentences in Markdown, with the range and the default
 };
 
 /// All keys, section by section. Links in their texts start from docs/.

@@ -68,9 +68,10 @@ inline constexpr std::array kLinkKeys = {
 };
 inline constexpr std::array kLinkRadioKeys = {
     Own{{.path = "frequency",
-         .says = "GHz, of a radio link, as in `sensor.link`",
+         .says = "of a radio link, as in `sensor.link`",
          .without = "none: the line of sight alone must be free"},
-        Kind::number},
+        Kind::number,
+        Unit::gigahertz},
     Own{{.path = "clear", .says = "as in `sensor.link`", .without = "0.6"}, Kind::number},
 };
 

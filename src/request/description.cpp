@@ -47,6 +47,8 @@ std::string_view symbol_of(Unit unit) {
       break;
     case Unit::metres:
       return "m";
+    case Unit::millimetres:
+      return "mm";
     case Unit::degrees:
       return "degrees";
     case Unit::seconds:
@@ -69,6 +71,8 @@ std::string_view suffix_of(Unit unit) {
       break;
     case Unit::metres:
       return "_m";
+    case Unit::millimetres:
+      return "_mm";
     case Unit::degrees:
       return "_deg";
     case Unit::seconds:

@@ -32,6 +32,7 @@ struct Key {
 enum class Unit {
   none,
   metres,
+  millimetres,
   degrees,
   seconds,
   metres_per_second,

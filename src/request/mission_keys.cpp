@@ -86,6 +86,8 @@ class KeyCollector : internal::request::Visitor {
     MissionKey& added = add(key, kind, symbol_of(bounds.unit), ", " + bounds.text(), value);
     added.least = bounds.least;
     added.most = bounds.most;
+    added.takes_least = bounds.takes_least();
+    added.takes_most = bounds.takes_most();
   }
 
   MissionKey& add(const Key& key, Kind kind, std::string_view unit, const std::string& range,

@@ -1,4 +1,4 @@
-// From the target away from the sun, by a cone of as many sides round the wanted one.
+// From the target away from the sun, by a pyramid round the cone that is asked for: it takes away a little more.
 #include <numbers>
 
 #include "core/portable_math.h"
