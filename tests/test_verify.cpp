@@ -331,7 +331,8 @@ TEST(Verify, ReportsProgressAndStops) {
   const auto story = testing::check_progress([&](const Progress& progress) {
     verify_volume(example.scene, example.target, example.sensor, example.navigation, example.truth, options, progress);
   });
-  EXPECT_GT(story.calls, 1000U);
+  // A thread that finds another one asking goes on: on a busy machine there are far fewer questions than viewpoints.
+  EXPECT_GT(story.calls, 100U);
   EXPECT_GT(story.last_fraction.at("verify"), 0.9);
 }
 
