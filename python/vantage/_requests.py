@@ -77,7 +77,7 @@ class Target(Request):
         volume: a closed mesh to fly through, for `tour` and `check`. No other key but `name` stands beside it.
         width: metres; of the rectangle.
         length: metres; of the rectangle, along the heading.
-        heading: degrees clockwise from north: where the rectangle's length points. Default: 0.
+        heading: degrees; clockwise from north: where the rectangle's length points. Default: 0.
         offset: metres; moves the target this far along its normal, towards the front; a point only with `front`. Default: 0.
         front: a vector that points to the side from which the target must be visible. It may have any length, and must not be
             in the polygon's plane. Default: up; for a vertical polygon the side from which the vertices are counter-clockwise;
@@ -151,24 +151,24 @@ class Sensor(Request):
         incidence: degrees; largest angle between the target's normal and the line to the viewpoint, > 0 and < 90.
         camera: the whole target, all parts, must be in one picture of it. Either a model, or numbers: where width and height
             give two focal lengths in pixels, the smaller one counts. `model`: a name that `vantage cameras` lists. `width`:
-            pixels of the whole picture. `height`: pixels of the whole picture. `focal_length`: millimetres, of the lens
-            itself; not beside `fov`. `sensor_width`: millimetres, of the part of the sensor that makes the picture; not beside
-            `fov`. Or a name of `vt.cameras()` alone.
-        fov: degrees, horizontal and vertical: the angles of view, with or without a `camera` that gives the pixels.
-        mount: `gimbal`, or a map of angles of a camera that does not turn. Default: `gimbal`. `yaw`: degrees clockwise from
-            north, or `any`: the vehicle can turn. Required in `mount`. `pitch`: degrees: 0 is level, -90 straight down.
-            Required in `mount`. `roll`: degrees; a positive one lowers the right edge of the picture. Default: 0.
-        gimbal: instead of `mount`: the ways that the camera may look. `yaw`: as of `mount`. Default: `any`. `pitch`: degrees,
-            the lowest and the highest. Default: [-90, 90]. `roll`: as of `mount`. Default: 0.
+            pixels of the whole picture. `height`: pixels of the whole picture. `focal_length` (mm): of the lens itself; not
+            beside `fov`. `sensor_width` (mm): of the part of the sensor that makes the picture; not beside `fov`. Or a name of
+            `vt.cameras()` alone.
+        fov: degrees; the angles of view, horizontal and vertical, with or without a `camera` that gives the pixels.
+        mount: `gimbal`, or a map of angles of a camera that does not turn. Default: `gimbal`. `yaw` (degrees): clockwise from
+            north, or `any`: the vehicle can turn. Required in `mount`. `pitch` (degrees): 0 is level, -90 straight down.
+            Required in `mount`. `roll` (degrees): a positive one lowers the right edge of the picture. Default: 0.
+        gimbal: instead of `mount`: the ways that the camera may look. `yaw` (degrees): as of `mount`. Default: `any`. `pitch`
+            (degrees): the lowest and the highest. Default: [-90, 90]. `roll` (degrees): as of `mount`. Default: 0.
         pixel: how much of the target one pixel may cover. Needs the camera's pixels. `size` (metres): how much of the target
             one pixel may cover, > 0. Required in `pixel`. `kind`: `worst`, which counts the slant of the view, or
             `perpendicular`, which does not. Default: `worst`.
         dori: instead of `pixel`, a level of EN 62676-4: `detection`, `observation`, `recognition` or `identification`: 25, 62,
             125 or 250 pixels per metre, `perpendicular`.
-        sun: no point of the target may be seen too near to the sun. `exclude`: degrees, > 0, at most 90: not nearer than this.
-            Required in `sun`. `time`: ISO 8601 with a zone: `2026-06-21T16:00Z`. It needs a scene that says where on the earth
-            it lies. `azimuth`: instead of the time: degrees clockwise from north. `elevation`: with the azimuth: degrees above
-            the horizon, 0 to 90.
+        sun: no point of the target may be seen too near to the sun. `exclude` (degrees): > 0, at most 90: not nearer than
+            this. Required in `sun`. `time`: ISO 8601 with a zone: `2026-06-21T16:00Z`. It needs a scene that says where on the
+            earth it lies. `azimuth` (degrees): instead of the time: clockwise from north. `elevation` (degrees): with the
+            azimuth: above the horizon, 0 to 90.
         link: a radio link between the target, a point where an antenna is, and the vehicle. Nothing of the scene may enter the
             first Fresnel zone about the straight way between them. Not with `method: spheres`. `frequency` (GHz): of the radio
             waves, > 0, at most 3000. Required in `link`. `clear`: the share of the first zone's radius that must be free, > 0,
@@ -250,7 +250,8 @@ class TourSettings(Request):
             `simultaneous`: whether several targets may be viewed at the same time. Default: false.
         gimbal: a dictionary: `rate` (degrees/s): the camera turns at most so fast, 0.001 to 36,000. Default: 30.
         clearance: metres; of the whole flight from the scene, but for its ground, 0 to 10,000. Default: 5.
-        gap: the search for a shorter flight ends when (length − bound) / length is no larger, 0 to 1. Default: 0.01.
+        gap: the search for a shorter flight ends when (length − bound) / length is no larger, 0 or more and < 1. Default:
+            0.01.
         time_limit: s; or after so long, > 0, at most 604,800, a week. The search for the bound may take as long again.
             Preparing the scene and the volumes is not counted, and a first flight is found all the same. Default: 60.
 
