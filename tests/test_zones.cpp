@@ -141,6 +141,30 @@ TEST(Zones, FarCornersMoveNoSide) {
   }
 }
 
+// With a first corner so far away, at the end of a thin spike, the sign of the area about it would be that of rounding.
+TEST(Zones, AFarFirstCornerTurnsNoZoneRound) {
+  const Volume dome = make_hemisphere(Vec3::Zero(), 10, 16, 8);
+  Random random(17);
+  for (int round = 0; round < 60; ++round) {
+    const double far = (round % 3 == 0 ? 1e7 : 9e8) * random.uniform(0.6, 1), towards = random.uniform(-3, 3);
+    const auto at = [](double angle, double length) {
+      return Eigen::Vector2d(length * std::cos(angle), length * std::sin(angle));
+    };
+    constexpr int kCorners = 300;
+    Zone::Ring ring = {at(towards, far), at(towards + 4e-9, 5)};
+    for (int i = 1; i < kCorners; ++i) {
+      ring.push_back(at(towards + 2 * std::numbers::pi * i / kCorners, random.uniform(4, 5)));
+    }
+    ring.push_back(at(towards - 4e-9, 5));
+    if (round % 2 == 1) std::reverse(ring.begin() + 1, ring.end());
+    Navigation navigation;
+    navigation.keep_out = {zone_of(ring, -kInfinity, kInfinity)};
+    const Volume beside = cut_to_navigation(dome, navigation);
+    expect_closed(beside);
+    EXPECT_FALSE(testing::holds(beside.mesh, {0.1, 0.2, 1})) << "round " << round << ", far " << far;
+  }
+}
+
 // Corners far away: what lies about the volume is cut out of the zone first, without new sides in it.
 TEST(Zones, MayReachFarBeyondTheVolume) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 100, 32, 8);

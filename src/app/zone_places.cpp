@@ -128,15 +128,6 @@ std::optional<Zone::Ring> moved_left(const Zone::Ring& ring, double distance) {
   return result;
 }
 
-double turning_of(const Zone::Ring& ring) {
-  double sum = 0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const Point a = ring[i] - ring[0], b = ring[i + 1] - ring[0];
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
-}
-
 /// From the frame's origin to the nearest point of the ring's sides, or 0 inside.
 void check_distance(const Zone::Ring& ring, const char* order_advice) {
   Box box;
@@ -172,7 +163,7 @@ Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const c
       bulge = std::max(bulge, cutter.add(from, to, parts_for(*curving, fine_m), *curving, result));
       ++curving;
     });
-    if ((turning_of(result) > 0) != counter_clockwise) std::reverse(result.begin(), result.end());
+    if (core::is_counter_clockwise(result) != counter_clockwise) std::reverse(result.begin(), result.end());
     return result;
   };
   Zone placed = zone;

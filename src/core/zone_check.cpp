@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/input.h"
+#include "core/orientation.h"
 #include "core/read_limits.h"
 
 namespace vantage::internal::core {
@@ -177,6 +178,15 @@ std::optional<LimitFault> fault_of_box(const Zone& zone) {
 }
 
 }  // namespace
+
+bool is_counter_clockwise(const Zone::Ring& ring) {
+  const auto is_before = [](const Point& a, const Point& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  };
+  const std::size_t count = ring.size();
+  const auto first = static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), is_before) - ring.begin());
+  return turn(ring[(first + count - 1) % count], ring[first], ring[(first + 1) % count]) > 0;
+}
 
 std::optional<LimitFault> fault_of_count(std::size_t zones) {
   if (zones <= Navigation::kMostZones) return std::nullopt;

@@ -13,6 +13,10 @@ namespace vantage::internal::core {
 /// the corners where sides are short, O(n^2) at worst.
 std::optional<LimitFault> fault_of(const Zone& zone);
 
+/// Whether the ring of a zone without faults runs counter-clockwise: as it turns at an outermost corner. The sign of
+/// its area would drown in rounding where one corner is far away.
+bool is_counter_clockwise(const Zone::Ring& ring);
+
 /// That there are more zones than Navigation::kMostZones.
 std::optional<LimitFault> fault_of_count(std::size_t zones);
 

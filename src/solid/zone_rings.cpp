@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/zone_check.h"
+
 namespace vantage::internal::solid {
 namespace {
 
@@ -111,7 +113,7 @@ Zone::Ring cut_to(const Zone::Ring& ring, const Box& bounds, const Vec3& origin)
 ZoneRings rings_within(const Zone& zone, const Box& bounds, const Vec3& origin) {
   ZoneRings rings;
   const auto add = [&](Zone::Ring ring, bool counter_clockwise) {
-    if ((turning(ring) > 0) != counter_clockwise) std::reverse(ring.begin(), ring.end());
+    if (core::is_counter_clockwise(ring) != counter_clockwise) std::reverse(ring.begin(), ring.end());
     ring = cut_to(ring, bounds, origin);
     const bool has_area = ring.size() >= 3 && turning(ring) != 0;
     if (has_area) rings.push_back(std::move(ring));
