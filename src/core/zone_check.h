@@ -13,7 +13,7 @@ namespace vantage::internal::core {
 /// the corners where sides are short, O(n^2) at worst.
 std::optional<LimitFault> fault_of(const Zone& zone);
 
-/// Whether the ring of a zone without faults runs counter-clockwise: as it turns at an outermost corner. The sign of
+/// Whether a ring that does not meet itself runs counter-clockwise: as it turns at an outermost corner. The sign of
 /// its area would drown in rounding where one corner is far away.
 bool is_counter_clockwise(const Zone::Ring& ring);
 

@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/portable_math.h"
+#include "core/twofold.h"
 #include "solid/convex_hull.h"
 
 namespace vantage::internal::solid {
@@ -32,23 +33,15 @@ double circumscribed_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return portable::acos(std::clamp(std::abs(middle.dot(a)), 0.0, 1.0));
 }
 
-/// A number as the sum of two doubles that do not overlap: 106 binary digits.
-struct Double {
-  double high, low;
-};
-
-/// a - b without any rounding, whichever is larger (the two-sum of Knuth, The Art of Computer Programming 2, 4.2.2).
-Double difference(double a, double b) {
-  const double high = a - b, of_a = high + b, of_b = of_a - high;
-  return {high, (a - of_a) + (of_b - b)};
-}
+using core::exact_difference;
+using core::Twofold;
 
 /// p q - r s, to 2^-100 of |p q| + |r s|.
-double product_difference(const Double& p, const Double& q, const Double& r, const Double& s) {
+double product_difference(const Twofold& p, const Twofold& q, const Twofold& r, const Twofold& s) {
   const double pq = p.high * q.high, rs = r.high * s.high;
   const double pq_low = std::fma(p.high, q.high, -pq) + (p.high * q.low + p.low * q.high);
   const double rs_low = std::fma(r.high, s.high, -rs) + (r.high * s.low + r.low * s.high);
-  const Double sum = difference(pq, rs);
+  const Twofold sum = exact_difference(pq, rs);
   return sum.high + (sum.low + (pq_low - rs_low));
 }
 
@@ -59,10 +52,10 @@ Vec3 sure_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   Vec3 normal = u.cross(v);
   constexpr double kWide = 1e-4;  // of the product of the sides: up to there rounding turns the normal by 1e-11
   if (normal.squaredNorm() > kWide * kWide * u.squaredNorm() * v.squaredNorm()) return normal;
-  std::array<Double, 3> along_u, along_v;
+  std::array<Twofold, 3> along_u, along_v;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    along_u[axis] = difference(b[axis], a[axis]);
-    along_v[axis] = difference(c[axis], a[axis]);
+    along_u[axis] = exact_difference(b[axis], a[axis]);
+    along_v[axis] = exact_difference(c[axis], a[axis]);
   }
   Vec3 sure;
   for (unsigned axis = 0; axis < 3; ++axis) {

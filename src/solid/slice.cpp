@@ -11,6 +11,7 @@
 #include "core/closed_mesh_check.h"
 #include "core/orientation.h"
 #include "core/weld.h"
+#include "core/zone_check.h"
 #include "vantage/error.h"
 #include "vantage/solid.h"
 
@@ -129,13 +130,6 @@ CutRing tidied_ring(CutRing ring) {
   return ring.size() >= 3 ? ring : CutRing{};
 }
 
-/// For a ring that does not cross itself, and is tidied: decided at the corner that comes first in order.
-bool is_counter_clockwise(const CutRing& ring) {
-  const auto first = static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), InOrder()) - ring.begin());
-  const std::size_t count = ring.size();
-  return internal::core::turn(ring[(first + count - 1) % count], ring[first], ring[(first + 1) % count]) > 0;
-}
-
 /// Nothing for a point on the ring.
 std::optional<bool> is_inside_ring(const CutPoint& p, const CutRing& ring) {
   bool is_odd = false;
@@ -168,7 +162,7 @@ std::vector<PlanPolygon> nested_rings(std::vector<CutRing> rings) {
   std::vector<PlanPolygon> polygons;
   std::vector<Box> boxes;
   for (CutRing& ring : rings) {
-    if (!is_counter_clockwise(ring)) continue;
+    if (!internal::core::is_counter_clockwise(ring)) continue;
     Box& box = boxes.emplace_back();
     for (const CutPoint& p : ring) box.extend(Vec3(p.x(), p.y(), 0));
     polygons.push_back({std::move(ring), {}});

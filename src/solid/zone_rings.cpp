@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/twofold.h"
 #include "core/zone_check.h"
 
 namespace vantage::internal::solid {
@@ -15,46 +16,13 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// The sum of two doubles, of which the second one is the rounding of the first: Dekker, A floating-point technique for
-/// extending the available precision (1971). Corners may be a million times as far away as the volume is large, and
-/// with doubles alone a side between them would move by what they are rounded by.
-struct Precise {
-  double value, rest = 0;
-};
+// Corners may be a million times as far away as the volume is large: with doubles alone a side between them would move
+// by what they are rounded by.
+using core::Twofold;
+using TwofoldPoint = std::array<Twofold, 2>;
 
-Precise renormalised(double value, double rest) {
-  const double sum = value + rest;
-  return {sum, rest - (sum - value)};
-}
-
-Precise operator+(const Precise& a, const Precise& b) {
-  const double sum = a.value + b.value, of_b = sum - a.value;
-  const double rounding = (a.value - (sum - of_b)) + (b.value - of_b);
-  return renormalised(sum, rounding + a.rest + b.rest);
-}
-Precise operator-(const Precise& a) { return {-a.value, -a.rest}; }
-Precise operator-(const Precise& a, const Precise& b) { return a + (-b); }
-
-Precise operator*(const Precise& a, const Precise& b) {
-  const auto halves = [](double x) {
-    const double high = 134217729.0 * x, kept = high - (high - x);  // 2^27 + 1
-    return std::pair(kept, x - kept);
-  };
-  const auto [a_high, a_low] = halves(a.value);
-  const auto [b_high, b_low] = halves(b.value);
-  const double product = a.value * b.value;
-  const double rounding = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
-  return renormalised(product, rounding + (a.value * b.rest + a.rest * b.value));
-}
-Precise operator/(const Precise& a, const Precise& b) {
-  const double first = a.value / b.value;
-  const Precise left = a - Precise{first} * b;
-  return renormalised(first, left.value / b.value);
-}
-bool operator<=(const Precise& a, double b) { return (a - Precise{b}).value <= 0; }
-bool operator>=(const Precise& a, double b) { return (a - Precise{b}).value >= 0; }
-
-using PrecisePoint = std::array<Precise, 2>;
+bool operator<=(const Twofold& a, double b) { return (a - Twofold{b}).high <= 0; }
+bool operator>=(const Twofold& a, double b) { return (a - Twofold{b}).high >= 0; }
 
 /// Twice the signed area, about the first corner: far from the origin it would drown in rounding.
 double turning(const Zone::Ring& ring) {
@@ -67,23 +35,23 @@ double turning(const Zone::Ring& ring) {
 }
 
 /// The point of a side with this coordinate; the same for both directions of the side.
-PrecisePoint crossing(const PrecisePoint& a, const PrecisePoint& b, std::size_t axis, double at) {
+TwofoldPoint crossing(const TwofoldPoint& a, const TwofoldPoint& b, std::size_t axis, double at) {
   const bool is_forward = a[axis] <= at;
-  const PrecisePoint &low = is_forward ? a : b, &high = is_forward ? b : a;
+  const TwofoldPoint &low = is_forward ? a : b, &high = is_forward ? b : a;
   const std::size_t other = 1 - axis;
-  const Precise share = (Precise{at} - low[axis]) / (high[axis] - low[axis]);
-  PrecisePoint p;
+  const Twofold share = (Twofold{at} - low[axis]) / (high[axis] - low[axis]);
+  TwofoldPoint p;
   p[axis] = {at};
   p[other] = low[other] + (high[other] - low[other]) * share;
   return p;
 }
 
 /// Keeps what has the coordinate `axis` up to `at`, or, with `sign` -1, from there on.
-std::vector<PrecisePoint> cut_off(const std::vector<PrecisePoint>& ring, std::size_t axis, double at, int sign) {
-  const auto is_kept = [&](const PrecisePoint& p) { return sign > 0 ? p[axis] <= at : p[axis] >= at; };
-  std::vector<PrecisePoint> result;
+std::vector<TwofoldPoint> cut_off(const std::vector<TwofoldPoint>& ring, std::size_t axis, double at, int sign) {
+  const auto is_kept = [&](const TwofoldPoint& p) { return sign > 0 ? p[axis] <= at : p[axis] >= at; };
+  std::vector<TwofoldPoint> result;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const PrecisePoint &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    const TwofoldPoint &from = ring[i], &to = ring[(i + 1) % ring.size()];
     if (is_kept(from)) result.push_back(from);
     if (is_kept(from) != is_kept(to)) result.push_back(crossing(from, to, axis, at));
   }
@@ -92,16 +60,16 @@ std::vector<PrecisePoint> cut_off(const std::vector<PrecisePoint>& ring, std::si
 
 /// Within the rectangle, about `origin`.
 Zone::Ring cut_to(const Zone::Ring& ring, const Box& bounds, const Vec3& origin) {
-  std::vector<PrecisePoint> points;
-  for (const Point& p : ring) points.push_back({Precise{p.x()}, Precise{p.y()}});
+  std::vector<TwofoldPoint> points;
+  for (const Point& p : ring) points.push_back({Twofold{p.x()}, Twofold{p.y()}});
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto along = static_cast<Eigen::Index>(axis);
     points = cut_off(points, axis, bounds.max[along], 1);
     points = cut_off(points, axis, bounds.min[along], -1);
   }
   Zone::Ring result;
-  for (const PrecisePoint& p : points) {
-    const Point local((p[0] - Precise{origin.x()}).value, (p[1] - Precise{origin.y()}).value);
+  for (const TwofoldPoint& p : points) {
+    const Point local((p[0] - Twofold{origin.x()}).high, (p[1] - Twofold{origin.y()}).high);
     if (result.empty() || result.back() != local) result.push_back(local);
   }
   while (result.size() > 1 && result.front() == result.back()) result.pop_back();
