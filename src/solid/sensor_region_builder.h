@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sensor/viewed.h"
+#include "solid/kernel_point.h"
 #include "solid/regions.h"
 #include "vantage/each_limit.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "limit_attack.h"
 #include "mesh_case.h"
 #include "vantage/error.h"
 #include "vantage/target.h"

@@ -12,6 +12,7 @@
 
 #include "closed_mesh.h"
 #include "isolated.h"
+#include "limit_attack.h"
 #include "missions.h"
 #include "random.h"
 #include "vantage/error.h"

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "isolated.h"
+#include "limit_attack.h"
 #include "mesh_judge.h"
 #include "vantage/progress.h"
 

@@ -8,6 +8,7 @@
 
 #include "closed_mesh.h"
 #include "exact.h"
+#include "limit_attack.h"
 #include "vantage/target.h"
 
 namespace attack {

@@ -1,4 +1,5 @@
 // What the balls that touch the target's plane in its corners have in common is convex.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
