@@ -49,9 +49,15 @@ TEST(IntersectVolumes, StatesNothingThatDoesNotHoldOfAll) {
   ASSERT_TRUE(near.provenance && far.provenance);
   Volume elsewhere = beside;
   elsewhere.provenance->scene_hash = "of another scene";
+  Volume sampled = beside, asked = beside;
+  sampled.provenance->method = "spheres";
+  asked.provenance->mission_hash = "of another mission";
+  const Volume both = intersect_volumes({asked, near});
+  ASSERT_TRUE(both.provenance);
+  EXPECT_EQ(both.provenance->mission_hash, "");
   EXPECT_TRUE(intersect_volumes({near, beside}).provenance);
   EXPECT_TRUE(unite_volumes({near, beside}).provenance);
-  for (const Volume& volume : {far, elsewhere}) {
+  for (const Volume& volume : {far, elsewhere, sampled}) {
     EXPECT_FALSE(intersect_volumes({near, volume}).provenance);
     EXPECT_FALSE(unite_volumes({near, volume}).provenance);
   }

@@ -30,9 +30,17 @@ constexpr const char* kFewerParts =
 
 Views views_of(const VolumeProvenance& made) { return made.views.empty() ? Views{{made.target}} : made.views; }
 
-/// What is stated of both holds for one scene and one sensor.
-bool can_state_both(const VolumeProvenance& a, const VolumeProvenance& b) {
-  return a.sensor == b.sensor && a.scene_hash == b.scene_hash;
+/// What is stated of all holds for one scene, one sensor and one method. Of several missions it is none.
+bool can_state_all(const std::vector<Volume>& volumes, VolumeProvenance& result) {
+  for (const Volume& volume : volumes) {
+    if (!volume.provenance) continue;
+    const VolumeProvenance& other = *volume.provenance;
+    if (!(other.sensor == result.sensor) || other.scene_hash != result.scene_hash || other.method != result.method) {
+      return false;
+    }
+    if (other.mission_hash != result.mission_hash) result.mission_hash.clear();
+  }
+  return true;
 }
 
 /// That all of several volumes are needed: of one target, or of several.
@@ -55,7 +63,7 @@ void state_any(const std::vector<Volume>& volumes, Volume& result) {
   std::vector<Target> list;
   for (const Volume& volume : volumes) {
     const Views views = volume.provenance ? views_of(*volume.provenance) : Views();
-    if (views.size() != 1 || !can_state_both(*volume.provenance, *result.provenance)) {
+    if (views.size() != 1) {
       result.provenance.reset();
       return;
     }
@@ -123,14 +131,9 @@ void check_any(const std::vector<Volume>& volumes, const char* what) {
 Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& callback, double work_limit) {
   check_any(volumes, "intersect");
   Volume result = volumes.front();
+  if (result.provenance && !can_state_all(volumes, *result.provenance)) result.provenance.reset();
   for (std::size_t i = 1; i < volumes.size(); ++i) {
-    if (result.provenance && volumes[i].provenance) {
-      if (can_state_both(*volumes[i].provenance, *result.provenance)) {
-        state_all(*volumes[i].provenance, *result.provenance);
-      } else {
-        result.provenance.reset();
-      }
-    }
+    if (result.provenance && volumes[i].provenance) state_all(*volumes[i].provenance, *result.provenance);
     add_work(volumes[i], result);
   }
   for (std::size_t i = 0; i < volumes.size(); ++i) {
@@ -170,6 +173,7 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
   check_any(volumes, "unite");
   if (volumes.size() == 1) return volumes.front();
   Volume result = volumes.front();
+  if (result.provenance && !can_state_all(volumes, *result.provenance)) result.provenance.reset();
   for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
   if (result.provenance) state_any(volumes, result);
   const auto first = std::find_if(volumes.begin(), volumes.end(), has_volume);
