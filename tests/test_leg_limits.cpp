@@ -286,8 +286,8 @@ Target some_target(Random& random) {
   return target;
 }
 
-// Every limit of the table, in the ways it is drawn, as a leg and as a tube. Of "frame" and "gimbal" a position has
-// one.
+// Every limit of the table, in the ways it is drawn: as a leg, and where there is no camera as a tube. Of "frame" and
+// "gimbal" a position has one.
 TEST(LegLimits, AgreeWithPointsForEveryLimit) {
   Random random(20250325);
   for (const testing::LimitSample& sample : testing::limit_samples()) {

@@ -28,7 +28,7 @@ constexpr const char* kSimplifyExamples =
     "\n"
     "The result is a subset of the volume, exactly, in numbers of double precision (PLY, OBJ): what was proved of a\n"
     "volume that does not pass through itself holds of it. Formats of single precision round, and state by how much:\n"
-    "'vantage compute --help' lists them. The file says what it is for, as the volume's does, so that it can be "
+    "'vantage compute --help' lists them. The file says what it is for, as the volume's does, so that it can be\n"
     "proved, verified and compared.\n"
     "With both --facets and --error it ends where one of them is reached. How it works: docs/simplify.md.\n"
     "\n"

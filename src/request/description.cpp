@@ -102,7 +102,7 @@ std::string Bounds::text() const {
   if (is_above_zero && most >= kLongest) return "> 0";
   const std::string end = grouped(most) + (most_word.empty() ? "" : ", " + std::string(most_word));
   if (is_above_zero) return (takes_most() ? "> 0, at most " : "> 0 and < ") + end;
-  if (!takes_most()) return grouped(least) + " or more and < " + end;
+  if (!takes_most()) return (takes_least() ? grouped(least) + " or more" : "> " + grouped(least)) + " and < " + end;
   return (takes_least() ? "" : "> ") + grouped(least) + " to " + end;
 }
 

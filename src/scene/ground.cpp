@@ -19,7 +19,6 @@ ObjectKind kind_of(const Scene& scene, std::uint32_t object) {
 /// The triangles of the objects for which `wanted` holds, with the vertices that they use.
 template <typename Wanted>
 Mesh part_of(const Scene& scene, const Wanted& wanted) {
-  internal::scene::check_scene(scene);
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> number(scene.mesh.vertices.size(), kUnused);
   Mesh part;
@@ -50,6 +49,7 @@ bool is_level(const Mesh& mesh) {
 }  // namespace
 
 std::optional<Ground> ground_of(const Scene& scene) {
+  internal::scene::check_scene(scene);
   Mesh mesh = part_of_kind(scene, ObjectKind::ground);
   if (mesh.empty()) {
     mesh = part_of_kind(scene, ObjectKind::surface);
@@ -61,6 +61,7 @@ std::optional<Ground> ground_of(const Scene& scene) {
 }
 
 std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground) {
+  internal::scene::check_scene(scene);
   Mesh mesh = part_of(scene, [&](std::uint32_t object) {
     return kind_of(scene, object) != ObjectKind::ground &&
            std::find(ground.begin(), ground.end(), object) == ground.end();
@@ -70,6 +71,7 @@ std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<s
 }
 
 Ground ground_of(const Scene& scene, std::uint32_t object) {
+  internal::scene::check_scene(scene);
   Mesh mesh = part_of(scene, [&](std::uint32_t other) { return other == object; });
   if (mesh.empty()) {
     throw Error(ErrorCode::value_out_of_range, "the scene has no object " + std::to_string(object) + " with triangles",

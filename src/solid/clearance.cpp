@@ -38,7 +38,7 @@ Box box_of(const std::vector<Vec3>& points) {
 /// scene. As obstacles they count. `size`: of the largest coordinate.
 bool is_thin(const std::array<Vec3, 3>& corners, double size) {
   constexpr double kThinnest = 1e-6;     // of the longest side
-  constexpr double kSmallest = 0x1p-46;  // of the scene, which is at most twice its largest coordinate
+  constexpr double kSmallest = 0x1p-46;  // 16 times what preparing drops, of half of the scene's extent
   const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0], w = corners[2] - corners[1];
   const double longest = std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()}));
   return !(u.cross(v).norm() > std::max(kThinnest * longest, kSmallest * size) * longest);

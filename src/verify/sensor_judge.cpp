@@ -66,8 +66,8 @@ SensorJudge::SensorJudge(const Sensor& sensor, const std::vector<TargetView>& pa
   const double pixel_range = sensor.pixel ? sensor.pixel->size_m * *sensor.camera->focal_px : infinity;
   range_ = std::min(sensor.max_range_m, pixel_range);
   // A foreshortened pixel is judged by itself; else its range is one.
-  const bool is_range = sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::perpendicular;
-  const double range_m = is_range || !sensor.pixel ? range_ : sensor.max_range_m;
+  const bool is_slanted = sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::worst;
+  const double range_m = is_slanted ? sensor.max_range_m : range_;
   claimed_range_ = range_m * (1 + kRangeSlack);
   unclaimed_range_ = range_m - tolerance_m;
   std::unique_ptr<const SensorProbe> searched;

@@ -137,6 +137,7 @@ template <>
 void expect_same<Limit::frame>(const Pinhole& found, const Pinhole& expected) {
   EXPECT_EQ(found.half_width, expected.half_width);
   EXPECT_EQ(found.half_height, expected.half_height);
+  EXPECT_EQ(found.focal_px, expected.focal_px);
 }
 
 // ---- pixel ----
