@@ -179,7 +179,6 @@ TEST_P(EveryLimit, IsKnownToTheProofOfMaximality) {
 TEST_P(EveryLimit, IsRefusedByAllWhereItIsWrong) {
   LimitWorld wrong = free_;
   sample_.add_wrong(wrong);
-  const auto& [scene, target, sensor, navigation] = wrong;
   const auto told = [](const auto& take) {
     try {
       take();
@@ -199,9 +198,9 @@ TEST_P(EveryLimit, IsRefusedByAllWhereItIsWrong) {
   EXPECT_EQ(told([&] { cut_to_limits(free, prepare(), wrong.navigation); }), expected);
   EXPECT_EQ(told([&] { query_points(prepare(), wrong.navigation, {{0, 0, 5}}); }), expected);
   EXPECT_EQ(told([&] { LegLimits(prepare(), wrong.navigation); }), expected);
-  EXPECT_EQ(told([&] { verify_volume(scene, target, sensor, navigation, free.mesh); }), expected);
-  EXPECT_EQ(told([&] { prove_volume(scene, target, sensor, navigation, free.mesh); }), expected);
-  EXPECT_EQ(told([&] { prove_maximal(scene, target, sensor, navigation, free.mesh, {}); }), expected);
+  EXPECT_EQ(told([&] { verify_volume(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh); }), expected);
+  EXPECT_EQ(told([&] { prove_volume(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh); }), expected);
+  EXPECT_EQ(told([&] { prove_maximal(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh, {}); }), expected);
   if (sample_.wrong_text.empty()) return;
   try {
     read_mission_text(testing::wrong_mission_text_of(sample_), "mission.yaml");
