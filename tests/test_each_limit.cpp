@@ -198,9 +198,12 @@ TEST_P(EveryLimit, IsRefusedByAllWhereItIsWrong) {
   EXPECT_EQ(told([&] { cut_to_limits(free, prepare(), wrong.navigation); }), expected);
   EXPECT_EQ(told([&] { query_points(prepare(), wrong.navigation, {{0, 0, 5}}); }), expected);
   EXPECT_EQ(told([&] { LegLimits(prepare(), wrong.navigation); }), expected);
-  EXPECT_EQ(told([&] { verify_volume(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh); }), expected);
-  EXPECT_EQ(told([&] { prove_volume(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh); }), expected);
-  EXPECT_EQ(told([&] { prove_maximal(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh, {}); }), expected);
+  EXPECT_EQ(told([&] { verify_volume(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh); }),
+            expected);
+  EXPECT_EQ(told([&] { prove_volume(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh); }),
+            expected);
+  EXPECT_EQ(told([&] { prove_maximal(wrong.scene, wrong.target, wrong.sensor, wrong.navigation, free.mesh, {}); }),
+            expected);
   if (sample_.wrong_text.empty()) return;
   try {
     read_mission_text(testing::wrong_mission_text_of(sample_), "mission.yaml");

@@ -1,10 +1,10 @@
 #include "core/pieces.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <limits>
 
 #include "core/edges.h"
+#include "core/exact_crossing.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -64,13 +64,46 @@ void drop_unused_vertices(Mesh& mesh) {
   }
 }
 
+namespace {
+
+/// How often the mesh, but for one of its pieces, winds round a point; of the numbers as they are.
+int winding_of_others(const Mesh& mesh, const Pieces& found, std::uint32_t left_out, const Vec3& point) {
+  int winding = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (found.piece_of[t] == left_out) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    winding += crossing_above(point, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  }
+  return winding;
+}
+
+/// Per piece: whether it is inside out and lies in no other one, as far as the middles of its facets tell. A cavity has
+/// its first facets in what it was taken from, as a rule, so that few are asked.
+std::vector<char> find_inverted(const Mesh& mesh, const Pieces& found) {
+  std::vector<char> inverted;
+  for (const Piece& piece : found.pieces) inverted.push_back(piece.volume_m3 < 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t piece = found.piece_of[t];
+    if (!inverted[piece]) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 middle = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
+    if (winding_of_others(mesh, found, piece, middle) > 0) inverted[piece] = 0;
+  }
+  return inverted;
+}
+
+}  // namespace
+
 void drop_slivers(LabelledMesh& labelled, double thickness_m) {
   auto& [mesh, labels] = labelled;
   const Pieces found = find_pieces(mesh);
+  const std::vector<char> inverted = find_inverted(mesh, found);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Piece& piece = found.pieces[found.piece_of[t]];
-    if (std::abs(piece.volume_m3) <= thickness_m * piece.area_m2 && piece.volume_m3 >= 0) continue;
+    const std::uint32_t number = found.piece_of[t];
+    const Piece& piece = found.pieces[number];
+    const bool is_thin = piece.volume_m3 >= 0 && piece.volume_m3 <= thickness_m * piece.area_m2;
+    if (is_thin || inverted[number]) continue;
     mesh.triangles[kept] = mesh.triangles[t];
     labels[kept++] = labels[t];
   }

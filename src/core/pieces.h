@@ -26,8 +26,9 @@ struct Pieces {
 /// and the engines make it. Linear time.
 VANTAGE_INTERNAL_API Pieces find_pieces(const Mesh& mesh);
 
-/// Removes pieces that are thinner than `thickness_m` (volume over area): what booleans do not resolve. Cavities stay:
-/// to fill one would add space. Vertices that nothing uses any more go too.
+/// Removes pieces that are thinner than `thickness_m` (volume over area), what booleans do not resolve, and those that
+/// are inside out and in no other one. Cavities stay: to fill one would add space. Vertices that nothing uses any more
+/// go too. Cost: linear for each piece that is inside out.
 VANTAGE_INTERNAL_API void drop_slivers(LabelledMesh& labelled, double thickness_m);
 
 /// Numbers the vertices anew, in their order, without those that no triangle uses.

@@ -87,4 +87,25 @@ Contact contact_of(const Corners& a, const Corners& b, int shared, double distan
   return shared >= 2 ? Contact::none : Contact::touching;
 }
 
+bool may_touch(const Corners& triangle, const Box& box) {
+  const Vec3 centre = (box.min + box.max) / 2, half = (box.max - box.min) / 2;
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = triangle[k] - centre;
+  const auto separates = [&](const Vec3& axis) {
+    const double a = axis.dot(corners[0]), b = axis.dot(corners[1]), c = axis.dot(corners[2]);
+    const double reach = half.dot(axis.cwiseAbs());
+    constexpr double kRounding = 1e-12;
+    const double slack = kRounding * (std::abs(a) + std::abs(b) + std::abs(c) + reach);
+    return std::min({a, b, c}) > reach + slack || std::max({a, b, c}) < -reach - slack;
+  };
+  const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[1], w = corners[0] - corners[2];
+  if (separates(u.cross(v))) return false;
+  for (const Vec3& side : {u, v, w}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (separates(side.cross(Vec3::Unit(axis)))) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace vantage::internal::core

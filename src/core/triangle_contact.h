@@ -19,4 +19,8 @@ enum class Contact {
 /// for signs.
 Contact contact_of(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int shared, double distance);
 
+/// Whether a triangle may touch a box that its own box meets: no normal of the triangle, and no product of an edge and
+/// an axis, separates the two (T. Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001).
+bool may_touch(const std::array<Vec3, 3>& triangle, const Box& box);
+
 }  // namespace vantage::internal::core

@@ -1,10 +1,12 @@
 // A bounding volume hierarchy over the triangles of a mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/bvh.h"
+#include "core/triangle_contact.h"
 #include "core/walk_bvh.h"
 #include "vantage/geometry.h"
 
@@ -24,6 +26,11 @@ class TriangleTree {
   /// others.
   template <typename Visit>
   bool any_near(const Box& box, const Visit& visit) const;
+
+  /// The same for triangles whose bounding boxes meet that of triangle `t` and may touch it: far fewer, of one that is
+  /// long and slanted. `t` is one of them.
+  template <typename Visit>
+  void for_each_along(std::uint32_t t, const Visit& visit) const;
 
   struct Nearest {
     double distance;
@@ -73,6 +80,24 @@ void TriangleTree::for_each_near(const Box& box, double margin, const Visit& vis
   any_near(grown, [&](std::uint32_t triangle) {
     visit(triangle);
     return false;
+  });
+}
+
+template <typename Visit>
+void TriangleTree::for_each_along(std::uint32_t t, const Visit& visit) const {
+  const auto& [a, b, c] = mesh_.triangles[t];
+  const std::array<Vec3, 3> corners{mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]};
+  const Box own = triangle_box(mesh_, t);
+  const auto touches = [&](const Box& box) {
+    return (box.min.array() <= own.max.array()).all() && (box.max.array() >= own.min.array()).all() &&
+           may_touch(corners, box);
+  };
+  const auto enter = [&](const BvhNode& node) {
+    const auto& [min, max] = node.bounds;
+    return touches({Vec3(min[0], min[1], min[2]), Vec3(max[0], max[1], max[2])});
+  };
+  walk_bvh(bvh_, enter, [&](std::uint32_t i) {
+    if (touches(triangle_box(mesh_, order_[i]))) visit(order_[i]);
   });
 }
 

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/crossings.h"
 #include "core/edges.h"
 #include "core/pieces.h"
 #include "core/stars.h"
@@ -65,6 +67,9 @@ class Cleaner {
     Vec3 foot;                       ///< the point of the side nearest to the apex
   };
 
+  void clean_once();
+  bool freeze_crossings();
+  void freeze(std::uint32_t vertex);
   bool find_suspects();
   void suspect_all_of(std::uint32_t vertex);
   void begin();
@@ -77,6 +82,7 @@ class Cleaner {
   std::size_t mend_narrow_facets();
   std::optional<Narrow> find_narrow(std::uint32_t t) const;
   bool mend(const Narrow& narrow);
+  bool is_frozen(std::uint32_t v) const { return v < frozen_.size() && frozen_[v]; }
   bool can_merge(std::uint32_t u, std::uint32_t v) const;
   bool merge(std::uint32_t u, std::uint32_t v);
   bool merge_somewhere(std::uint32_t u, std::uint32_t v);
@@ -110,6 +116,8 @@ class Cleaner {
   std::vector<char> suspect_;           // per triangle: it may be narrow; all others are not, nor are their sides short
   std::vector<double> moved_, raised_;  // per vertex: how far anything has moved that is now it, and outward
   std::vector<std::uint32_t> version_;  // per vertex: how often it has moved
+  std::vector<std::uint32_t> became_;   // per vertex: the one that it was merged with, or itself
+  std::vector<char> frozen_;            // per vertex that came: it must not be merged
   Cleaning result_;
 };
 
@@ -136,6 +144,9 @@ void Cleaner::begin() {
   moved_.assign(vertices_.size(), 0);
   raised_.assign(vertices_.size(), 0);
   version_.assign(vertices_.size(), 0);
+  became_.resize(vertices_.size());
+  std::iota(became_.begin(), became_.end(), 0u);
+  result_ = {};
 }
 
 /// Puts vertices that stayed back bit for bit, and leaves out what is gone.
@@ -165,6 +176,7 @@ const FacetSource* Cleaner::plane_of(std::uint32_t t) const {
 /// Whether the mesh stays closed with two triangles to an edge: the two vertices may have no common neighbours but the
 /// corners across from their edge.
 bool Cleaner::can_merge(std::uint32_t u, std::uint32_t v) const {
+  if (is_frozen(u) || is_frozen(v)) return false;
   std::vector<std::uint32_t> of_u, of_v, common;
   std::size_t shared = 0;
   for (const std::uint32_t t : stars_->of(u)) {
@@ -206,6 +218,10 @@ double merged_anyway_m(const CleaningLimits& limits) {
   return std::min(numerics::kMergeAnyway * limits.distance_m, numerics::kMostRaises * limits.allowance_m);
 }
 
+double most_added_m(const CleaningLimits& limits) {
+  return numerics::kMostRaises * limits.allowance_m + merged_anyway_m(limits);
+}
+
 /// The same of all facets of two vertices that would be merged, with what was raised before.
 std::optional<double> Cleaner::raise_of(std::uint32_t u, std::uint32_t v, const Vec3& place) const {
   const double move = std::max(moved_[u] + (place - vertices_[u]).norm(), moved_[v] + (place - vertices_[v]).norm());
@@ -217,8 +233,7 @@ std::optional<double> Cleaner::raise_of(std::uint32_t u, std::uint32_t v, const 
     return of_facet.has_value();
   });
   raise += std::max(raised_[u], raised_[v]);
-  const double most = numerics::kMostRaises * limits_.allowance_m + merged_anyway_m(limits_);
-  if (!fits || raise > most) return std::nullopt;
+  if (!fits || raise > most_added_m(limits_)) return std::nullopt;
   return raise;
 }
 
@@ -285,6 +300,7 @@ bool Cleaner::merge_at(std::uint32_t u, std::uint32_t v, const Vec3& place) {
   result_.moved_m = std::max(result_.moved_m, moved_[v]);
   if (vertices_[v] != place) ++version_[v];
   vertices_[v] = place;
+  became_[u] = v;
   const std::span<const std::uint32_t> built = stars_->of(u);
   const std::vector<std::uint32_t> star(built.begin(), built.end());
   for (const std::uint32_t t : star) {
@@ -375,6 +391,7 @@ bool Cleaner::mend(const Narrow& narrow) {
   moved_.push_back(0);
   raised_.push_back(0);
   version_.push_back(0);
+  became_.push_back(middle);
   stars_->add_vertex();
   std::array<std::uint32_t, 2> added{};
   std::size_t count = 0;
@@ -406,6 +423,7 @@ bool Cleaner::mend(const Narrow& narrow) {
   moved_.pop_back();
   raised_.pop_back();
   version_.pop_back();
+  became_.pop_back();
   stars_->clear(middle);
   stars_->remove_vertex();
   return false;
@@ -421,16 +439,68 @@ std::size_t Cleaner::mend_narrow_facets() {
   return mended;
 }
 
-Cleaning Cleaner::run() {
-  if (!find_suspects()) return {};
+void Cleaner::clean_once() {
   begin();
   constexpr int kRounds = 6;  // after three nothing changes any more, as a rule
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t merged = merge_short_edges();
     if (mend_narrow_facets() == 0 && merged == 0) break;
   }
-  finish();
-  return result_;
+}
+
+/// Freezes all that was merged to become `vertex`.
+void Cleaner::freeze(std::uint32_t vertex) {
+  for (std::uint32_t v = 0; v < frozen_.size(); ++v) {
+    std::uint32_t now = v;
+    while (became_[now] != now) now = became_[now];
+    if (now == vertex) frozen_[v] = 1;
+  }
+}
+
+/// Where the solid is thinner than vertices move, a facet that goes inward may come out on the other side. Freezes the
+/// vertices that had moved of facets that pass through each other now. False where there are none.
+bool Cleaner::freeze_crossings() {
+  if (result_.merged == 0) return false;
+  Mesh mesh{vertices_, {}};
+  std::vector<std::uint32_t> changed;
+  const auto has_moved = [&](std::uint32_t v) { return moved_[v] > 0; };
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (gone_[t]) continue;
+    const Triangle& triangle = triangles_[t];
+    if (std::any_of(triangle.begin(), triangle.end(), has_moved)) {
+      changed.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  std::vector<std::uint32_t> met;
+  for (const auto& [a, b] : core::find_crossings(mesh, changed, most_added_m(limits_))) {
+    for (const std::uint32_t t : {a, b}) {
+      std::copy_if(mesh.triangles[t].begin(), mesh.triangles[t].end(), std::back_inserter(met), has_moved);
+    }
+  }
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  for (const std::uint32_t vertex : met) freeze(vertex);
+  return !met.empty();
+}
+
+Cleaning Cleaner::run() {
+  if (!find_suspects()) return {};
+  const LabelledMesh as_it_came = labelled_;
+  const std::vector<char> suspect = suspect_;
+  frozen_.assign(vertices_.size(), 0);
+  constexpr int kAttempts = 12;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    clean_once();
+    if (!freeze_crossings()) {
+      finish();
+      if (result_.merged > 0) core::drop_slivers(labelled_, 0);  // a thin piece may have been turned inside out
+      return result_;
+    }
+    labelled_ = as_it_came;
+    suspect_ = suspect;
+  }
+  return {};
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "core/edges.h"
 #include "core/pieces.h"
+#include "core/triangle_contact.h"
 #include "core/triangle_tree.h"
 
 namespace vantage::internal::solid {
@@ -26,29 +27,6 @@ constexpr std::ptrdiff_t kFewest = 32;
 /// A group's box is grown by this part of its diagonal, so that there is room in it for the fan's point beside facets
 /// that are all in one plane.
 constexpr double kRoom = 0.05;
-
-/// Whether a triangle may touch a box: no axis of the box, normal of the triangle or product of their edges separates
-/// the two (Akenine-Moeller 2001).
-bool may_touch(const std::array<Vec3, 3>& triangle, const Box& box) {
-  const Vec3 centre = (box.min + box.max) / 2, half = (box.max - box.min) / 2;
-  std::array<Vec3, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k) corners[k] = triangle[k] - centre;
-  const auto separates = [&](const Vec3& axis) {
-    const double a = axis.dot(corners[0]), b = axis.dot(corners[1]), c = axis.dot(corners[2]);
-    const double reach = half.dot(axis.cwiseAbs());
-    constexpr double kRounding = 1e-12;
-    const double slack = kRounding * (std::abs(a) + std::abs(b) + std::abs(c) + reach);
-    return std::min({a, b, c}) > reach + slack || std::max({a, b, c}) < -reach - slack;
-  };
-  const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[1], w = corners[0] - corners[2];
-  if (separates(u.cross(v))) return false;
-  for (const Vec3& side : {u, v, w}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (separates(side.cross(Vec3::Unit(axis)))) return false;
-    }
-  }
-  return true;  // boxes that do not overlap have been left out
-}
 
 struct Group {
   std::vector<std::uint32_t> facets;
@@ -90,7 +68,7 @@ class Grouping {
 bool Grouping::is_quiet(const Box& box) const {
   return !tree_.any_near(box, [&](std::uint32_t t) {
     const auto& [a, b, c] = surface_.triangles[t];
-    return may_touch({surface_.vertices[a], surface_.vertices[b], surface_.vertices[c]}, box);
+    return core::may_touch({surface_.vertices[a], surface_.vertices[b], surface_.vertices[c]}, box);
   });
 }
 
