@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -14,12 +15,14 @@
 #include "core/grown_polygon.h"
 #include "support/internals.h"
 #include "support/random.h"
+#include "support/scenes.h"
 #include "support/shared_data.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
+#include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
@@ -31,6 +34,7 @@ using testing::first_open_edge;
 using testing::holds;
 using testing::make_hemisphere;
 using testing::Random;
+using testing::SceneBuilder;
 
 /// How far the polytope about a grown polygon reaches too far: beside edges, and round corners.
 constexpr double kBesideEdges = 0.083, kRoundCorners = 0.16;
@@ -199,6 +203,33 @@ TEST(ClearanceLimit, IsKeptFromASpeckBesideAWallOfAnySize) {
         EXPECT_FALSE(holds(cut.mesh, place(3, 3, 6.001)));
         EXPECT_TRUE(holds(cut.mesh, place(3, 3, 2)));
       }
+    }
+  }
+}
+
+// Booleans round to a part of the largest coordinate: with the whole of such a triangle in them sight was claimed from
+// 4e-7 m beside a shadow.
+TEST(ClearanceLimit, OfATriangleFarLargerThanTheVolumeCostsNoPrecision) {
+  Random random(5);
+  for (int round = 0; round < 24; ++round) {
+    const double range = std::array{0.1, 10.0, 100.0}[static_cast<std::size_t>(round % 3)];
+    const double far = range * std::pow(10, random.uniform(5, 6.5));
+    SceneBuilder builder;
+    builder.polygon("ground", {{-far, -far, -0.3 * range}, {far, -far, -0.3 * range}, {0, far, -0.3 * range}});
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 at = range * Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(0.3, 0.5));
+      builder.polygon("roof", {at, at + range * Vec3(0.1, 0, 0), at + range * Vec3(0, 0.1, 0.02)});
+    }
+    const Scene scene = builder;
+    const Target target = Target::point({0, 0, 0.02 * range});
+    const Sensor sensor{.max_range_m = range};
+    Navigation navigation;
+    navigation.clearance = Clearance{.distance_m = 0.005 * range, .obstacles = obstacles_of(scene)};
+    const Volume volume =
+        compute_volume(PreparedTarget(PreparedScene(scene), target, sensor), navigation, {.tolerance_m = 0.01 * range});
+    const ProofReport report = prove_volume(scene, target, sensor, navigation, volume.mesh, {.lift_m = volume.lift_m});
+    for (const ClaimProof& claim : report.claims) {
+      EXPECT_NE(claim.verdict, ProofVerdict::wrong) << "round " << round << ": " << claim.text;
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -119,26 +120,63 @@ Solid unite_neighbours(std::span<Solid> solids, const core::ProgressReporter& pr
   return unite(low, high, progress.part(0, 0));
 }
 
-/// Convex polygons about `origin` that hold the triangles which reach into `near`, a box of the scene frame.
-std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const Vec3& origin,
-                                   const core::ProgressReporter& progress) {
+/// The part of a convex polygon with a coordinate of at least `at` (`side` 1), or at most (`side` -1).
+Polygon part_beyond(const Polygon& polygon, Eigen::Index axis, double at, int side) {
+  Polygon part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double height_a = side * (a[axis] - at), height_b = side * (b[axis] - at);
+    if (height_a >= 0) part.push_back(a);
+    if ((height_a < 0) == (height_b < 0)) continue;
+    Vec3& crossing = part.emplace_back(a + height_a / (height_a - height_b) * (b - a));
+    crossing[axis] = at;
+  }
+  return part;
+}
+
+/// Convex polygons about an origin, and how far rounding may have moved their corners.
+struct NearObstacles {
+  std::vector<Polygon> polygons;
+  double rounding_m = 0;
+};
+
+/// Booleans round to a part of the largest coordinate: of a triangle far larger than the volume only what is near takes
+/// part. `near`: about the triangle's origin.
+void trim(Polygon& triangle, const Box& near, NearObstacles& obstacles) {
+  constexpr double kFarLarger = 64;
+  constexpr double kRoundings = 16 * std::numeric_limits<double>::epsilon();  // of six cuts one after the other
+  const double size = (near.max - near.min).norm();
+  const Box box = box_of(triangle);
+  const double farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  if ((box.max - box.min).maxCoeff() <= kFarLarger * size) return;
+  const Box trimmed = grown(near, size);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    triangle = part_beyond(triangle, axis, trimmed.min[axis], 1);
+    triangle = part_beyond(triangle, axis, trimmed.max[axis], -1);
+  }
+  obstacles.rounding_m = std::max(obstacles.rounding_m, kRoundings * farthest);
+}
+
+/// Those that hold the triangles which reach into `near`, a box about `origin`.
+NearObstacles obstacles_near(const Mesh& obstacles, const Box& near, const Vec3& origin,
+                             const core::ProgressReporter& progress) {
+  NearObstacles result;
   std::vector<std::array<Vec3, 3>> triangles;
   double size = 0;
   for (std::size_t t = 0; t < obstacles.triangles.size(); ++t) {
     progress.tick();
-    if (!meet(core::triangle_box(obstacles, t), near)) continue;
-    std::array<Vec3, 3>& corners = triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = obstacles.vertices[obstacles.triangles[t][k]] - origin;
-      size = std::max(size, corners[k].cwiseAbs().maxCoeff());
-    }
+    if (!meet(core::triangle_box(obstacles, t), {near.min + origin, near.max + origin})) continue;
+    Polygon polygon;
+    for (const std::uint32_t v : obstacles.triangles[t]) polygon.push_back(obstacles.vertices[v] - origin);
+    trim(polygon, near, result);
+    for (const Vec3& corner : polygon) size = std::max(size, corner.cwiseAbs().maxCoeff());
+    for (std::size_t k = 2; k < polygon.size(); ++k) triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
   }
-  std::vector<Polygon> polygons;
   Scene scene;
   scene.objects.emplace_back();
   for (const std::array<Vec3, 3>& corners : triangles) {
     if (is_thin(corners, size)) {
-      polygons.emplace_back(corners.begin(), corners.end());
+      result.polygons.emplace_back(corners.begin(), corners.end());
       continue;
     }
     const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
@@ -146,14 +184,14 @@ std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const
     scene.mesh.triangles.push_back({first, first + 1, first + 2});
     scene.object_of.push_back(0);
   }
-  if (scene.mesh.empty()) return polygons;
+  if (scene.mesh.empty()) return result;
   const Progress ask = [&](std::string_view, double) {
     progress.check();
     return true;
   };
   const PreparedScene prepared(scene, progress.is_followed() ? ask : Progress());
-  for (std::uint32_t i = 0; i < prepared.statistics().polygons; ++i) polygons.push_back(prepared.polygon(i));
-  return polygons;
+  for (std::uint32_t i = 0; i < prepared.statistics().polygons; ++i) result.polygons.push_back(prepared.polygon(i));
+  return result;
 }
 
 /// What becomes one solid: a polygon, or all those of a convex solid. That is the same but for what is inside of the
@@ -224,11 +262,10 @@ Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3&
   // hulls and booleans round to 1e-12 of that about the origin.
   constexpr double kMerging = 1e-14, kBooleans = 4e-12;
   const double largest = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff()) + reach;
-  const double radius = clearance.distance_m + kBooleans * largest + kMerging * origin.cwiseAbs().maxCoeff();
-
-  const Box near = grown(bounds, reach);
-  const std::vector<Polygon> polygons =
-      polygons_near(*clearance.obstacles, {near.min + origin, near.max + origin}, origin, progress);
+  const NearObstacles near = obstacles_near(*clearance.obstacles, grown(bounds, reach), origin, progress);
+  const std::vector<Polygon>& polygons = near.polygons;
+  const double radius =
+      clearance.distance_m + kBooleans * largest + kMerging * origin.cwiseAbs().maxCoeff() + near.rounding_m;
   progress.report(0.1);
   const core::TriangleTree tree(volume);
   const Vec3 centre = from - origin;
