@@ -43,7 +43,7 @@ const Place* place_of(const City& city) {
 
 using Edit = std::function<void(int step, MissionFile& file)>;
 
-void drag_target(int step, MissionFile& file) { drag_corner(step, file.target); }
+void drag_target(int step, MissionFile& file) { drag_corner(step, file.targets.front().target); }
 
 void drag_altitude(int step, MissionFile& file) {
   file.navigation.altitude = Navigation::Altitude{2, 60 + kDragStep * (step % kDragSteps)};
@@ -57,20 +57,21 @@ void drag_altitude_of_share(int step, MissionFile& file) {
 
 /// One of two: the second is the first, moved aside.
 void drag_one_of_two(int step, MissionFile& file) {
-  Target other = file.target;
-  const Vec3 aside = 0.3 * (file.target.parts[0][1] - file.target.parts[0][0]);
+  const Target first = file.targets.front().target;
+  Target other = first;
+  const Vec3 aside = 0.3 * (first.parts[0][1] - first.parts[0][0]);
   for (Vec3& vertex : other.parts[0]) vertex += aside;
   drag_corner(step, other);
   other.name = "other";
   file.combine = Combine::each;
-  file.targets = {{file.target}, {other}};
+  file.targets = {{first}, {other}};
 }
 
 void drag(State& state, const City& city, const Edit& edit, bool keep) {
   const Place* const place = place_of(city);
   if (!place) return state.SkipWithError(absence(city).c_str());
   MissionFile file;
-  file.target = dragged_target(city);
+  file.targets = {{dragged_target(city)}};
   file.sensor.max_range_m = kDragRange;
   RunOptions options{.prepared = place->prepared, .scene_hash = place->hash};
   const auto kept = std::make_shared<KeptVolumes>();

@@ -58,6 +58,7 @@ class FaceTargets : public ::testing::Test {
     write_bytes(folder_ / "mission.yaml", "scene: " + scene + "\nsensor: {max_range: 60}\ntarget: " + target + "\n");
     return read_mission(folder_ / "mission.yaml");
   }
+  static const FaceTarget& faces_of(const MissionFile& file) { return std::get<FaceTarget>(file.targets[0].source); }
   Mission mesh(const std::string& target) { return resolve_mission(file(target, "{mesh: city.obj}")); }
   Mission map(const std::string& target) { return resolve_mission(file(target, "{osm: city.osm}")); }
 
@@ -147,18 +148,18 @@ TEST_F(FaceTargets, AreWrittenAsTheyAreRead) {
                              "{object: town_hall, part: facade, facing: -20.5}"}) {
     const MissionFile first = file(target, "{mesh: city.obj}");
     const MissionFile again = read_mission_text(mission_text(first, folder_.path()), folder_ / "again.yaml");
-    ASSERT_TRUE(again.face_target) << target;
-    EXPECT_EQ(again.face_target->object, first.face_target->object);
-    EXPECT_EQ(again.face_target->kind, first.face_target->kind);
-    EXPECT_EQ(again.face_target->facing_deg, first.face_target->facing_deg);
-    EXPECT_EQ(again.face_target->nearest, first.face_target->nearest);
-    EXPECT_EQ(again.target.name, first.target.name);
-    EXPECT_EQ(again.target.offset_m, first.target.offset_m);
+    const FaceTarget &read = faces_of(again), &written = faces_of(first);
+    EXPECT_EQ(read.object, written.object);
+    EXPECT_EQ(read.kind, written.kind);
+    EXPECT_EQ(read.facing_deg, written.facing_deg);
+    EXPECT_EQ(read.nearest, written.nearest);
+    EXPECT_EQ(again.targets[0].target.name, first.targets[0].target.name);
+    EXPECT_EQ(again.targets[0].target.offset_m, first.targets[0].target.offset_m);
     EXPECT_EQ(mission_hash(resolve_mission(again)), mission_hash(resolve_mission(first)));
   }
   const MissionFile at_place = file("{at: " + at(0, 0) + ", part: roof}", "{osm: city.osm}");
   const MissionFile again = read_mission_text(mission_text(at_place, folder_.path()), folder_ / "again.yaml");
-  EXPECT_EQ(again.face_target->at_deg, at_place.face_target->at_deg);
+  EXPECT_EQ(faces_of(again).at_deg, faces_of(at_place).at_deg);
 }
 
 TEST_F(FaceTargets, HaveTheHashOfTheSamePolygons) {

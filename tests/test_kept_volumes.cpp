@@ -102,7 +102,7 @@ class Editing {
 
 MissionFile mission_of(Target target, double range) {
   MissionFile file;
-  file.target = std::move(target);
+  file.targets[0].target = std::move(target);
   file.sensor.max_range_m = range;
   file.exact.tolerance_m = 1e-3 * range;
   return file;
@@ -142,7 +142,7 @@ struct Drawn {
 /// An edit, and whether what the volume depends on stays.
 bool edit(Random& random, Drawn& drawn) {
   MissionFile& file = drawn.file;
-  std::vector<Vec3>& corners = file.target.parts[0];
+  std::vector<Vec3>& corners = file.targets[0].target.parts[0];
   const double scale = drawn.scale, z = drawn.origin.z();
   switch (random.integer(0, 7)) {
     case 0:  // a corner is dragged
@@ -293,7 +293,7 @@ TEST(KeptVolumes, OutliveTargetsThatAreRefused) {
   };
   for (const auto& corners : wrong) {
     MissionFile file = good;
-    file.target.parts[0] = corners;
+    file.targets[0].target.parts[0] = corners;
     EXPECT_EQ(editing.run(file, place), 0u);
     EXPECT_EQ(editing.run(good, place), 1u);
   }
@@ -335,7 +335,7 @@ void drag_in_city(const char* file_name, UpAxis up, const Target& target) {
   MissionFile file = mission_of(target, 150);
   Editing editing;
   EXPECT_EQ(editing.run(file, place), 0u);
-  file.target.parts[0][0].x() += 0.1;
+  file.targets[0].target.parts[0][0].x() += 0.1;
   EXPECT_EQ(editing.run(file, place), 0u);
   file.navigation.altitude = Navigation::Altitude{2, 60};
   EXPECT_EQ(editing.run(file, place), 1u);

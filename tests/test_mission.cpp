@@ -84,12 +84,12 @@ exact: {tolerance: 0.02}
   EXPECT_EQ(mission.scene.file, folder / "../city.obj") << "missions may be a symbolic link";
   EXPECT_EQ(mission.scene.mesh.up, UpAxis::y);
   EXPECT_EQ(mission.scene.mesh.scale, 0.5);
-  EXPECT_EQ(mission.target.name, "plaza, north");
-  ASSERT_EQ(mission.target.parts[0].size(), 3U);
-  EXPECT_EQ(mission.target.parts[0][2], Vec3(0, 10, 1));
-  EXPECT_EQ(mission.target.offset_m, 0.25);
-  ASSERT_TRUE(mission.target.front.has_value());
-  EXPECT_EQ(*mission.target.front, Vec3(0, 0, -2));
+  EXPECT_EQ(mission.targets[0].target.name, "plaza, north");
+  ASSERT_EQ(mission.targets[0].target.parts[0].size(), 3U);
+  EXPECT_EQ(mission.targets[0].target.parts[0][2], Vec3(0, 10, 1));
+  EXPECT_EQ(mission.targets[0].target.offset_m, 0.25);
+  ASSERT_TRUE(mission.targets[0].target.front.has_value());
+  EXPECT_EQ(*mission.targets[0].target.front, Vec3(0, 0, -2));
   EXPECT_EQ(mission.places.target, folder / "plaza.yaml:5:13");
   EXPECT_EQ(mission.sensor.max_range_m, 150);
   ASSERT_TRUE(mission.navigation.altitude.has_value());
@@ -114,8 +114,8 @@ exact: {tolerance: 0.02}
 TEST(Mission, OfSeveralPolygons) {
   const MissionFile mission = parse(text_of_mission(
       "", "target: {parts: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[5, 0, 0], [6, 0, 0], [6, 1, 0], [5, 1, 0]]]}\n"));
-  ASSERT_EQ(mission.target.parts.size(), 2U);
-  EXPECT_EQ(mission.target.parts[1][2], Vec3(6, 1, 0));
+  ASSERT_EQ(mission.targets[0].target.parts.size(), 2U);
+  EXPECT_EQ(mission.targets[0].target.parts[1][2], Vec3(6, 1, 0));
   const Error error =
       refusal(text_of_mission("", "target: {parts: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[1, 1, 1]]]}\n"));
   EXPECT_NE(error.where().find("mission.yaml:3:"), std::string::npos) << error.what();
@@ -162,8 +162,8 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
         EXPECT_EQ(mission_text(again, "/data/missions"), text);
         EXPECT_EQ(again.scene.file, read.scene.file);
         EXPECT_EQ(again.scene.attribution, read.scene.attribution);
-        EXPECT_EQ(again.target.parts, read.target.parts);
-        EXPECT_EQ(again.target.name, read.target.name);
+        EXPECT_EQ(again.targets[0].target.parts, read.targets[0].target.parts);
+        EXPECT_EQ(again.targets[0].target.name, read.targets[0].target.name);
         EXPECT_EQ(again.sensor.max_range_m, read.sensor.max_range_m);
         testing::expect_same_limits(again.navigation, read.navigation);
         testing::expect_same_limits(again.sensor, read.sensor);
@@ -179,9 +179,9 @@ TEST(Mission, HasDefaults) {
   const MissionFile mission = parse(text_of_mission(""));
   EXPECT_EQ(mission.scene.mesh.up, UpAxis::z);
   EXPECT_EQ(mission.scene.mesh.scale, 1.0);
-  EXPECT_EQ(mission.target.name, "target");
-  EXPECT_EQ(mission.target.offset_m, 0.0);
-  EXPECT_FALSE(mission.target.front.has_value());
+  EXPECT_EQ(mission.targets[0].target.name, "target");
+  EXPECT_EQ(mission.targets[0].target.offset_m, 0.0);
+  EXPECT_FALSE(mission.targets[0].target.front.has_value());
   EXPECT_TRUE(mission.navigation.empty());
   EXPECT_EQ(mission.exact.tolerance_m, ExactOptions{}.tolerance_m);
   EXPECT_EQ(mission.exact.threads, 0);
@@ -193,7 +193,7 @@ TEST(Mission, HasDefaults) {
 TEST(Mission, AcceptsAByteOrderMarkAndWindowsLineEnds) {
   std::string text = "\xEF\xBB\xBF" + text_of_mission("");
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
-  EXPECT_EQ(parse(text).target.parts[0].size(), 4U);
+  EXPECT_EQ(parse(text).targets[0].target.parts[0].size(), 4U);
 }
 
 TEST(Mission, AcceptsEdgesInAnyOrderAndTurn) {
@@ -333,14 +333,14 @@ std::string with_point(const std::string& rest) { return text_of_mission("", "ta
 
 TEST(Mission, TargetOfAPoint) {
   MissionFile mission = parse(with_point("point: [1, -2, 3.5]"));
-  ASSERT_TRUE(mission.target.is_point());
-  EXPECT_EQ(mission.target.parts[0][0], Vec3(1, -2, 3.5));
-  EXPECT_FALSE(mission.target.front.has_value());
+  ASSERT_TRUE(mission.targets[0].target.is_point());
+  EXPECT_EQ(mission.targets[0].target.parts[0][0], Vec3(1, -2, 3.5));
+  EXPECT_FALSE(mission.targets[0].target.front.has_value());
   EXPECT_EQ(mission.places.target, std::string(kMissionFile) + ":4:10");
   mission = parse(with_point("{name: camera, point: [1, 2, 3], front: [0, -1, 0], offset: 0.1}"));
-  EXPECT_EQ(mission.target.name, "camera");
-  EXPECT_EQ(mission.target.offset_m, 0.1);
-  EXPECT_EQ(*mission.target.front, Vec3(0, -1, 0));
+  EXPECT_EQ(mission.targets[0].target.name, "camera");
+  EXPECT_EQ(mission.targets[0].target.offset_m, 0.1);
+  EXPECT_EQ(*mission.targets[0].target.front, Vec3(0, -1, 0));
 }
 
 TEST(MissionErrors, PointsThatAreNone) {
@@ -455,7 +455,7 @@ TEST(MissionUnits, AreUnderstood) {
       "  keep_out:\n    - {polygon: [[0, 0], [9, 0], [9, 9]], z: [0, 400 ft]}\n"
       "exact: {tolerance: 5 mm}\n");
   EXPECT_EQ(mission.scene.mesh.scale, 0.3048);
-  EXPECT_EQ(mission.target.offset_m, 0.6096);
+  EXPECT_EQ(mission.targets[0].target.offset_m, 0.6096);
   EXPECT_EQ(mission.sensor.max_range_m, 121.92);
   EXPECT_EQ(mission.sensor.min_range_m, 3.048);
   EXPECT_EQ(mission.sensor.incidence_deg, 60);

@@ -110,7 +110,7 @@ TEST(MissionZones, TextReadsBackAsTheSame) {
 TEST(MissionZones, EachNumberOfAZoneIsInTheHash) {
   const auto hash = [](const std::string& limits) {
     const MissionFile file = parsed(limits);
-    return mission_hash({file, {}, file.target, {}, file.sensor, file.navigation, 0});
+    return mission_hash({file, {}, file.targets[0].target, {}, file.sensor, file.navigation, 0});
   };
   const std::string start = "keep_in: [{polygon: [[0, 0], [9, 0], [0, 9]], ";
   const std::vector<std::string> all = {

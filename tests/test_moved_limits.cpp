@@ -5,11 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "support/limit_samples.h"

@@ -201,7 +201,7 @@ Mission mission_with(const std::string& sensor) {
   Mission mission;
   mission.as_written = parse(sensor);
   mission.loaded = std::make_shared<const LoadedScene>(LoadedScene{yard(), {}, {}});
-  mission.target = mission.as_written.target;
+  mission.target = mission.as_written.targets[0].target;
   mission.sensor = mission.as_written.sensor;
   return mission;
 }

@@ -265,11 +265,11 @@ TEST_F(SeveralTargets, AreWrittenAsTheyAreRead) {
     EXPECT_EQ(again.targets[i].target.name, first.targets[i].target.name);
     EXPECT_EQ(again.targets[i].target.parts, first.targets[i].target.parts);
     EXPECT_EQ(again.targets[i].both_sides, first.targets[i].both_sides);
-    EXPECT_EQ(again.targets[i].face_target.has_value(), first.targets[i].face_target.has_value());
+    EXPECT_EQ(again.targets[i].source.index(), first.targets[i].source.index());
   }
   EXPECT_EQ(mission_hash(resolve_mission(again)), mission_hash(resolve_mission(first)));
   const MissionFile sides = file("target: " + std::string(kSheet));
-  EXPECT_TRUE(read_mission_text(mission_text(sides, folder_.path()), folder_ / "again.yaml").both_sides);
+  EXPECT_TRUE(read_mission_text(mission_text(sides, folder_.path()), folder_ / "again.yaml").targets[0].both_sides);
 }
 
 TEST_F(SeveralTargets, HaveHashesOfTheirOwn) {

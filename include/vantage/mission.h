@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "vantage/camera.h"
@@ -121,23 +122,28 @@ enum class Combine {
 /// "all", "any", "each".
 VANTAGE_API const char* name_of(Combine combine);
 
-/// One of several targets, as a mission file gives it.
+/// A target as a mission file gives it.
 struct MissionTarget {
-  Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
-  std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
-  std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
+  Target target;  ///< with a `source` its name and offset count alone, and its front where that is a GroundTarget
+  /// Where it lies in the scene, which resolve_mission finds out. Nothing: where `target` says.
+  std::variant<std::monostate, GroundTarget, FaceTarget, TargetFile> source = {};
   bool both_sides = false;  ///< a position sees it that sees it from the front, or from the back
   std::string place = {};   ///< in the mission file; empty for a mission made in memory
-  std::optional<TargetFile> target_file = std::nullopt;  ///< instead of the first two: says where to read it
 };
 
-/// A camera as a mission file gives it: one of these.
-struct CameraSource {
-  std::string model;                                            ///< of known_cameras()
-  std::optional<Camera> numbers = std::nullopt;                 ///< pixels, focal length and sensor width
-  std::optional<std::array<double, 2>> fov_deg = std::nullopt;  ///< horizontal and vertical; with `numbers`, which have
-                                                                ///< only pixels then, or alone
+/// One of known_cameras().
+struct CameraModel {
+  std::string name;
 };
+
+/// A field of view instead of a focal length.
+struct CameraFov {
+  std::array<double, 2> fov_deg{};  ///< horizontal and vertical
+  int width_px = 0, height_px = 0;  ///< 0: not known
+};
+
+/// A camera as a mission file gives it: one of known_cameras(), its own numbers, or a field of view.
+using CameraSource = std::variant<CameraModel, Camera, CameraFov>;
 
 /// A moment, for the direction to the sun.
 struct SunTime {
@@ -214,13 +220,9 @@ struct MissionFile {
   /// Of the coordinates of the target and of the boxes and zones ("EPSG:4326": longitude, latitude, z); empty: the
   /// scene frame.
   std::string crs = {};
-  Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
-  std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
-  std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
-  std::optional<TargetFile> target_file = std::nullopt;      ///< says where to read it
-  bool both_sides = false;                                   ///< as MissionTarget::both_sides
-  std::vector<MissionTarget> targets = {};  ///< of a mission with several: then the five above do not count
-  Combine combine = Combine::all;           ///< them, or the faces that the target means
+  std::vector<MissionTarget> targets{MissionTarget{}};  ///< one or more
+  bool is_list = false;                                 ///< the file has 'targets', a list, which may be of one
+  Combine combine = Combine::all;                       ///< the targets, or the faces that the one means
   Sensor sensor;
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
   std::optional<PilotSight> vlos = std::nullopt;      ///< visual line of sight
@@ -241,6 +243,9 @@ struct MissionFile {
   /// What flights must keep everywhere. Volumes do not depend on it.
   std::vector<MissionLink> links = {};
   MissionPlaces places = {};
+
+  /// Whether flights view each target by itself.
+  bool lists_targets() const { return is_list || targets.size() > 1; }
 };
 
 /// Throws Error(input) with file, line and column for: a missing or unreadable file, YAML that does not parse, an

@@ -104,7 +104,7 @@ ListView<double> numbers_of(const PyFlight& flight, double FlightPoint::*member)
 PyMission for_flights(const PyMission& mission, const std::optional<std::string>& tour, const std::string& name,
                       nb::object progress) {
   MissionFile file = mission->as_written;
-  const bool is_joined = !mission.is_part && !file.targets.empty() && file.combine != Combine::each;
+  const bool is_joined = !mission.is_part && file.lists_targets() && file.combine != Combine::each;
   if (!tour && !is_joined) return mission;
   return computed_here(std::move(progress), 0, [&](const Progress& told) {
     if (tour) {

@@ -264,7 +264,7 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
     for (std::vector<Vec3>& part : given.target.parts) {
       for (Vec3& vertex : part) vertex = vertices(vertex);
     }
-    if (auto& ground = given.ground_target) {
+    if (auto* const ground = std::get_if<GroundTarget>(&given.source)) {
       for (TargetOutline& outline : ground->outlines) {
         std::size_t number = 0;
         const auto convert = [&](Zone::Ring& ring) {
@@ -280,28 +280,23 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
         for (Zone::Ring& hole : outline.holes) convert(hole);
       }
     }
-    if (auto& faces = given.face_target; faces && faces->nearest) faces->nearest = nearest(*faces->nearest);
+    auto* const faces = std::get_if<FaceTarget>(&given.source);
+    if (faces && faces->nearest) faces->nearest = nearest(*faces->nearest);
     return 0;
   });
   for (const PlacedPositions* positions : {&vertices, &nearest, &corners}) positions->check_near(given.place);
-}
-
-std::vector<MissionTarget> given_targets(const MissionFile& file) {
-  if (!file.targets.empty()) return file.targets;
-  return {{file.target, file.ground_target, file.face_target, file.both_sides, file.places.target, file.target_file}};
 }
 
 /// As the mission of that target alone, for functions of one target.
 class OneTarget {
  public:
   OneTarget(Mission& mission, const MissionTarget& given)
-      : mission_(mission), place_(mission.as_written.places.target) {
+      : mission_(mission), all_(std::exchange(mission.as_written.targets, {given})) {
     mission_.target = given.target;
-    mission_.as_written.ground_target = given.ground_target;
     mission_.as_written.places.target = given.place;
   }
   ~OneTarget() {
-    mission_.as_written.ground_target = ground_;
+    mission_.as_written.targets = std::move(all_);
     mission_.as_written.places.target = place_;
   }
   OneTarget(const OneTarget&) = delete;
@@ -309,8 +304,8 @@ class OneTarget {
 
  private:
   Mission& mission_;
-  std::optional<GroundTarget> ground_ = mission_.as_written.ground_target;
-  std::string place_;
+  std::vector<MissionTarget> all_;
+  std::string place_ = mission_.as_written.places.target;
 };
 
 /// The targets in the scene frame, those of the same list of MissionTargets in the same list.
@@ -320,17 +315,18 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
   // The ground may be extended: after that the scene stays as it is.
   for (std::size_t i = 0; i < given.size(); ++i) {
     targets[i] = {given[i].target};
-    if (!given[i].ground_target) continue;
+    if (!std::holds_alternative<GroundTarget>(given[i].source)) continue;
     const OneTarget one(mission, given[i]);
     put_on_ground(mission, frame, progress);
     targets[i] = {mission.target};
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
-    if (!given[i].face_target) continue;
+    const auto* const wanted = std::get_if<FaceTarget>(&given[i].source);
+    if (!wanted) continue;
     const OneTarget one(mission, given[i]);
     const bool together = mission.as_written.combine == Combine::all && !given[i].both_sides;
     core::ProgressReporter(progress).begin("finding faces");
-    FaceTargets faces = face_targets(mission, *given[i].face_target, given[i].target, frame, together);
+    FaceTargets faces = face_targets(mission, *wanted, given[i].target, frame, together);
     targets[i] = std::move(faces.targets);
     if (faces.note) mission.notes.push_back(std::move(*faces.note));
   }
@@ -351,12 +347,13 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
 void georeference(Mission& mission, const Progress& progress) {
   const MissionFile& file = mission.as_written;
   if (file.sun_time) place_sun(mission);
-  std::vector<MissionTarget> given = given_targets(file);
+  std::vector<MissionTarget> given = file.targets;
   const bool needs_frame =
       !file.crs.empty() || std::any_of(given.begin(), given.end(), [](const MissionTarget& target) {
-        return (target.ground_target && target.ground_target->outlines.empty()) ||
-               (target.target_file && !target.target_file->is_volume) ||
-               (target.face_target && target.face_target->at_deg);
+        const auto* const ground = std::get_if<GroundTarget>(&target.source);
+        const auto* const from = std::get_if<TargetFile>(&target.source);
+        const auto* const faces = std::get_if<FaceTarget>(&target.source);
+        return (ground && ground->outlines.empty()) || (from && !from->is_volume) || (faces && faces->at_deg);
       });
   std::optional<geo::LocalFrame> frame;
   if (needs_frame) frame = frame_of(mission);
@@ -369,9 +366,10 @@ void georeference(Mission& mission, const Progress& progress) {
   }
   const core::ProgressReporter reporter(progress);
   for (MissionTarget& target : given) {
-    if (!target.target_file) continue;
+    const auto* const from = std::get_if<TargetFile>(&target.source);
+    if (!from) continue;
     core::with_place(target.place, [&] {
-      if (target.target_file->is_volume) {
+      if (from->is_volume) {
         read_target_volume(mission, progress, target);
       } else {
         read_target_file(mission, *frame, reporter, target);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/ground_target.h"
 #include "app/scene_lookups.h"
 #include "vantage/error.h"
 
@@ -74,7 +75,8 @@ std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
   const double missing = sticks_out(wanted, box);
   if (missing <= 0) return std::nullopt;
   const double away = apart(wanted, box);
-  const bool is_of_map = mission.as_written.ground_target && !mission.as_written.ground_target->osm.empty();
+  const GroundTarget* const ground = only_ground_target(mission.as_written);
+  const bool is_of_map = ground && !ground->osm.empty();
   if (away > range_limit_m(mission.sensor) && !is_of_map) {
     fail_off_ground(mission, "the target lies " + std::to_string(std::lround(away)) +
                                  " m from the scene's ground, farther than max_range: nothing would hide it");

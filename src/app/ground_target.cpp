@@ -309,7 +309,7 @@ void check_outdoors(const Mission& mission) {
     throw Error(ErrorCode::target_inside_solid,
                 "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
                 mission.as_written.places.target,
-                how_to_leave_out(*mission.loaded, *solid, mission.as_written.ground_target->osm)
+                how_to_leave_out(*mission.loaded, *solid, only_ground_target(mission.as_written)->osm)
                     .value_or("name a place outdoors; " + how_to_take_roof(*mission.loaded, *solid, at)),
                 *solid);
   }
@@ -319,7 +319,7 @@ void check_outdoors(const Mission& mission) {
 
 void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
   maps(mission);
-  const GroundTarget& wanted = *mission.as_written.ground_target;
+  auto& wanted = std::get<GroundTarget>(mission.as_written.targets.front().source);
   if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
   const bool is_drawn = !wanted.outlines.empty();
   check_area_of_each(mission, wanted.outlines);
@@ -337,7 +337,7 @@ void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progres
       if (mission.target.name == wanted.osm && !area.name.empty()) {
         mission.target.name = area.name + " (" + area.id + ")";
       }
-      mission.as_written.ground_target->osm = std::move(area.id);  // for this target alone: see georeference()
+      wanted.osm = std::move(area.id);  // for this target alone: see georeference()
       areas = std::move(area.outlines);
     }
     if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));

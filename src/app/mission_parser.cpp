@@ -28,10 +28,10 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_volumes_alone(const MissionFile& mission) {
-  const auto is_volume = [](const std::optional<TargetFile>& file) { return file && file->is_volume; };
-  if (mission.targets.empty()) return is_volume(mission.target_file);
-  return std::all_of(mission.targets.begin(), mission.targets.end(),
-                     [&](const MissionTarget& one) { return is_volume(one.target_file); });
+  return std::all_of(mission.targets.begin(), mission.targets.end(), [](const MissionTarget& one) {
+    const auto* const file = std::get_if<TargetFile>(&one.source);
+    return file && file->is_volume;
+  });
 }
 
 class MissionParser : private ValueReader {
@@ -125,13 +125,8 @@ void MissionParser::parse_targets(const YamlNode& root) {
     const YamlNode& node =
         require(root, "the mission", "target",
                 "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'");
-    MissionTarget target = parse_target_section(node, *this, mission_);
-    mission_.target = std::move(target.target);
-    mission_.ground_target = std::move(target.ground_target);
-    mission_.face_target = std::move(target.face_target);
-    mission_.target_file = std::move(target.target_file);
-    mission_.both_sides = target.both_sides;
-    mission_.places.target = std::move(target.place);
+    mission_.targets = {parse_target_section(node, *this, mission_)};
+    mission_.places.target = mission_.targets.front().place;
     return;
   }
   if (one) {
@@ -142,6 +137,8 @@ void MissionParser::parse_targets(const YamlNode& root) {
   if (list(*several, "targets", form).empty())
     fail(ErrorCode::nothing_given, *several, "targets is an empty list", form);
   mission_.places.target = place_in(file(), several->place);
+  mission_.is_list = true;
+  mission_.targets.clear();
   for (std::size_t i = 0; i < several->items.size(); ++i) {
     MissionTarget target = parse_target_section(several->items[i], *this, mission_);
     const bool has_name = find(several->items[i], "name") != nullptr;
@@ -167,10 +164,8 @@ void MissionParser::parse_sensor(const YamlNode& node) {
   mission_.camera = std::move(section.camera);
   mission_.sun_time = std::move(section.sun_time);
   mission_.vlos = section.vlos;
-  const bool is_of_points = mission_.targets.empty()
-                                ? mission_.target.is_point()
-                                : std::all_of(mission_.targets.begin(), mission_.targets.end(),
-                                              [](const MissionTarget& one) { return one.target.is_point(); });
+  const bool is_of_points = std::all_of(mission_.targets.begin(), mission_.targets.end(),
+                                        [](const MissionTarget& one) { return one.target.is_point(); });
   if (mission_.vlos && !is_of_points) {
     fail(ErrorCode::not_applicable, node, "sensor.vlos is of a pilot, and the target is no point",
          "give the pilot's place: 'target: {point: [x, y, z]}', or 'max_range' instead of 'vlos'");

@@ -175,11 +175,9 @@ class Writer {
 
   std::string targets() const {
     std::string text;
-    if (mission_.targets.empty()) {
+    if (!mission_.lists_targets()) {
       Section section("target");
-      add_target({mission_.target, mission_.ground_target, mission_.face_target, mission_.both_sides, "",
-                  mission_.target_file},
-                 section);
+      add_target(mission_.targets.front(), section);
       text = section.text();
     } else {
       text = "targets:\n";
@@ -196,12 +194,12 @@ class Writer {
   void add_target(const MissionTarget& given, Section& section) const {
     const Target& target = given.target;
     if (!target.name.empty()) section.add("name", quoted(target.name));
-    if (const auto& from = given.target_file) {
+    if (const auto* from = std::get_if<TargetFile>(&given.source)) {
       section.add(from->is_volume ? "volume" : "file", path(from->file));
       if (!from->feature.empty()) section.add("feature", quoted(from->feature));
-    } else if (given.face_target) {
-      add_faces(*given.face_target, section);
-    } else if (const auto& ground = given.ground_target) {
+    } else if (const auto* faces = std::get_if<FaceTarget>(&given.source)) {
+      add_faces(*faces, section);
+    } else if (const auto* ground = std::get_if<GroundTarget>(&given.source)) {
       if (ground->center_deg) {
         section.add("center", list_of(*ground->center_deg));
         section.add("width", ground->width_m);

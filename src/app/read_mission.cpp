@@ -43,13 +43,12 @@ void check_scene(MissionFile& mission) {
 
 /// The files that targets name.
 void check_target_files(MissionFile& mission) {
-  const auto check = [](std::optional<TargetFile>& target, const std::string& place) {
-    if (!target) return;
-    check_readable(target->file, target->is_volume ? "the target's volume" : "the target's file", place);
+  for (MissionTarget& one : mission.targets) {
+    auto* const target = std::get_if<TargetFile>(&one.source);
+    if (!target) continue;
+    check_readable(target->file, target->is_volume ? "the target's volume" : "the target's file", one.place);
     target->file = with_true_folder(target->file);
-  };
-  check(mission.target_file, mission.places.target);
-  for (MissionTarget& one : mission.targets) check(one.target_file, one.place);
+  }
 }
 
 /// The files that navigation limits name.
@@ -84,14 +83,15 @@ class OpenedFiles {
       meshes[i].file = file_of(meshes[i].name, std::array<ZoneFile, 0>{}, opened_.navigation_meshes, places[i]);
     }
   }
-  void take(std::optional<TargetFile>& target, const std::string& place) const {
-    if (!target) return;
+  void take(std::vector<MissionTarget>& targets) const {
     std::vector<TargetFile> known;
-    if (opened_.target_file) known.push_back(*opened_.target_file);
     for (const MissionTarget& one : opened_.targets) {
-      if (one.target_file) known.push_back(*one.target_file);
+      if (const auto* target = std::get_if<TargetFile>(&one.source)) known.push_back(*target);
     }
-    target->file = file_of(target->name, known, std::array<TargetFile, 0>{}, place);
+    for (MissionTarget& one : targets) {
+      auto* const target = std::get_if<TargetFile>(&one.source);
+      if (target) target->file = file_of(target->name, known, std::array<TargetFile, 0>{}, one.place);
+    }
   }
   void take(std::vector<ZoneFile>& zones, const std::vector<std::string>& places) const {
     for (std::size_t i = 0; i < zones.size(); ++i) {
@@ -152,8 +152,7 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file, const
                               const MissionFile& opened) {
   MissionFile mission = internal::app::parse_mission(text, file, &source);
   const OpenedFiles files(opened);
-  files.take(mission.target_file, mission.places.target);
-  for (MissionTarget& target : mission.targets) files.take(target.target_file, target.place);
+  files.take(mission.targets);
   files.take(mission.navigation_meshes, mission.places.navigation_meshes);
   files.take(mission.keep_in_files, mission.places.keep_in_files);
   files.take(mission.keep_out_files, mission.places.keep_out_files);
@@ -181,9 +180,8 @@ MissionFile read_scene_text(std::string_view text, const fs::path& file) {
 std::vector<fs::path> input_files(const MissionFile& mission) {
   std::vector<fs::path> files = {mission.file, mission.scene.file};
   if (!mission.scene.city.terrain.empty()) files.push_back(mission.scene.city.terrain);
-  if (mission.target_file) files.push_back(mission.target_file->file);
-  for (const MissionTarget& target : mission.targets) {
-    if (target.target_file) files.push_back(target.target_file->file);
+  for (const MissionTarget& one : mission.targets) {
+    if (const auto* target = std::get_if<TargetFile>(&one.source)) files.push_back(target->file);
   }
   for (const NavigationMeshFile& mesh : mission.navigation_meshes) files.push_back(mesh.file);
   for (const ZoneFile& zones : mission.keep_in_files) files.push_back(zones.file);

@@ -50,7 +50,7 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   Mission mission;
   mission.as_written = file;
   mission.loaded = std::move(loaded);
-  mission.target = file.target;
+  mission.target = file.targets.front().target;
   mission.sensor = file.sensor;
   mission.navigation = file.navigation;
   mission.navigation.meshes = internal::app::placed_navigation_meshes(meshes, mission.scene());

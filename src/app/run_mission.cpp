@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/combine_targets.h"
+#include "app/ground_target.h"
 #include "app/join_volumes.h"
 #include "app/kept_volumes.h"
 #include "app/pierced_advice.h"
@@ -98,7 +99,7 @@ void check_what_all_share(const Mission& mission) {
 bool are_faces_together(const Mission& mission) {
   const auto faces = std::count_if(mission.notes.begin(), mission.notes.end(),
                                    [](const Warning& note) { return note.code == WarningCode::faces_together; });
-  return static_cast<std::size_t>(faces) == std::max<std::size_t>(mission.as_written.targets.size(), 1);
+  return static_cast<std::size_t>(faces) == mission.as_written.targets.size();
 }
 
 Volume compute(const Mission& mission, const PreparedTarget& target, const RunOptions& run, Result& result,
@@ -202,7 +203,7 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
 }
 
 PreparedTarget prepare(const Mission& mission, const Target& target, const PreparedScene& scene) {
-  const auto& ground = mission.as_written.ground_target;
+  const GroundTarget* const ground = internal::app::only_ground_target(mission.as_written);
   return about_target(mission, target, [&] {
     try {
       return PreparedTarget(scene, target, mission.sensor);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/combine_targets.h"
+#include "app/ground_target.h"
 #include "app/pierced_advice.h"
 #include "app/triangle_runs.h"
 #include "common/input.h"
@@ -301,7 +302,7 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume
   const std::optional<Warning> side = on_its_side(loaded);
   if (side) warnings.push_back(*side);
   // A target on the ground was looked at before; where the scene lies on its side, nothing else is worth saying.
-  if (!side && !mission.as_written.ground_target && !mission.target.parts.at(0).empty()) {
+  if (!side && !only_ground_target(mission.as_written) && !mission.target.parts.at(0).empty()) {
     if (auto inside = inside_object(loaded, mission.target)) warnings.push_back(std::move(*inside));
   }
   if (away) {

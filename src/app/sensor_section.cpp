@@ -117,16 +117,19 @@ Camera SensorReader::numbers(const YamlNode& camera, bool has_fov) const {
 }
 
 CameraSource SensorReader::camera_source(const YamlNode* camera, const YamlNode* fov) const {
-  CameraSource source;
+  CameraFov of_fov;
   if (fov) {
-    source.fov_deg = two_angles(*fov, "sensor.fov", "write the horizontal and the vertical angle in degrees: [60, 40]");
+    of_fov.fov_deg = two_angles(*fov, "sensor.fov", "write the horizontal and the vertical angle in degrees: [60, 40]");
   }
-  if (!camera) return source;
+  if (!camera) return of_fov;
   check_keys(*camera, "sensor.camera", reader().file());
   const YamlNode* const model = find(*camera, "model");
   if (!model) {
-    source.numbers = numbers(*camera, fov != nullptr);
-    return source;
+    const Camera read = numbers(*camera, fov != nullptr);
+    if (!fov) return read;
+    of_fov.width_px = read.width_px;
+    of_fov.height_px = read.height_px;
+    return of_fov;
   }
   for (const YamlEntry& entry : camera->entries) {
     if (entry.key == "model") continue;
@@ -138,8 +141,7 @@ CameraSource SensorReader::camera_source(const YamlNode* camera, const YamlNode*
     reader().fail(ErrorCode::conflicting_keys, *fov,
                   "sensor.fov and sensor.camera.model both say how wide the picture is", "keep one of them");
   }
-  source.model = reader().text(*model, "sensor.camera.model");
-  return source;
+  return CameraModel{reader().text(*model, "sensor.camera.model")};
 }
 
 void SensorReader::check_camera_for(std::string_view key) const {
@@ -155,10 +157,10 @@ void SensorReader::keys(Keys /*keys*/, std::optional<Pinhole>& camera, Mount& mo
   if (numbers || fov) {
     const CameraSource source = camera_source(numbers, fov);
     camera = core::with_place(place_in(reader().file(), (numbers ? *numbers : *fov).place), [&] {
-      if (!source.model.empty()) return pinhole_of(find_camera(source.model));
-      if (!source.fov_deg) return pinhole_of(*source.numbers);
-      const Camera& picture = source.numbers.value_or(Camera{});
-      return pinhole_of_fov((*source.fov_deg)[0], (*source.fov_deg)[1], picture.width_px, picture.height_px);
+      if (const auto* model = std::get_if<CameraModel>(&source)) return pinhole_of(find_camera(model->name));
+      if (const auto* own = std::get_if<Camera>(&source)) return pinhole_of(*own);
+      const auto& [fov_deg, width_px, height_px] = std::get<CameraFov>(source);
+      return pinhole_of_fov(fov_deg[0], fov_deg[1], width_px, height_px);
     });
     result_.camera = source;
   }
@@ -333,20 +335,18 @@ class SensorWriter : public SectionWriter {
 
  private:
   void add_camera(const Pinhole& camera) {
-    if (!mission_.camera) {
-      const auto [horizontal, vertical] = camera.fov_deg();
-      add("fov", pair_text(horizontal, vertical));
-      if (camera.width_px > 0 && camera.height_px > 0) add_pixels(camera.width_px, camera.height_px);
+    const CameraSource source =
+        mission_.camera.value_or(CameraFov{camera.fov_deg(), camera.width_px, camera.height_px});
+    if (const auto* model = std::get_if<CameraModel>(&source)) return add("camera.model", model->name);
+    if (const auto* own = std::get_if<Camera>(&source)) {
+      add_pixels(own->width_px, own->height_px);
+      add("camera.focal_length", shortest(own->focal_length_mm));
+      add("camera.sensor_width", shortest(own->sensor_width_mm));
       return;
     }
-    const auto& [model, numbers, fov_deg] = *mission_.camera;
-    if (!model.empty()) return add("camera.model", model);
-    if (fov_deg) add("fov", pair_text((*fov_deg)[0], (*fov_deg)[1]));
-    if (!numbers) return;
-    add_pixels(numbers->width_px, numbers->height_px);
-    if (fov_deg) return;
-    add("camera.focal_length", shortest(numbers->focal_length_mm));
-    add("camera.sensor_width", shortest(numbers->sensor_width_mm));
+    const auto& [fov_deg, width_px, height_px] = std::get<CameraFov>(source);
+    add("fov", pair_text(fov_deg[0], fov_deg[1]));
+    if (width_px > 0 && height_px > 0) add_pixels(width_px, height_px);
   }
 
   void add_pixels(int width, int height) {

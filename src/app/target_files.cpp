@@ -188,12 +188,11 @@ GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) cons
 
 void read_target_file(const Mission& mission, const geo::LocalFrame& frame, const core::ProgressReporter& progress,
                       MissionTarget& given) {
-  const TargetFile from = *given.target_file;
+  const TargetFile from = std::get<TargetFile>(given.source);
   const FeatureOfFile reader(mission, from, frame);
   const std::vector<ListedZone> polygons =
       reader.polygons(parse_zones(read_text(from.file, "file of the target", kMostZoneBytes), from.file, progress));
-  given.ground_target = reader.placed(polygons);
-  given.target_file.reset();
+  given.source = reader.placed(polygons);
   if (given.target.name.empty()) {
     const ListedZone& first = polygons.front();
     given.target.name = first.names.empty() ? from.file.stem().string() : first.names.front();
@@ -201,7 +200,7 @@ void read_target_file(const Mission& mission, const geo::LocalFrame& frame, cons
 }
 
 void read_target_volume(Mission& mission, const Progress& progress, MissionTarget& given) {
-  const TargetFile from = *given.target_file;
+  const TargetFile from = std::get<TargetFile>(given.source);
   const Scene& scene = mission.scene();
   VolumeFile read = read_volume(from.file, scene, progress);
   auto volume = std::make_shared<TargetVolume>();
@@ -221,7 +220,7 @@ void read_target_volume(Mission& mission, const Progress& progress, MissionTarge
   }
   std::move(read.notes.begin(), read.notes.end(), std::back_inserter(mission.notes));
   given.target.volume = std::move(volume);
-  given.target_file.reset();
+  given.source = std::monostate{};
   if (given.target.name.empty()) given.target.name = from.file.stem().string();
 }
 

@@ -174,7 +174,7 @@ void TargetParser::refuse_beside(const YamlNode& node, const char* key, std::ini
 
 /// Where it lies is found out when the scene is read.
 const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
-  GroundTarget& ground = section_.ground_target.emplace();
+  GroundTarget& ground = section_.source.emplace<GroundTarget>();
   if (const YamlNode* osm = find(node, "osm")) {
     refuse_beside(node, "osm", {"vertices", "edges", "parts", "holes", "center", "width", "length", "heading"},
                   "keep 'osm' for an area of the map, or give the target yourself");
@@ -224,7 +224,7 @@ TargetParser::Corners TargetParser::corners(const YamlNode& node, const std::str
 const YamlNode& TargetParser::parse_outline(const YamlNode& node, const YamlNode& outline) {
   refuse_beside(node, "outline", {"vertices", "edges", "osm", "center", "width", "length", "heading"},
                 "keep 'outline' for polygons that need not be convex");
-  std::vector<TargetOutline>& outlines = section_.ground_target.emplace().outlines;
+  std::vector<TargetOutline>& outlines = section_.source.emplace<GroundTarget>().outlines;
   list(outline, "target.outline", kOutlineForm);
   const auto& first = outline.items;
   const bool are_several = !first.empty() && is_list(first[0]) && !first[0].items.empty() && is_list(first[0].items[0]);
@@ -276,7 +276,7 @@ const YamlNode& TargetParser::parse_file(const YamlNode& node, const YamlNode& n
       node, "file",
       {"vertices", "edges", "parts", "point", "outline", "holes", "osm", "center", "width", "length", "heading"},
       "keep 'file' for a polygon of a file, or give the target yourself");
-  TargetFile& from = section_.target_file.emplace();
+  TargetFile& from = section_.source.emplace<TargetFile>();
   from.name = text(named, "target.file");
   from.file = mission_.file.parent_path() / from.name;
   if (const YamlNode* feature = find(node, "feature")) from.feature = text(*feature, "target.feature");
@@ -291,7 +291,7 @@ const YamlNode& TargetParser::parse_volume(const YamlNode& node, const YamlNode&
     fail(ErrorCode::conflicting_keys, entry.value, "target has both 'volume' and '" + entry.key + "'",
          "keep 'volume', with a 'name' alone, for a region to fly through, or give what is to be seen");
   }
-  TargetFile& from = section_.target_file.emplace();
+  TargetFile& from = section_.source.emplace<TargetFile>();
   from.is_volume = true;
   from.name = text(named, "target.volume");
   from.file = mission_.file.parent_path() / from.name;
@@ -341,7 +341,7 @@ const YamlNode& TargetParser::parse_faces(const YamlNode& node, const YamlNode& 
                 {"vertices", "edges", "parts", "point", "outline", "holes", "center", "width", "length", "heading",
                  "front", "file"},
                 "keep 'part' for a roof or facades of an object, which know their outer side");
-  FaceTarget& faces = section_.face_target.emplace();
+  FaceTarget& faces = section_.source.emplace<FaceTarget>();
   const std::string kind = text(part, "target.part");
   if (kind != "roof" && kind != "facade") {
     fail(ErrorCode::unknown_choice, part, "there is no part " + in_quotes(kind) + " of an object",
@@ -401,7 +401,7 @@ const YamlNode& TargetParser::parse_point(const YamlNode& node, const YamlNode& 
 /// The checks that need no scene, told with the place of the vertices or the point.
 void TargetParser::check_target(const YamlNode& place) {
   section_.place = place_in(file(), place.place);
-  const bool is_placed_later = section_.ground_target || section_.face_target || section_.target_file;
+  const bool is_placed_later = !std::holds_alternative<std::monostate>(section_.source);
   if (!mission_.crs.empty() || is_placed_later) return;  // georeference() does it
   core::with_place(section_.place, [&] {
     for (std::size_t i = 0; i < section_.target.parts.size(); ++i) make_target_frame(section_.target, i);

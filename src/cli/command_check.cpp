@@ -186,7 +186,7 @@ int run_check(const CheckArguments& options) {
   const FlightCheckOptions asked = check_options(options);
   MissionFile file = read_mission_argument(options.mission_file);
   check_output(options, file);
-  if (!file.targets.empty()) file.combine = Combine::each;
+  if (file.lists_targets()) file.combine = Combine::each;
   ProgressLine progress(options.common);
   const FlightPlan plan = read_plan_argument(options, progress.callback());
   const Mission mission = resolve_mission(file, progress.callback());

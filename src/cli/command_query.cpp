@@ -305,7 +305,7 @@ void check_mission(const QueryArguments& options, const MissionFile& file) {
   if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(file));
   if (options.seen_file.empty()) return;
   if (!is_standard_stream(options.seen_file)) check_not_an_input(options.seen_file, input_files(file));
-  if (file.target.is_point()) fail_seen_point();
+  if (!file.lists_targets() && file.targets.front().target.is_point()) fail_seen_point();
 }
 
 /// A part of one target is seen, not of several of which one is enough.

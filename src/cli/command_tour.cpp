@@ -193,7 +193,7 @@ void draw_tour(const MissionTour& tour, const Mission& mission, const std::strin
 int run_tour(const TourArguments& options) {
   MissionFile file = read_mission_argument(options.mission_file);
   check_outputs(options, file);
-  if (!file.targets.empty()) file.combine = Combine::each;
+  if (file.lists_targets()) file.combine = Combine::each;
   ProgressLine progress(options.common);
   const Mission mission = resolve_mission(file, progress.callback());
   check_can_state(mission, options);

@@ -54,8 +54,8 @@ std::string text_of(const Zone& zone) {
 std::string text_of(const Pinhole& camera, const MissionFile& file) {
   const auto [wide, high] = camera.fov_deg();
   const std::string view = degrees(wide) + " by " + degrees(high);
-  const bool is_known = file.camera && !file.camera->model.empty();
-  return is_known ? file.camera->model + ", " + view : view;
+  const auto* const model = file.camera ? std::get_if<CameraModel>(&*file.camera) : nullptr;
+  return model ? model->name + ", " + view : view;
 }
 
 std::string text_of(const Mount& mount) {

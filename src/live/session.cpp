@@ -257,7 +257,7 @@ void Session::show_flight(GivenFlight given, const Progress& progress) {
 }
 
 Mission Session::for_each_target(const Mission& mission, const Progress& progress) const {
-  if (mission.as_written.targets.empty()) return mission;
+  if (!mission.as_written.lists_targets()) return mission;
   MissionFile file = mission.as_written;
   file.combine = Combine::each;
   return resolve_mission(file, opened_->loaded, progress);

@@ -164,9 +164,9 @@ void write_mesh_case(const MeshCase& c, const std::filesystem::path& folder) {
   if (c.lift_m > 0) std::ofstream(folder / "volume.report.json") << "{\"lift_m\": " << exact_text(c.lift_m) << "}\n";
   MissionFile mission;
   mission.scene.file = std::filesystem::absolute(folder / "scene.obj");
-  mission.target = c.target;
-  mission.both_sides = c.both_sides;
-  if (c.both_sides) mission.target.front.reset();
+  mission.targets[0].target = c.target;
+  mission.targets[0].both_sides = c.both_sides;
+  if (c.both_sides) mission.targets[0].target.front.reset();
   mission.sensor = c.sensor;
   mission.navigation = c.navigation;
   WrittenClaim claim{c, folder, mission};

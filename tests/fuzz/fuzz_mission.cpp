@@ -19,7 +19,7 @@ void require(bool holds) {
 void check_target(const vantage::MissionTarget& given, bool is_in_frame) {
   require(!given.target.parts.empty());
   for (const std::vector<vantage::Vec3>& part : given.target.parts) {
-    if (given.ground_target || given.face_target || given.target_file) {
+    if (!std::holds_alternative<std::monostate>(given.source)) {
       require(part.empty());  // the scene says where it lies
     } else if (is_in_frame) {
       require(part.size() == 1 || (part.size() >= 3 && part.size() <= 64));
@@ -30,10 +30,7 @@ void check_target(const vantage::MissionTarget& given, bool is_in_frame) {
 
 void check_accepted(const vantage::MissionFile& mission) {
   require(mission.scene.file.is_absolute());
-  if (mission.targets.empty()) {
-    check_target({mission.target, mission.ground_target, mission.face_target, false, "", mission.target_file},
-                 mission.crs.empty());
-  }
+  require(!mission.targets.empty());
   for (const vantage::MissionTarget& target : mission.targets) check_target(target, mission.crs.empty());
   require(std::isfinite(mission.sensor.max_range_m) && mission.sensor.max_range_m > 0);
   require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);

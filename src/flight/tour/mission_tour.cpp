@@ -281,7 +281,8 @@ void add_notes(const Mission& mission, MissionTour& of) {
   if (const auto note = tour::note_of_narrow_zones(mission, of.settings, of.tour)) of.notes.push_back(*note);
   note_computed(mission, of.notes);
   note_beyond_data(mission, of);
-  if (const std::size_t asked = mission.as_written.targets.size(); asked > 0 && asked < of.targets.size()) {
+  const std::size_t asked = mission.as_written.targets.size();
+  if (mission.as_written.lists_targets() && asked < of.targets.size()) {
     of.notes.push_back("the mission's " + std::to_string(asked) + " targets have " + std::to_string(of.targets.size()) +
                        " parts, each of which is viewed by itself: 'facing' or 'nearest' choose of them");
   }

@@ -1,6 +1,5 @@
 // Legs and the picture of a camera: can it take in all of the target from there?
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 
 #include "limit_attack.h"
@@ -293,11 +292,9 @@ void add_text<Limit::frame>(const Pinhole& limit, MissionLines& lines) {
 
 template <>
 void write_beside<Limit::frame>(const Pinhole& limit, WrittenClaim& claim) {
-  claim.mission.camera = vantage::CameraSource{{}, {}, claim.c.fov_deg};
-  if (limit.width_px <= 0) return;
-  vantage::Camera& numbers = claim.mission.camera->numbers.emplace();
-  numbers.width_px = limit.width_px;
-  numbers.height_px = limit.height_px;
+  const bool has_pixels = limit.width_px > 0;
+  claim.mission.camera =
+      vantage::CameraFov{claim.c.fov_deg, has_pixels ? limit.width_px : 0, has_pixels ? limit.height_px : 0};
 }
 
 }  // namespace attack
