@@ -13,6 +13,7 @@
 #include "support/legs.h"
 #include "support/limit_samples.h"
 #include "support/places.h"
+#include "support/random.h"
 #include "support/temporary_directory.h"
 #include "vantage/each_limit.h"
 #include "vantage/error.h"
@@ -221,6 +222,24 @@ TEST_P(EveryLimit, BoundsOuterVolumesOrIsNamed) {
   EXPECT_GT(depths_in(outer.volume.mesh)[0], 0);
   EXPECT_EQ(depths_in(outer.volume.mesh)[1] < 0, sample_.bounds_outer);
   EXPECT_EQ(outer.ignored.empty(), sample_.bounds_outer);
+}
+
+// Points are answered exactly, and flat facets of a limit that is curved take away more than it forbids.
+TEST_P(EveryLimit, IsWideEnoughInOuterVolumes) {
+  const Mesh outer = outer_volume(mission_of(world_)).volume.mesh;
+  testing::Random random(2911);
+  std::vector<Vec3> points(4000);
+  for (Vec3& point : points) point = random.in_box(bounding_box(outer));
+  const std::vector<PointAnswer> answers = query_points(
+      PreparedTarget(PreparedScene(world_.scene), world_.target, world_.sensor), world_.navigation, points);
+  const std::vector<double> depths = SolidIndex(outer).depths_m(points);
+  std::size_t allowed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!answers[i].inside) continue;
+    ++allowed;
+    EXPECT_GT(depths[i], -1e-9) << points[i].transpose();
+  }
+  EXPECT_GT(allowed, 100u);
 }
 
 TEST_P(EveryLimit, IsReadWrittenAndHashed) {

@@ -110,9 +110,10 @@ SortedJson sorted_json_of(const Sensor& sensor) {
   return json;
 }
 
-SortedJson sorted_json_of(const SpheresOptions& spheres) {
+template <typename Options>
+SortedJson options_json(const Options& options) {
   internal::request::JsonObject<SortedJson, NumberText> object{NumberText()};
-  describe(spheres, object);
+  describe(options, object);
   return object.json();
 }
 
@@ -148,11 +149,8 @@ std::string mission_hash(const Mission& mission) {
     }
     json["combine"] = volume_count(mission) > 1 ? "each" : "all";
   }
-  if (mission.as_written.method == Method::spheres) {
-    json["options"] = sorted_json_of(mission.as_written.spheres);
-  } else {
-    json["options"] = {{"tolerance_m", number_text(mission.as_written.exact.tolerance_m)}};
-  }
+  const bool is_exact = mission.as_written.method == Method::exact;
+  json["options"] = is_exact ? options_json(mission.as_written.exact) : options_json(mission.as_written.spheres);
   internal::core::Sha256 hash;
   hash.add("vantage mission 1\n");
   hash.add(json.dump());

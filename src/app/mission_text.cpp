@@ -75,7 +75,7 @@ class Writer {
     std::string text = mission_.crs.empty() ? "" : "crs: " + quoted(mission_.crs) + "\n";
     text += scene() + targets() + internal::app::sensor_section_text(mission_) + navigation();
     text += std::string("method: ") + name_of(mission_.method) + "\n";
-    text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
+    text += internal::app::section_text(mission_.exact);
     if (mission_.exact.work_limit != kWorkLimit) text += "work_limit: " + shortest(mission_.exact.work_limit) + "\n";
     text += internal::app::section_text(mission_.spheres);
     if (mission_.tour) text += internal::app::section_text(*mission_.tour);
