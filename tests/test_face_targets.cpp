@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <variant>
 
 #include "geo/local_frame.h"
 #include "support/cli_fixture.h"

@@ -272,6 +272,12 @@ TEST_F(SeveralTargets, AreWrittenAsTheyAreRead) {
   EXPECT_TRUE(read_mission_text(mission_text(sides, folder_.path()), folder_ / "again.yaml").targets[0].both_sides);
 }
 
+TEST_F(SeveralTargets, AreAtLeastOne) {
+  MissionFile none = file("target: " + std::string(kSheet));
+  none.targets.clear();
+  EXPECT_EQ(testing::code_of([&] { resolve_mission(none); }), ErrorCode::nothing_given);
+}
+
 TEST_F(SeveralTargets, HaveHashesOfTheirOwn) {
   const std::string all = mission_hash(of("all", {kWest, kNorth})), any = mission_hash(of("any", {kWest, kNorth})),
                     each = mission_hash(of("each", {kWest, kNorth}));

@@ -123,6 +123,13 @@ TEST(DropSlivers, KeepsCavitiesAndDropsWhatElseIsInsideOut) {
   EXPECT_EQ(labelled.labels.size(), labelled.mesh.triangles.size());
 }
 
+TEST(DropSlivers, KeepsAPieceThatFillsItsCavity) {
+  const Box box{{0, 0, 0}, {10, 10, 10}};
+  LabelledMesh labelled = boxes({box}, {box});
+  core::drop_slivers(labelled, 1e-8);
+  EXPECT_EQ(labelled.mesh.triangles.size(), 24u);
+}
+
 TEST(Crossings, AreFoundWhereTheyAreDeeperThanTheDistance) {
   const LabelledMesh two = boxes({{{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1.9}, {3, 3, 4}}}, {});
   std::vector<std::uint32_t> first_box(12);

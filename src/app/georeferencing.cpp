@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "app/combine_targets.h"

@@ -6,6 +6,7 @@
 
 #include "common/input.h"
 #include "core/sha256.h"
+#include "request/describe_mission.h"
 #include "request/describe_spheres.h"
 #include "request/sensor_json.h"
 #include "vantage/mission.h"

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "app/described_section.h"
 #include "app/links_section.h"
@@ -12,6 +13,7 @@
 #include "app/value_reader.h"
 #include "common/input.h"
 #include "common/json.h"
+#include "request/describe_mission.h"
 #include "request/describe_spheres.h"
 #include "request/describe_tour.h"
 #include "vantage/city.h"
@@ -175,7 +177,7 @@ class Writer {
 
   std::string targets() const {
     std::string text;
-    if (!mission_.lists_targets()) {
+    if (mission_.targets.size() == 1 && !mission_.is_list) {
       Section section("target");
       add_target(mission_.targets.front(), section);
       text = section.text();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <variant>
 
 #include "app/input_file.h"
 #include "app/mission_parser.h"

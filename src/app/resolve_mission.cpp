@@ -69,6 +69,9 @@ std::shared_ptr<const LoadedScene> load(const SceneSource& source, const Progres
 
 /// `loaded`: null where it is to be loaded.
 Mission resolved(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded, const Progress& progress) {
+  if (file.targets.empty()) {
+    throw Error(ErrorCode::nothing_given, "the mission has no target", file.file.string(), "give it one or more");
+  }
   const internal::core::Stopwatch stopwatch;
   const std::vector<internal::app::NavigationMesh> meshes = read_navigation_meshes(file);
   Mission mission;

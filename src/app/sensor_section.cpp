@@ -8,6 +8,7 @@
 #include <regex>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "app/described_section.h"
 #include "app/schema.h"

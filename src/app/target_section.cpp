@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <utility>
+#include <variant>
 
 #include "app/scene_section.h"
 #include "app/schema.h"

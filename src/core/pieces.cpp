@@ -66,19 +66,21 @@ void drop_unused_vertices(Mesh& mesh) {
 
 namespace {
 
-/// How often the mesh, but for one of its pieces, winds round a point; of the numbers as they are.
-int winding_of_others(const Mesh& mesh, const Pieces& found, std::uint32_t left_out, const Vec3& point) {
+/// Whether a point of one piece lies inside of the others, or on one; of the numbers as they are.
+bool is_in_others(const Mesh& mesh, const Pieces& found, std::uint32_t own, const Vec3& point) {
   int winding = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (found.piece_of[t] == left_out) continue;
+    if (found.piece_of[t] == own) continue;
     const auto& [a, b, c] = mesh.triangles[t];
-    winding += crossing_above(point, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+    const TriangleCorners corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+    if (is_on_triangle(point, corners)) return true;
+    winding += crossing_above(point, corners);
   }
-  return winding;
+  return winding > 0;
 }
 
-/// Per piece: whether it is inside out and lies in no other one, as far as the middles of its facets tell. A cavity has
-/// its first facets in what it was taken from, as a rule, so that few are asked.
+/// Per piece: whether it is inside out and lies in no other one, as far as the middles of its facets tell. Of a cavity
+/// the first one does, as a rule, so that few are asked.
 std::vector<char> find_inverted(const Mesh& mesh, const Pieces& found) {
   std::vector<char> inverted;
   for (const Piece& piece : found.pieces) inverted.push_back(piece.volume_m3 < 0);
@@ -87,7 +89,7 @@ std::vector<char> find_inverted(const Mesh& mesh, const Pieces& found) {
     if (!inverted[piece]) continue;
     const auto& [a, b, c] = mesh.triangles[t];
     const Vec3 middle = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
-    if (winding_of_others(mesh, found, piece, middle) > 0) inverted[piece] = 0;
+    if (is_in_others(mesh, found, piece, middle)) inverted[piece] = 0;
   }
   return inverted;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 #include "common/input.h"
 #include "vantage/sensor.h"
