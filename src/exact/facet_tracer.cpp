@@ -83,6 +83,7 @@ void FacetTracer::gather_competitors(const Facet& facet) {
 // that hide nothing of it are dropped, and the others sorted: what hides much ends the work on most edges at once.
 bool FacetTracer::cut_by_competitors(const Facet& facet) {
   cut_count_ = 0;
+  hid_last_ = kNoCompetitor;
   for (std::uint32_t competitor : competitors_) {
     if (cuts_.size() == cut_count_) cuts_.emplace_back();
     Cut& cut = cuts_[cut_count_];
@@ -137,7 +138,8 @@ void FacetTracer::trace_own_edges(Result& result) {
   }
 }
 
-// Where a competitor's surface comes out of this facet. The blocker with the lower index reports it.
+// Where a competitor's surface comes out of this facet. The blocker with the lower index reports it. A facet that a
+// neighbour of its polygon hides is nowhere the nearest one alone: where it comes out in sight, the neighbour's does too.
 void FacetTracer::trace_crossings(const Facet& facet, Result& result) {
   for (std::size_t c = 0; c < cut_count_; ++c) {
     const Cut& cut = cuts_[c];
@@ -146,6 +148,7 @@ void FacetTracer::trace_crossings(const Facet& facet, Result& result) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t maker = cut.polygon.makers[i];
       if (maker < blockers_.first[cut.competitor] || maker >= blockers_.first[cut.competitor + 1]) continue;
+      if (!blockers_.visible[maker]) continue;
       trace_edge(corners[i], corners[(i + 1) % corners.size()], cut.competitor, result);
     }
   }
@@ -158,13 +161,19 @@ void FacetTracer::trace_edge(const Vec3& from, const Vec3& to, std::uint32_t oth
   shown_.assign(0, 1);
   keep_in_range(from, to);
   const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
-  for (std::size_t c = 0; c < cut_count_; ++c) {
+  const auto subtract = [&](std::uint32_t c) {
+    const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(cuts_[c].competitor));
+    shown_.subtract(hidden.begin, hidden.end);
+    if (shown_.empty()) hid_last_ = c;
+    return !shown_.empty();
+  };
+  // What hid all of an edge most often hides all of the next one.
+  if (hid_last_ != kNoCompetitor && cuts_[hid_last_].competitor != other && !subtract(hid_last_)) return;
+  for (std::uint32_t c = 0; c < cut_count_; ++c) {
     const Cut& cut = cuts_[c];
     const bool apart = (cut.bounds.min.array() > high.array()).any() || (cut.bounds.max.array() < low.array()).any();
     if (apart || cut.competitor == other) continue;
-    const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(cut.competitor));
-    shown_.subtract(hidden.begin, hidden.end);
-    if (shown_.empty()) return;
+    if (!subtract(c)) return;
   }
   shown_.drop_shorter_than(shortest_ / length);
   for (const Interval& part : shown_.parts()) {

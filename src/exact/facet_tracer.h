@@ -63,7 +63,8 @@ class FacetTracer {
   std::vector<std::uint32_t> competitors_;
   std::vector<std::uint32_t> seen_;  // per blocker: the facet's plane that it was last gathered for
   std::vector<Cut> cuts_;
-  std::size_t cut_count_ = 0;
+  std::uint32_t cut_count_ = 0;
+  std::uint32_t hid_last_ = kNoCompetitor;  // the cut that hid all of an edge of this facet, or none
   IntervalSet shown_;
 };
 
