@@ -139,7 +139,8 @@ void FacetTracer::trace_own_edges(Result& result) {
 }
 
 // Where a competitor's surface comes out of this facet. The blocker with the lower index reports it. A facet that a
-// neighbour of its polygon hides is nowhere the nearest one alone: where it comes out in sight, the neighbour's does too.
+// neighbour of its polygon hides is nowhere the nearest one alone: where it comes out in sight, the neighbour's does
+// too.
 void FacetTracer::trace_crossings(const Facet& facet, Result& result) {
   for (std::size_t c = 0; c < cut_count_; ++c) {
     const Cut& cut = cuts_[c];

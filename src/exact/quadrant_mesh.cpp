@@ -1,12 +1,11 @@
 #include "exact/quadrant_mesh.h"
 
-#include <CDT.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "exact/constrained_delaunay.h"
 #include "exact/gauge.h"
 #include "exact/over_claim_bound.h"
 #include "target/numerics.h"
@@ -28,16 +27,13 @@ class QuadrantMesher {
  public:
   QuadrantMesher(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid, const Envelope& envelope,
                  double snap)
-      : quadrant_(quadrant),
-        graph_(graph),
-        grid_(grid),
-        envelope_(envelope),
-        cdt_(CDT::VertexInsertionOrder::Auto, CDT::IntersectingConstraintEdges::TryResolve, snap) {}
+      : quadrant_(quadrant), graph_(graph), grid_(grid), envelope_(envelope), delaunay_(snap) {}
 
   QuadrantMesh run() {
     triangulate();
+    if (!delaunay_.failure().empty()) return failed();
     for (std::uint32_t v = 0; v < result_.graph_vertex.size(); ++v) result_.graph_gauge.push_back(gauges_[v + kSuper]);
-    for (std::uint32_t v = kSuper + own_count(); v < cdt_.vertices.size(); ++v) {
+    for (std::uint32_t v = kSuper + own_count(); v < delaunay_.vertices().size(); ++v) {
       result_.added.push_back(point(v));
       result_.added_gauge.push_back(gauges_[v]);
     }
@@ -46,7 +42,7 @@ class QuadrantMesher {
   }
 
  private:
-  static constexpr std::uint32_t kSuper = 3;  // the library's own vertices come first
+  static constexpr std::uint32_t kSuper = ConstrainedDelaunay::kOwn;  // its own vertices come first
 
   enum class Region : std::uint8_t { outside, range_cell, kept };
 
@@ -72,7 +68,7 @@ class QuadrantMesher {
   bool on_horizon(std::uint32_t v) const { return is_own(v) && graph_.on_horizon(in_graph(v)); }
   /// Whether a triangle in a range cell may have this corner: a node, or where an edge between nodes was split.
   bool may_bound_cell(std::uint32_t v) const { return !is_own(v) || graph_.at_node(in_graph(v)); }
-  OctahedralPoint point(std::uint32_t v) const { return {cdt_.vertices[v].x, cdt_.vertices[v].y}; }
+  const OctahedralPoint& point(std::uint32_t v) const { return delaunay_.vertices()[v]; }
   OctahedralPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
   GaugeValue gauge_at(const OctahedralPoint& p) const {
     return evaluate_gauge(envelope_.blockers, envelope_.tree, envelope_.range, p);
@@ -80,11 +76,12 @@ class QuadrantMesher {
 
   void triangulate() {
     const std::vector<ConstraintGraph::Edge> edges = take_own();
-    insert(result_.graph_vertex.size(), [&](std::size_t i) { return graph_.points()[result_.graph_vertex[i]]; });
-    cdt_.insertEdges(
-        edges.begin(), edges.end(), [](const auto& e) { return e.first; }, [](const auto& e) { return e.second; });
+    std::vector<OctahedralPoint> points;
+    for (const std::uint32_t v : result_.graph_vertex) points.push_back(graph_.points()[v]);
+    delaunay_.add_vertices(points);
+    for (const auto& [from, to] : edges) delaunay_.add_constraint(from + kSuper, to + kSuper);
     envelope_.progress.check();
-    most_triangles_ = kMostGrowth * cdt_.triangles.size() + 1000;
+    most_triangles_ = kMostGrowth * delaunay_.facets().size() + 1000;
     while (refine()) envelope_.progress.check();
     tighten_tilted();
   }
@@ -106,19 +103,18 @@ class QuadrantMesher {
     return edges;
   }
 
-  template <typename PointAt>
-  void insert(std::size_t count, const PointAt& point_at) {
-    std::vector<CDT::V2d<double>> points;
-    points.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) points.emplace_back(point_at(i).x(), point_at(i).y());
-    cdt_.insertVertices(points);
+  QuadrantMesh failed() const {
+    QuadrantMesh nothing;
+    nothing.failure = delaunay_.failure();
+    return nothing;
   }
 
   // Looks at the triangles that are new; adds a point to each that is not good enough. True when there were any.
   bool refine() {
+    if (!delaunay_.failure().empty()) return false;
     const std::size_t first_vertex = gauges_.size();
-    gauges_.resize(cdt_.vertices.size());
-    exact_gauges_.resize(cdt_.vertices.size());
+    gauges_.resize(delaunay_.vertices().size());
+    exact_gauges_.resize(gauges_.size());
     parallel::for_ranges(gauges_.size() - first_vertex, kGrain, [&](std::size_t begin, std::size_t end) {
       for (auto v = static_cast<std::uint32_t>(first_vertex + begin); v < first_vertex + end; ++v) {
         if (v < kSuper) continue;
@@ -138,16 +134,15 @@ class QuadrantMesher {
       improve(known_[fresh.triangle].vertices, fresh.gauge, added);
     }
     if (added.empty()) return false;
-    insert(added.size(), [&](std::size_t i) { return added[i]; });
+    delaunay_.add_vertices(added);
     return true;
   }
 
   void find_fresh() {
-    known_.resize(cdt_.triangles.size());
+    known_.resize(delaunay_.facets().size());
     fresh_.clear();
     for (std::uint32_t i = 0; i < known_.size(); ++i) {
-      const auto& v = cdt_.triangles[i].vertices;
-      const Triangle t{v[0], v[1], v[2]};
+      const Triangle& t = delaunay_.facets()[i].vertices;
       if (known_[i].vertices == t) continue;
       known_[i] = {t, 0, 0, region_of(t)};
       if (known_[i].region == Region::kept) fresh_.push_back({i, {}});
@@ -172,7 +167,7 @@ class QuadrantMesher {
     const double rise = gauge.value / claimed - 1;
     const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
     if (rise <= kSafe && !deep) return;
-    if ((rise > kSmallRise || deep) && cdt_.triangles.size() <= most_triangles_ && has_room(t)) {
+    if ((rise > kSmallRise || deep) && delaunay_.facets().size() <= most_triangles_ && has_room(t)) {
       added.push_back(centre_of(t));
     } else if (rise > kSafe) {
       tighten(t, gauge.value, rise);
@@ -243,7 +238,7 @@ class QuadrantMesher {
       result_.blocker_of.push_back(known_[i].blocker);
       for (int e = 0; e < 3; ++e) {
         const std::uint32_t from = t[e], to = t[(e + 1) % 3];
-        const Region beyond = known_[cdt_.triangles[i].neighbors[e]].region;
+        const Region beyond = known_[delaunay_.facets()[i].neighbours[e]].region;
         if (beyond == Region::outside) {
           close(from, to);
         } else if (beyond == Region::range_cell) {
@@ -275,7 +270,7 @@ class QuadrantMesher {
   const ConstraintGraph& graph_;
   const OctahedralGrid& grid_;
   const Envelope& envelope_;
-  CDT::Triangulation<double> cdt_;
+  ConstrainedDelaunay delaunay_;
   std::size_t most_triangles_ = 0;
   std::vector<double> gauges_;        // per vertex of the triangulation, drawn in where need be
   std::vector<double> exact_gauges_;  // as evaluated
@@ -288,13 +283,7 @@ class QuadrantMesher {
 
 QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid,
                            const Envelope& envelope, double snap) {
-  try {
-    return QuadrantMesher(quadrant, graph, grid, envelope, snap).run();
-  } catch (const CDT::Error& error) {  // the library's only way to say so: nobody else need know that it throws
-    QuadrantMesh failed;
-    failed.failure = error.what();
-    return failed;
-  }
+  return QuadrantMesher(quadrant, graph, grid, envelope, snap).run();
 }
 
 }  // namespace vantage::internal::exact
