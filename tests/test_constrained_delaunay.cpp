@@ -33,7 +33,7 @@ Edge sorted(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 /// All facets run counter-clockwise and name each other, and no circle round one holds the corner across a side that is
 /// no constraint.
 void expect_right(const ConstrainedDelaunay& made) {
-  ASSERT_EQ(made.failure(), "");
+  ASSERT_TRUE(made.failure().empty()) << made.failure();
   const auto& facets = made.facets();
   const auto at = [&](std::uint32_t v) { return made.vertices()[v]; };
   EXPECT_EQ(facets.size(), 2 * (made.vertices().size() - 1) - 3) << "by Euler, of a triangulated triangle";
@@ -238,10 +238,10 @@ TEST(ConstrainedDelaunay, GrowsPointByPoint) {
   EXPECT_EQ(constraints_of(made), before);
 }
 
-TEST(ConstrainedDelaunay, SaysThatPointsAreInOnePlace) {
+TEST(ConstrainedDelaunay, FailsWherePointsAreInOnePlace) {
   ConstrainedDelaunay made(kSnap);
   made.add_vertices(std::vector<Point>{{0, 0}, {0.5, 0}, {0, 0}});
-  EXPECT_EQ(made.failure(), "two points are in one place");
+  EXPECT_FALSE(made.failure().empty());
 }
 
 }  // namespace
