@@ -238,6 +238,24 @@ TEST(ConstrainedDelaunay, GrowsPointByPoint) {
   EXPECT_EQ(constraints_of(made), before);
 }
 
+// Long constraints that cross, and points that come later all over.
+TEST(ConstrainedDelaunay, FindsPointsAmongLongConstraints) {
+  Random random(35);
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    const std::vector<Point> points = scattered(random, 1500);
+    std::vector<Edge> edges = apart(random, points, 0);
+    for (int i = 0; i < 100; ++i) {
+      const auto a = static_cast<std::uint32_t>(random.integer(4, 1500)),
+                 b = static_cast<std::uint32_t>(random.integer(4, 1500));
+      if (a != b) edges.emplace_back(a, b);
+    }
+    ConstrainedDelaunay made = made_of(points, edges);
+    for (int i = 0; i < 200; ++i) made.add_vertices(std::vector<Point>{{random.uniform(-1, 1), random.uniform(-1, 1)}});
+    expect_right(made);
+  }
+}
+
 TEST(ConstrainedDelaunay, FailsWherePointsAreInOnePlace) {
   ConstrainedDelaunay made(kSnap);
   made.add_vertices(std::vector<Point>{{0, 0}, {0.5, 0}, {0, 0}});

@@ -3,7 +3,6 @@
 #include <CDTUtils.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -67,51 +66,63 @@ void ConstrainedDelaunay::add_vertices(std::span<const Point> points) {
   facets_.reserve(2 * vertices_.size());
   // Along the curve the next point is near the one before, and the search for its facet is short.
   constexpr double kCells = 127.9;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  std::vector<std::uint64_t> order;  // the way along the curve, and the vertex
   order.reserve(points.size());
   for (std::uint32_t v = first; v < vertices_.size(); ++v) {
     const Point cell = kCells * (vertices_[v] + Point::Ones());
-    order.emplace_back(along_curve(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y())), v);
+    const std::uint64_t way = along_curve(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y()));
+    order.push_back(way << 32 | v);
   }
   std::sort(order.begin(), order.end());
-  for (const auto& [way, vertex] : order) {
+  for (const std::uint64_t next : order) {
     if (!failure_.empty()) return;
-    insert(vertex);
+    insert(static_cast<std::uint32_t>(next));
   }
+}
+
+/// `first`: the side that is asked first.
+ConstrainedDelaunay::Place ConstrainedDelaunay::place_in(std::uint32_t facet, const Point& point,
+                                                         unsigned first) const {
+  Place place;
+  const Facet& f = facets_[facet];
+  unsigned side = first;
+  for (int i = 0; i < 3; ++i, side = after(side)) {
+    const double value = area(at(f, side), at(f, after(side)), point);
+    if (value < 0) {
+      place.beyond = side;
+      return place;
+    }
+    if (value > 0) continue;
+    place.on = side;
+    ++place.on_sides;
+  }
+  return place;
 }
 
 void ConstrainedDelaunay::insert(std::uint32_t vertex) {
   const Point& point = vertices_[vertex];
   std::uint32_t facet = last_;
-  for (std::size_t steps = 0; steps <= facets_.size(); ++steps) {
+  // Among constraints a search that asks sides in a fixed order can go round for ever (Devillers, Pion, Teillaud 2002).
+  Place place = place_in(facet, point, 0);
+  for (std::size_t steps = 0; place.beyond < 3 && steps <= facets_.size(); ++steps) {
+    facet = facets_[facet].neighbours[place.beyond];
     if (facet == kNone) return fail("a point lies too far out");
-    const Facet& f = facets_[facet];
-    // Not with the same side each time: between constraints such a search could go round.
-    unsigned side = steps % 3, on = 3, on_sides = 0;
-    bool is_outside = false;
-    for (unsigned i = 0; i < 3 && !is_outside; ++i, side = after(side)) {
-      const double value = area(at(f, side), at(f, after(side)), point);
-      is_outside = value < 0;
-      if (is_outside) break;
-      if (value > 0) continue;
-      on = side;
-      ++on_sides;
-    }
-    if (is_outside) {
-      facet = f.neighbours[side];
-      continue;
-    }
-    if (on_sides > 1) return fail("two points are in one place");
-    if (on_sides == 0) {
-      split_facet(facet, vertex);
-    } else if (!split_side({facet, on}, vertex)) {
-      return;
-    }
-    turn_sides_round(vertex);
-    last_ = facet_of_[vertex];
+    random_ = random_ * 747796405u + 2891336453u;
+    place = place_in(facet, point, (random_ >> 16) % 3);
+  }
+  for (facet = place.beyond < 3 ? 0 : facet; place.beyond < 3; ++facet) {
+    if (facet == facets_.size()) return fail("no facet holds a point");
+    place = place_in(facet, point, 0);
+    if (place.beyond == 3) break;
+  }
+  if (place.on_sides > 1) return fail("two points are in one place");
+  if (place.on_sides == 0) {
+    split_facet(facet, vertex);
+  } else if (!split_side({facet, place.on}, vertex)) {
     return;
   }
-  fail("no facet holds a point");
+  turn_sides_round(vertex);
+  last_ = facet_of_[vertex];
 }
 
 /// Writes a facet, and what is round it: the facets across already name it.
@@ -137,7 +148,6 @@ void ConstrainedDelaunay::split_facet(std::uint32_t facet, std::uint32_t vertex)
   put(third, {c, a, vertex}, {old.neighbours[2], facet, second}, old.constraints >> 2 & 1u);
   relink(old.neighbours[1], facet, second);
   relink(old.neighbours[2], facet, third);
-  to_check_ = {facet, second, third};
 }
 
 /// False where the vertex, which may lie beside the side by rounding, leaves no room for the four facets.
@@ -169,31 +179,37 @@ bool ConstrainedDelaunay::split_side(const Side& side, std::uint32_t vertex) {
   put(fourth, {d, b, vertex}, {other.neighbours[before(k)], facet, across}, bit(other, before(k)) | split << 1);
   relink(one.neighbours[before(i)], facet, third);
   relink(other.neighbours[before(k)], across, fourth);
-  to_check_ = {facet, third, across, fourth};
   return true;
 }
 
-/// Turns sides across from a new vertex, until the circles round its facets are empty.
+/// Turns sides across from a new vertex, the last corner of each facet round it, until the circles round these are
+/// empty.
 void ConstrainedDelaunay::turn_sides_round(std::uint32_t vertex) {
-  while (!to_check_.empty()) {
-    const std::uint32_t facet = to_check_.back();
-    to_check_.pop_back();
-    const Facet one = facets_[facet];
-    const std::uint32_t across = one.neighbours[0];
-    if (across == kNone || (one.constraints & 1u) != 0) continue;
-    const Facet other = facets_[across];
-    const auto k = static_cast<unsigned>(std::find(other.neighbours.begin(), other.neighbours.end(), facet) -
-                                         other.neighbours.begin());
-    const std::uint32_t a = one.vertices[0], b = one.vertices[1], d = other.vertices[before(k)];
-    if (!is_in_circle(vertices_[a], vertices_[b], vertices_[vertex], vertices_[d])) continue;
-    const unsigned of_a = other.constraints >> after(k) & 1u, of_b = other.constraints >> before(k) & 1u;
-    put(facet, {a, d, vertex}, {other.neighbours[after(k)], across, one.neighbours[2]}, of_a | (one.constraints & 4u));
-    put(across, {d, b, vertex}, {other.neighbours[before(k)], one.neighbours[1], facet}, of_b | (one.constraints & 2u));
-    relink(other.neighbours[after(k)], across, facet);
-    relink(one.neighbours[1], facet, across);
-    to_check_.push_back(facet);
-    to_check_.push_back(across);
-  }
+  const std::uint32_t begin = facet_of_[vertex];
+  std::uint32_t facet = begin;
+  do {
+    while (turn_side(facet, vertex)) {
+    }
+    facet = facets_[facet].neighbours[1];
+  } while (facet != begin);
+}
+
+/// The facet gets a new side across from the vertex, and the facet that comes next round that the other one.
+bool ConstrainedDelaunay::turn_side(std::uint32_t facet, std::uint32_t vertex) {
+  const Facet one = facets_[facet];
+  const std::uint32_t across = one.neighbours[0];
+  if (across == kNone || (one.constraints & 1u) != 0) return false;
+  const Facet other = facets_[across];
+  const auto k = static_cast<unsigned>(std::find(other.neighbours.begin(), other.neighbours.end(), facet) -
+                                       other.neighbours.begin());
+  const std::uint32_t a = one.vertices[0], b = one.vertices[1], d = other.vertices[before(k)];
+  if (!is_in_circle(vertices_[a], vertices_[b], vertices_[vertex], vertices_[d])) return false;
+  const unsigned of_a = other.constraints >> after(k) & 1u, of_b = other.constraints >> before(k) & 1u;
+  put(facet, {a, d, vertex}, {other.neighbours[after(k)], across, one.neighbours[2]}, of_a | (one.constraints & 4u));
+  put(across, {d, b, vertex}, {other.neighbours[before(k)], one.neighbours[1], facet}, of_b | (one.constraints & 2u));
+  relink(other.neighbours[after(k)], across, facet);
+  relink(one.neighbours[1], facet, across);
+  return true;
 }
 
 void ConstrainedDelaunay::mark(const Side& side) {

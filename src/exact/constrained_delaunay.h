@@ -55,16 +55,25 @@ class ConstrainedDelaunay {
     bool is_constraint = false;    ///< that side is one
   };
 
+  /// Of a point in a facet.
+  struct Place {
+    unsigned beyond = 3;    ///< the side that it lies beyond; 3: it lies in the facet
+    unsigned on = 3;        ///< a side that it lies on; 3: on none
+    unsigned on_sides = 0;  ///< how many these are
+  };
+
   const Point& at(const Facet& facet, unsigned corner) const { return vertices_[facet.vertices[corner]]; }
   void fail(const char* reason) {
     if (failure_.empty()) failure_ = reason;
   }
+  Place place_in(std::uint32_t facet, const Point& point, unsigned first) const;
   void insert(std::uint32_t vertex);
   void split_facet(std::uint32_t facet, std::uint32_t vertex);
   bool split_side(const Side& side, std::uint32_t vertex);
   void put(std::uint32_t facet, const Triangle& vertices, const Triangle& neighbours, unsigned constraints);
   void relink(std::uint32_t facet, std::uint32_t from, std::uint32_t to);
   void turn_sides_round(std::uint32_t vertex);
+  bool turn_side(std::uint32_t facet, std::uint32_t vertex);
   void mark(const Side& side);
   bool is_on_way(std::uint32_t from, std::uint32_t to, std::uint32_t vertex) const;
   int side_of_way(std::uint32_t from, std::uint32_t to, std::uint32_t vertex) const;
@@ -81,10 +90,10 @@ class ConstrainedDelaunay {
   std::vector<Facet> facets_;
   std::vector<std::uint32_t> facet_of_;  // per vertex: one of the facets round it
   std::uint32_t last_ = 0;               // where the next search begins
+  std::uint32_t random_ = 1;
   std::string failure_;
 
-  std::vector<std::uint32_t> to_check_;  // facets whose side 0 is across from the new vertex, their last corner
-  std::vector<std::uint32_t> cavity_;    // facets that were taken out; the first used_ of them have been put back
+  std::vector<std::uint32_t> cavity_;  // facets that were taken out; the first used_ of them have been put back
   std::size_t used_ = 0;
   std::vector<char> taken_out_;  // per facet, while a cavity is filled
   std::vector<Corner> left_, right_;
