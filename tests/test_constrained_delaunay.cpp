@@ -158,6 +158,26 @@ ConstrainedDelaunay made_of(const std::vector<Point>& points, const std::vector<
   return made;
 }
 
+/// Segments that may cross.
+std::vector<Edge> any_segments(Random& random, const std::vector<Point>& points, int count) {
+  std::vector<Edge> edges;
+  const auto last = static_cast<int>(points.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    const auto a = static_cast<std::uint32_t>(random.integer(0, last)),
+               b = static_cast<std::uint32_t>(random.integer(0, last));
+    if (a != b) edges.emplace_back(a, b);
+  }
+  return edges;
+}
+
+/// `off`: how far constraints may lie beside the segments.
+void expect_held(const std::vector<Point>& points, const std::vector<Edge>& edges, double off) {
+  const ConstrainedDelaunay made = made_of(points, edges);
+  expect_right(made);
+  const std::set<Edge> held = constraints_of(made);
+  for (const auto& [a, b] : edges) EXPECT_TRUE(leads(made, held, a + kOwn, b + kOwn, off)) << a << " " << b;
+}
+
 TEST(ConstrainedDelaunay, IsThatOfTheLibraryWhereThereIsOne) {
   Random random(31);
   for (int round = 0; round < 60; ++round) {
@@ -176,17 +196,7 @@ TEST(ConstrainedDelaunay, HoldsSegmentsThatCross) {
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE("round " + std::to_string(round));
     const std::vector<Point> points = scattered(random, random.integer(4, 200));
-    std::vector<Edge> edges;
-    const auto last = static_cast<int>(points.size()) - 1;
-    for (int i = random.integer(1, 30); i > 0; --i) {
-      const auto a = static_cast<std::uint32_t>(random.integer(0, last)),
-                 b = static_cast<std::uint32_t>(random.integer(0, last));
-      if (a != b) edges.emplace_back(a, b);
-    }
-    const ConstrainedDelaunay made = made_of(points, edges);
-    expect_right(made);
-    const std::set<Edge> held = constraints_of(made);
-    for (const auto& [a, b] : edges) EXPECT_TRUE(leads(made, held, a + kOwn, b + kOwn, 2e-9)) << a << " " << b;
+    expect_held(points, any_segments(random, points, random.integer(1, 30)), 2e-9);
   }
 }
 
@@ -200,17 +210,7 @@ TEST(ConstrainedDelaunay, HoldsSegmentsAmongPointsOfALattice) {
     for (int i = 0; i <= side; ++i) {
       for (int j = 0; j <= side; ++j) points.emplace_back(2.0 * i / side - 1, 2.0 * j / side - 1);
     }
-    std::vector<Edge> edges;
-    const auto last = static_cast<int>(points.size()) - 1;
-    for (int i = random.integer(1, 40); i > 0; --i) {
-      const auto a = static_cast<std::uint32_t>(random.integer(0, last)),
-                 b = static_cast<std::uint32_t>(random.integer(0, last));
-      if (a != b) edges.emplace_back(a, b);
-    }
-    const ConstrainedDelaunay made = made_of(points, edges);
-    expect_right(made);
-    const std::set<Edge> held = constraints_of(made);
-    for (const auto& [a, b] : edges) EXPECT_TRUE(leads(made, held, a + kOwn, b + kOwn, 4e-9)) << a << " " << b;
+    expect_held(points, any_segments(random, points, random.integer(1, 40)), 4e-9);
   }
 }
 
@@ -220,6 +220,15 @@ TEST(ConstrainedDelaunay, RunsThroughWhatItPassesWithinTheSnappingDistance) {
   const ConstrainedDelaunay made = made_of(points, {{0, 1}});
   expect_right(made);
   EXPECT_EQ(constraints_of(made), (std::set<Edge>{{kOwn + 0, kOwn + 2}, {kOwn + 2, kOwn + 3}, {kOwn + 1, kOwn + 3}}));
+}
+
+TEST(ConstrainedDelaunay, TakesTheSideThatThereIs) {
+  ConstrainedDelaunay made = made_of({{-1, 0}, {1, 0}, {0, 1}, {0, -1}}, {{0, 1}});
+  made.add_vertices(std::vector<Point>{{0, 0.5 * kSnap}, {0.5, -0.5 * kSnap}});
+  made.add_constraint(kOwn + 0, kOwn + 1);
+  made.add_constraint(kOwn + 1, kOwn + 0);
+  expect_right(made);
+  EXPECT_EQ(constraints_of(made), (std::set<Edge>{{kOwn + 0, kOwn + 1}}));
 }
 
 TEST(ConstrainedDelaunay, GrowsPointByPoint) {
@@ -245,11 +254,7 @@ TEST(ConstrainedDelaunay, FindsPointsAmongLongConstraints) {
     SCOPED_TRACE("round " + std::to_string(round));
     const std::vector<Point> points = scattered(random, 1500);
     std::vector<Edge> edges = apart(random, points, 0);
-    for (int i = 0; i < 100; ++i) {
-      const auto a = static_cast<std::uint32_t>(random.integer(4, 1500)),
-                 b = static_cast<std::uint32_t>(random.integer(4, 1500));
-      if (a != b) edges.emplace_back(a, b);
-    }
+    for (const Edge& edge : any_segments(random, points, 100)) edges.push_back(edge);
     ConstrainedDelaunay made = made_of(points, edges);
     for (int i = 0; i < 200; ++i) made.add_vertices(std::vector<Point>{{random.uniform(-1, 1), random.uniform(-1, 1)}});
     expect_right(made);

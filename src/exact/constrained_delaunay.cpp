@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace vantage::internal::exact {
@@ -246,23 +247,40 @@ int ConstrainedDelaunay::side_of_way(std::uint32_t from, std::uint32_t to, std::
   return (sign > 0) - (sign < 0);
 }
 
-/// Makes the first side of the way, and returns where it ends.
-std::uint32_t ConstrainedDelaunay::step(std::uint32_t from, std::uint32_t to) {
+/// The first side round a vertex whose other end is `wanted`.
+template <typename Wanted>
+std::optional<ConstrainedDelaunay::Side> ConstrainedDelaunay::side_to(std::uint32_t from, const Wanted& wanted) const {
   const std::uint32_t begin = facet_of_[from];
   std::uint32_t facet = begin;
   do {
     const Facet& f = facets_[facet];
-    const unsigned i = f.vertices[0] == from ? 0 : f.vertices[1] == from ? 1 : 2;
+    const unsigned i = corner_of(f, from);
+    if (wanted(f.vertices[after(i)])) return Side{facet, i};
+    if (wanted(f.vertices[before(i)])) return Side{facet, before(i)};
+    facet = f.neighbours[before(i)];
+  } while (facet != begin && facet != kNone);
+  return std::nullopt;
+}
+
+/// Makes the first side of the way, and returns where it ends.
+std::uint32_t ConstrainedDelaunay::step(std::uint32_t from, std::uint32_t to) {
+  // A side between the two is the way, whatever it passes.
+  const auto is_end = [&](std::uint32_t v) { return v == to; };
+  if (const auto side = side_to(from, is_end)) {
+    mark(*side);
+    return to;
+  }
+  if (const auto side = side_to(from, [&](std::uint32_t v) { return is_on_way(from, to, v); })) {
+    mark(*side);
+    const Facet& f = facets_[side->facet];
+    return f.vertices[side->side] == from ? f.vertices[after(side->side)] : f.vertices[side->side];
+  }
+  const std::uint32_t begin = facet_of_[from];
+  std::uint32_t facet = begin;
+  do {
+    const Facet& f = facets_[facet];
+    const unsigned i = corner_of(f, from);
     const std::uint32_t right = f.vertices[after(i)], left = f.vertices[before(i)];
-    const auto is_passed = [&](std::uint32_t v) { return v == to || is_on_way(from, to, v); };
-    if (is_passed(right)) {
-      mark({facet, i});
-      return right;
-    }
-    if (is_passed(left)) {
-      mark({facet, before(i)});
-      return left;
-    }
     if (side_of_way(from, to, right) < 0 && side_of_way(from, to, left) > 0) return cross({facet, after(i)}, from, to);
     facet = f.neighbours[before(i)];
   } while (facet != begin && facet != kNone);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,6 +63,9 @@ class ConstrainedDelaunay {
     unsigned on_sides = 0;  ///< how many these are
   };
 
+  static unsigned corner_of(const Facet& facet, std::uint32_t vertex) {
+    return facet.vertices[0] == vertex ? 0 : facet.vertices[1] == vertex ? 1 : 2;
+  }
   const Point& at(const Facet& facet, unsigned corner) const { return vertices_[facet.vertices[corner]]; }
   void fail(const char* reason) {
     if (failure_.empty()) failure_ = reason;
@@ -77,6 +81,8 @@ class ConstrainedDelaunay {
   void mark(const Side& side);
   bool is_on_way(std::uint32_t from, std::uint32_t to, std::uint32_t vertex) const;
   int side_of_way(std::uint32_t from, std::uint32_t to, std::uint32_t vertex) const;
+  template <typename Wanted>
+  std::optional<Side> side_to(std::uint32_t from, const Wanted& wanted) const;
   std::uint32_t step(std::uint32_t from, std::uint32_t to);
   std::uint32_t cross(Side side, std::uint32_t from, std::uint32_t to);
   std::uint32_t cross_constraint(const Side& side, std::uint32_t from, std::uint32_t to);
