@@ -265,8 +265,10 @@ TEST_P(EveryLimit, IsReadWrittenAndHashed) {
   EXPECT_NE(mission_hash(mission), mission_hash(free));
 }
 
-TEST_P(EveryLimit, OfTheSensorTravelsInTheFileOfTheVolume) {
-  if (testing::is_of_navigation(sample_.limit)) GTEST_SKIP() << "files state the sensor, and no limit of navigation";
+/// Files of volumes state the sensor, and no limit of navigation.
+class EveryLimitOfSensor : public EveryLimit {};
+
+TEST_P(EveryLimitOfSensor, TravelsInTheFileOfTheVolume) {
   const TemporaryDirectory folder;
   const Volume volume = volume_of(world_);
   for (const char* name : {"volume.ply", "volume.stl"}) {
@@ -280,7 +282,14 @@ TEST_P(EveryLimit, OfTheSensorTravelsInTheFileOfTheVolume) {
   }
 }
 
+std::size_t first_of_sensor() {
+  const std::vector<LimitSample>& samples = limit_samples();
+  const auto is_of_sensor = [](const LimitSample& sample) { return !testing::is_of_navigation(sample.limit); };
+  return static_cast<std::size_t>(std::find_if(samples.begin(), samples.end(), is_of_sensor) - samples.begin());
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EveryLimit, ::testing::Range(std::size_t{0}, limit_samples().size()));
+INSTANTIATE_TEST_SUITE_P(All, EveryLimitOfSensor, ::testing::Range(first_of_sensor(), limit_samples().size()));
 
 }  // namespace
 }  // namespace vantage

@@ -223,7 +223,9 @@ TEST(ProveMaximal, AnyPartHasTheWitness) {
   city.target.parts.push_back({{6, 0, 0.5}, {8, 0, 0.5}, {7, 2, 3.5}});
   city.compute();
   const MaximalProof proof = city.prove();
-  EXPECT_GT(proof.proved_share, 0.998);  // booleans move corners by micrometres, by how much each build for itself
+  // Cleaning what the parts have in common moves corners by micrometres; which ones depends on how cells of the range
+  // sphere are halved, and on the city, which each compiler draws for itself. Seen: 0.9985 to 1.
+  EXPECT_GT(proof.proved_share, 0.998);
   EXPECT_FALSE(proof.conditions_hold());
   Target first = city.target.part(0);
   std::swap(first, city.target);
