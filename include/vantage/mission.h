@@ -221,7 +221,7 @@ struct MissionFile {
   /// scene frame.
   std::string crs = {};
   std::vector<MissionTarget> targets{MissionTarget{}};  ///< one or more
-  bool is_list = false;                                 ///< the file has 'targets', a list, which may be of one
+  bool is_list = false;                                 ///< the one is written as a list of one, 'targets'
   Combine combine = Combine::all;                       ///< the targets, or the faces that the one means
   Sensor sensor;
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
@@ -244,7 +244,7 @@ struct MissionFile {
   std::vector<MissionLink> links = {};
   MissionPlaces places = {};
 
-  /// Whether flights view each target by itself.
+  /// Whether there are several targets, or one in a list: flights view each by itself.
   bool lists_targets() const { return is_list || targets.size() > 1; }
 };
 
