@@ -26,6 +26,7 @@
 #include "vantage/query.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
+#include "verify/obstacle_probe.h"
 
 namespace vantage {
 namespace {
@@ -232,6 +233,26 @@ TEST(ClearanceLimit, OfATriangleFarLargerThanTheVolumeCostsNoPrecision) {
       EXPECT_NE(claim.verdict, ProofVerdict::wrong) << "round " << round << ": " << claim.text;
     }
   }
+}
+
+// A triangle of 556 km that is 10 micrometres wide: its normal, of rounded differences, was off by so much that a point
+// 2.02 m away, nearly over it, was said to be nearer than 2 m.
+TEST(ClearanceLimit, OfALongSliverIsNotTakenForLess) {
+  const auto obstacles = std::make_shared<Mesh>();
+  obstacles->vertices = {{-217783.2636958597, 55083.14226547446, -163677.38823644427},
+                         {217756.87473871495, -55079.55276912332, 163713.70223210863},
+                         {-13.194476467964437, 1.7947581192826134, 18.156998378535143}};
+  obstacles->triangles = {{0, 1, 2}};
+  Navigation navigation;
+  navigation.clearance = Clearance{2, obstacles};
+  const Vec3 point(-23.160455658615472, 4.453905735856816, 8.146349940796853);  // 2.0205165 m, by exact numbers
+  const Scene scene = SceneBuilder().ground("ground", 100, -1);
+  const PreparedTarget target(PreparedScene(scene), Target::point({0, 0, 0}), Sensor{.max_range_m = 40});
+  EXPECT_TRUE(query_points(target, navigation, {point})[0].outside_of.empty());
+  EXPECT_FALSE(verify::ObstacleProbe(*navigation.clearance).is_too_near(point, 0));
+  EXPECT_TRUE(verify::ObstacleProbe(*navigation.clearance).is_too_near(point, 0.0103));
+  navigation.clearance->distance_m = 2.0206;
+  EXPECT_EQ(query_points(target, navigation, {point})[0].outside_of, std::vector<std::string>{"clearance"});
 }
 
 TEST(ClearanceLimit, ObstaclesAreAllOfASceneWithoutObjects) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace vantage::internal::core {
 namespace {
@@ -24,7 +26,12 @@ double squared_distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3
   };
   if (!(normal.squaredNorm() > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a))) return of_edges;
   const double height = normal.dot(point - a);
-  return std::min(of_edges, height * height / normal.squaredNorm());  // of a sliver rounding may say more
+  // The normal of a sliver may be off by any angle. But no point of a triangle is farther from its edges than the
+  // radius of the circle in it, half its width at most.
+  constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
+  const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+  const double least = std::sqrt(of_edges) - normal.norm() / (2 * longest) - kRounding * longest;
+  return std::min(of_edges, std::max(height * height / normal.squaredNorm(), least > 0 ? least * least : 0.0));
 }
 
 }  // namespace vantage::internal::core

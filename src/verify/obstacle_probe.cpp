@@ -29,7 +29,10 @@ double distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3& b, con
     return normal.dot((to - from).cross(point - from)) > 0;
   };
   if (!(length > 0) || !is_left(a, b) || !is_left(b, c) || !is_left(c, a)) return beside;
-  return std::min(beside, std::abs(normal.dot(point - a)) / length);
+  // In a sliver, whose normal may be off by any angle, no point is farther from the sides than it is wide.
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  const double width = length / longest + kProbeRoundings * std::numeric_limits<double>::epsilon() * longest;
+  return std::clamp(std::abs(normal.dot(point - a)) / length, beside - width, beside);
 }
 
 }  // namespace
