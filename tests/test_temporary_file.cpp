@@ -341,6 +341,19 @@ TEST(TemporaryFolder, LeavesFoldersThatVantageDidNotMake) {
   }
 }
 
+TEST(TemporaryFolder, RemovesThoseOfProcessesThatWereKilledBeforeTheMarkWasWhole) {
+  const TemporaryDirectory directory;
+  make_marked(directory / ".x-mymark");
+  const std::string mark = read_bytes(directory / ".x-mymark" / kTemporaryMark);
+  for (const char* name : {".x-nothin", ".x-nobyte", ".x-onlyhf", ".x-halfof"}) fs::create_directory(directory / name);
+  write_bytes(directory / ".x-nobyte" / kTemporaryMark, "");
+  write_bytes(directory / ".x-onlyhf" / kTemporaryMark, mark.substr(0, mark.size() / 2));
+  write_bytes(directory / ".x-halfof" / kTemporaryMark, mark.substr(0, mark.size() / 2));
+  write_bytes(directory / ".x-halfof" / "notes.txt", "mine");
+  { const TemporaryFolder mine(directory.path(), ".x-"); }
+  EXPECT_EQ(sorted_names(directory), (Names{".x-halfof"}));
+}
+
 TEST(TemporaryFolder, IsRemovedWithoutFollowingLinks) {
   const TemporaryDirectory directory;
   fs::create_directory(directory / "mine");

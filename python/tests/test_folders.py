@@ -81,6 +81,18 @@ def test_folders_that_vantage_did_not_make_stay(tmp_path, remove):
     assert [path.read_text() for path in tmp_path.glob(".x-*/city.osm.pbf")] == ["mine"] * 5
 
 
+@pytest.mark.parametrize("remove", [remove_abandoned, remove_all])
+def test_a_process_may_be_killed_before_the_mark_is_whole(tmp_path, remove):
+    text = marked(tmp_path / ".x-my_files")
+    for name, part in (("no_bytes", ""), ("all_half", text[:20]), ("and_more", text[:20])):
+        (tmp_path / f".x-{name}").mkdir()
+        (tmp_path / f".x-{name}" / MARK).write_text(part)
+    (tmp_path / ".x-and_more" / "city.osm.pbf").write_text("mine")
+    (tmp_path / ".x-no_marks").mkdir()
+    remove(".x-", tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == [".x-and_more"]
+
+
 def test_it_is_marked_before_anything_else_is_in_it(tmp_path):
     with Folder(".x-", tmp_path) as folder:
         assert os.listdir(folder) == [MARK]

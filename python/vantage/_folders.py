@@ -125,15 +125,21 @@ def _put_mark(path: str) -> None:
 
 
 def _has_mark(folder: int) -> bool:
-    """A file of this user with our text, and no link."""
+    """A file of this user with our text, and no link. A process that was killed before all of that was there leaves nothing
+    in the folder, or the beginning of the text alone."""
     try:
+        names = os.listdir(folder)
+        if not names:
+            return True
         file = os.open(MARK, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=folder)
     except OSError:
         return False
     try:
         about = os.fstat(file)
-        return stat.S_ISREG(about.st_mode) and about.st_uid == os.geteuid() and \
-            os.read(file, len(_MARK_TEXT) + 1) == _MARK_TEXT
+        if not stat.S_ISREG(about.st_mode) or about.st_uid != os.geteuid():
+            return False
+        text = os.read(file, len(_MARK_TEXT) + 1)
+        return text == _MARK_TEXT or (names == [MARK] and _MARK_TEXT.startswith(text))
     except OSError:
         return False
     finally:

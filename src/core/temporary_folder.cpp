@@ -19,6 +19,8 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
+using internal::core::has_temporary_mark;
+using internal::core::has_temporary_mark_begun;
 using internal::core::leads_to;
 using internal::core::lock_alone;
 using internal::core::lock_with_others;
@@ -51,7 +53,8 @@ void remove_abandoned(const fs::path& parent, std::string_view prefix, std::stri
     if (descriptor < 0) continue;
     struct stat status {};
     if (::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() && lock_alone(descriptor) &&
-        internal::core::has_temporary_mark(descriptor) && leads_to(entry->path(), descriptor)) {
+        (has_temporary_mark(descriptor) || (ending.empty() && has_temporary_mark_begun(descriptor))) &&
+        leads_to(entry->path(), descriptor)) {
       remove_temporary_folder(entry->path());
     }
     ::close(descriptor);

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cerrno>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -18,25 +20,46 @@ constexpr std::string_view kMarkText =
 
 constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 
-/// Empties a folder that may have been moved meanwhile: by its descriptor, not by its name.
-void empty_folder(int folder, std::string_view kept) {
+/// Calls `visit(name)` for what is in an open folder. False where it cannot be read.
+template <typename Visit>
+bool for_each_name(int folder, const Visit& visit) {
   const int again = ::openat(folder, ".", kOpenFolder);
   DIR* const entries = again < 0 ? nullptr : ::fdopendir(again);
   if (entries == nullptr) {
     if (again >= 0) ::close(again);
-    return;
+    return false;
   }
   while (const dirent* const entry = ::readdir(entries)) {
-    const char* const name = entry->d_name;
-    const std::string_view text = name;
-    if (text == "." || text == ".." || text == kept || ::unlinkat(folder, name, 0) == 0) continue;
+    const std::string_view text = entry->d_name;
+    if (text != "." && text != "..") visit(entry->d_name);
+  }
+  ::closedir(entries);
+  return true;
+}
+
+/// Empties a folder that may have been moved meanwhile: by its descriptor, not by its name.
+void empty_folder(int folder, std::string_view kept) {
+  for_each_name(folder, [&](const char* name) {
+    if (name == kept || ::unlinkat(folder, name, 0) == 0) return;
     const int deeper = ::openat(folder, name, kOpenFolder);
-    if (deeper < 0) continue;
+    if (deeper < 0) return;
     empty_folder(deeper, "");
     ::close(deeper);
     ::unlinkat(folder, name, AT_REMOVEDIR);
-  }
-  ::closedir(entries);
+  });
+}
+
+/// What is in the mark, and no more than a byte beyond its text; nothing where it is no file of this user.
+std::optional<std::string> mark_in(int folder) {
+  const int file = ::openat(folder, kTemporaryMark, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return std::nullopt;
+  struct stat status {};
+  std::array<char, kMarkText.size() + 1> bytes{};
+  const bool is_own_file = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
+  const ssize_t count = is_own_file ? ::read(file, bytes.data(), bytes.size()) : -1;
+  ::close(file);
+  if (count < 0) return std::nullopt;
+  return std::string(bytes.data(), static_cast<std::size_t>(count));
 }
 
 }  // namespace
@@ -53,15 +76,15 @@ bool put_temporary_mark(int folder) {
   return is_written;
 }
 
-bool has_temporary_mark(int folder) {
-  const int file = ::openat(folder, kTemporaryMark, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return false;
-  struct stat status {};
-  std::array<char, kMarkText.size() + 1> bytes{};
-  const bool is_own_file = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
-  const ssize_t count = is_own_file ? ::read(file, bytes.data(), bytes.size()) : -1;
-  ::close(file);
-  return count >= 0 && std::string_view(bytes.data(), static_cast<std::size_t>(count)) == kMarkText;
+bool has_temporary_mark(int folder) { return mark_in(folder) == kMarkText; }
+
+bool has_temporary_mark_begun(int folder) {
+  bool has_mark = false, has_more = false;
+  const bool is_read = for_each_name(
+      folder, [&](const char* name) { (std::string_view(name) == kTemporaryMark ? has_mark : has_more) = true; });
+  if (!is_read || has_more) return false;
+  const std::optional<std::string> mark = mark_in(folder);
+  return !has_mark || (mark && kMarkText.starts_with(*mark));
 }
 
 bool take_temporary_mark(int folder) {

@@ -14,6 +14,10 @@ bool put_temporary_mark(int folder);
 /// Whether the mark is there: a file of this user with the text that put_temporary_mark() writes, and no link.
 bool has_temporary_mark(int folder);
 
+/// Whether a process was killed between making the folder and putting the mark there: nothing is in it, or the
+/// beginning of the mark alone.
+bool has_temporary_mark_begun(int folder);
+
 /// Takes the mark away again. False, with errno, where it is there and stays.
 bool take_temporary_mark(int folder);
 
