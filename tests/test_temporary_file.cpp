@@ -341,17 +341,37 @@ TEST(TemporaryFolder, LeavesFoldersThatVantageDidNotMake) {
   }
 }
 
+/// As mkdtemp makes it.
+void make_private(const fs::path& folder) {
+  fs::create_directory(folder);
+  fs::permissions(folder, fs::perms::owner_all);
+}
+
 TEST(TemporaryFolder, RemovesThoseOfProcessesThatWereKilledBeforeTheMarkWasWhole) {
   const TemporaryDirectory directory;
   make_marked(directory / ".x-mymark");
-  const std::string mark = read_bytes(directory / ".x-mymark" / kTemporaryMark);
-  for (const char* name : {".x-nothin", ".x-nobyte", ".x-onlyhf", ".x-halfof"}) fs::create_directory(directory / name);
+  const std::string mark = read_bytes(directory / ".x-mymark" / kTemporaryMark), half = mark.substr(0, mark.size() / 2);
+  for (const char* name : {".x-nothin", ".x-nobyte", ".x-onlyhf", ".x-halfof", ".x-wrongs", ".x-linked"})
+    make_private(directory / name);
   write_bytes(directory / ".x-nobyte" / kTemporaryMark, "");
-  write_bytes(directory / ".x-onlyhf" / kTemporaryMark, mark.substr(0, mark.size() / 2));
-  write_bytes(directory / ".x-halfof" / kTemporaryMark, mark.substr(0, mark.size() / 2));
+  write_bytes(directory / ".x-onlyhf" / kTemporaryMark, half);
+  write_bytes(directory / ".x-halfof" / kTemporaryMark, half);
   write_bytes(directory / ".x-halfof" / "notes.txt", "mine");
+  write_bytes(directory / ".x-wrongs" / kTemporaryMark, "my notes");
+  write_bytes(directory / "half", half);
+  fs::create_symlink(directory / "half", directory / ".x-linked" / kTemporaryMark);
   { const TemporaryFolder mine(directory.path(), ".x-"); }
-  EXPECT_EQ(sorted_names(directory), (Names{".x-halfof"}));
+  EXPECT_EQ(sorted_names(directory), (Names{".x-halfof", ".x-linked", ".x-wrongs", "half"}));
+  EXPECT_EQ(read_bytes(directory / ".x-halfof" / kTemporaryMark), half);
+}
+
+// "mkdir vantage-tmp-backup", and then something is copied there.
+TEST(TemporaryFolder, LeavesAnEmptyFolderThatSomebodyElseMade) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory / ".x-backup");
+  fs::permissions(directory / ".x-backup", fs::perms(0755));
+  { const TemporaryFolder mine(directory.path(), ".x-"); }
+  EXPECT_EQ(sorted_names(directory), (Names{".x-backup"}));
 }
 
 TEST(TemporaryFolder, IsRemovedWithoutFollowingLinks) {

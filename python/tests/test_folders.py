@@ -84,13 +84,37 @@ def test_folders_that_vantage_did_not_make_stay(tmp_path, remove):
 @pytest.mark.parametrize("remove", [remove_abandoned, remove_all])
 def test_a_process_may_be_killed_before_the_mark_is_whole(tmp_path, remove):
     text = marked(tmp_path / ".x-my_files")
-    for name, part in (("no_bytes", ""), ("all_half", text[:20]), ("and_more", text[:20])):
-        (tmp_path / f".x-{name}").mkdir()
+    for name, part in (("no_bytes", ""), ("all_half", text[:20]), ("and_more", text[:20]), ("my_notes", "my notes")):
+        (tmp_path / f".x-{name}").mkdir(0o700)
         (tmp_path / f".x-{name}" / MARK).write_text(part)
     (tmp_path / ".x-and_more" / "city.osm.pbf").write_text("mine")
-    (tmp_path / ".x-no_marks").mkdir()
+    (tmp_path / ".x-no_marks").mkdir(0o700)
     remove(".x-", tmp_path)
-    assert [path.name for path in tmp_path.iterdir()] == [".x-and_more"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".x-and_more", ".x-my_notes"]
+    assert (tmp_path / ".x-and_more" / MARK).read_text() == text[:20]
+
+
+@pytest.mark.parametrize("remove", [remove_abandoned, remove_all])
+def test_an_empty_folder_that_somebody_else_made_stays(tmp_path, remove):
+    (tmp_path / ".x-my_files").mkdir()
+    (tmp_path / ".x-my_files").chmod(0o755)
+    remove(".x-", tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == [".x-my_files"]
+
+
+@pytest.mark.parametrize("remove", [remove_abandoned, remove_all])
+def test_what_comes_while_a_folder_is_removed_stays(tmp_path, monkeypatch, remove):
+    """Somebody writes into a folder that was empty when it was looked at."""
+    (tmp_path / ".x-no_marks").mkdir(0o700)
+    remove_folder = os.rmdir
+
+    def write_and_remove(path):
+        (tmp_path / ".x-no_marks" / "city.osm.pbf").write_text("mine")
+        remove_folder(path)
+
+    monkeypatch.setattr(os, "rmdir", write_and_remove)
+    remove(".x-", tmp_path)
+    assert (tmp_path / ".x-no_marks" / "city.osm.pbf").read_text() == "mine"
 
 
 def test_it_is_marked_before_anything_else_is_in_it(tmp_path):

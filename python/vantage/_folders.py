@@ -78,8 +78,9 @@ def remove_all(prefix: str, parent: Path) -> None:
         except OSError:
             continue
         try:
-            if _is_own(path, folder):
-                _remove(path)
+            _remove_own(path, folder)
+        except OSError:  # it stays
+            pass
         finally:
             os.close(folder)
 
@@ -124,30 +125,45 @@ def _put_mark(path: str) -> None:
         raise
 
 
-def _has_mark(folder: int) -> bool:
-    """A file of this user with our text, and no link. A process that was killed before all of that was there leaves nothing
-    in the folder, or the beginning of the text alone."""
+def _mark_in(folder: int) -> bytes | None:
+    """What is in the mark, and no more than a byte beyond its text; None where it is no file of this user, or a link."""
     try:
-        names = os.listdir(folder)
-        if not names:
-            return True
         file = os.open(MARK, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=folder)
     except OSError:
-        return False
+        return None
     try:
         about = os.fstat(file)
-        if not stat.S_ISREG(about.st_mode) or about.st_uid != os.geteuid():
-            return False
-        text = os.read(file, len(_MARK_TEXT) + 1)
-        return text == _MARK_TEXT or (names == [MARK] and _MARK_TEXT.startswith(text))
+        is_own_file = stat.S_ISREG(about.st_mode) and about.st_uid == os.geteuid()
+        return os.read(file, len(_MARK_TEXT) + 1) if is_own_file else None
     except OSError:
-        return False
+        return None
     finally:
         os.close(file)
 
 
 def _is_own(path: str, folder: int) -> bool:
-    return os.fstat(folder).st_uid == os.geteuid() and _has_mark(folder) and _leads_to(path, folder)
+    return os.fstat(folder).st_uid == os.geteuid() and _mark_in(folder) == _MARK_TEXT and _leads_to(path, folder)
+
+
+def _remove_own(path: str, folder: int) -> None:
+    if _is_own(path, folder):
+        _remove(path)
+    else:
+        _remove_unmarked(path, folder)
+
+
+def _remove_unmarked(path: str, folder: int) -> None:
+    """Removes a folder whose process was killed before the mark was whole, or after it was removed: only this user may read
+    it, as mkdtemp makes it, and nothing is in it but for the beginning of the mark. What others put there at the same moment
+    stays: the folder goes while it is empty or not at all."""
+    about = os.fstat(folder)
+    mark = _mark_in(folder)
+    if about.st_uid != os.geteuid() or stat.S_IMODE(about.st_mode) != 0o700 or not _MARK_TEXT.startswith(mark or b"") or \
+            not _leads_to(path, folder) or set(os.listdir(folder)) - {MARK}:
+        return
+    if mark is not None:
+        os.unlink(MARK, dir_fd=folder)
+    os.rmdir(path)
 
 
 def _remove(path: str) -> None:
@@ -221,8 +237,7 @@ def _remove_if_abandoned(path: str) -> None:
         return
     try:
         fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        if _is_own(path, folder):
-            _remove(path)
+        _remove_own(path, folder)
     except OSError:
         pass
     finally:

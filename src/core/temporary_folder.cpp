@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using internal::core::has_temporary_mark;
-using internal::core::has_temporary_mark_begun;
 using internal::core::leads_to;
 using internal::core::lock_alone;
 using internal::core::lock_with_others;
 using internal::core::put_temporary_mark;
 using internal::core::remove_temporary_folder;
+using internal::core::remove_unmarked_folder;
 
 constexpr std::size_t kRandomCharacters = 6;  // of mkdtemp
 constexpr int kAttempts = 10;
@@ -43,7 +43,7 @@ bool is_named_so(const std::string& name, std::string_view prefix, std::string_v
 }
 
 /// Removes those that were left by processes that have ended: PREFIXxxxxxx and an ending. A name shows nothing, since
-/// others may give it too: the mark does.
+/// others may give it too: the mark does. Without it only what is new and empty goes.
 void remove_abandoned(const fs::path& parent, std::string_view prefix, std::string_view ending) {
   std::error_code error;
   for (fs::directory_iterator entry(parent, error); !error && entry != fs::directory_iterator();
@@ -53,9 +53,12 @@ void remove_abandoned(const fs::path& parent, std::string_view prefix, std::stri
     if (descriptor < 0) continue;
     struct stat status {};
     if (::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() && lock_alone(descriptor) &&
-        (has_temporary_mark(descriptor) || (ending.empty() && has_temporary_mark_begun(descriptor))) &&
         leads_to(entry->path(), descriptor)) {
-      remove_temporary_folder(entry->path());
+      if (has_temporary_mark(descriptor)) {
+        remove_temporary_folder(entry->path());
+      } else if (ending.empty()) {
+        remove_unmarked_folder(entry->path(), descriptor);
+      }
     }
     ::close(descriptor);
   }

@@ -49,6 +49,13 @@ void empty_folder(int folder, std::string_view kept) {
   });
 }
 
+/// Whether there is more in a folder than the mark, or that cannot be known.
+bool has_other_names(int folder) {
+  bool has_others = false;
+  const bool is_read = for_each_name(folder, [&](std::string_view name) { has_others |= name != kTemporaryMark; });
+  return has_others || !is_read;
+}
+
 /// What is in the mark, and no more than a byte beyond its text; nothing where it is no file of this user.
 std::optional<std::string> mark_in(int folder) {
   const int file = ::openat(folder, kTemporaryMark, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -78,17 +85,19 @@ bool put_temporary_mark(int folder) {
 
 bool has_temporary_mark(int folder) { return mark_in(folder) == kMarkText; }
 
-bool has_temporary_mark_begun(int folder) {
-  bool has_mark = false, has_more = false;
-  const bool is_read = for_each_name(
-      folder, [&](const char* name) { (std::string_view(name) == kTemporaryMark ? has_mark : has_more) = true; });
-  if (!is_read || has_more) return false;
-  const std::optional<std::string> mark = mark_in(folder);
-  return !has_mark || (mark && kMarkText.starts_with(*mark));
-}
-
 bool take_temporary_mark(int folder) {
   return !has_temporary_mark(folder) || ::unlinkat(folder, kTemporaryMark, 0) == 0;
+}
+
+void remove_unmarked_folder(const std::filesystem::path& folder, int opened) {
+  constexpr mode_t kAllBits = 07777;
+  struct stat status {};
+  if (::fstat(opened, &status) != 0 || status.st_uid != ::geteuid() || (status.st_mode & kAllBits) != 0700) return;
+  const std::optional<std::string> mark = mark_in(opened);
+  if (mark && !kMarkText.starts_with(*mark)) return;
+  if (has_other_names(opened)) return;
+  if (mark) ::unlinkat(opened, kTemporaryMark, 0);
+  ::rmdir(folder.c_str());
 }
 
 void remove_temporary_folder(const std::filesystem::path& folder) {
