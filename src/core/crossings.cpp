@@ -12,9 +12,11 @@ namespace vantage::internal::core {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> find_crossings(const Mesh& mesh,
                                                                     std::span<const std::uint32_t> among,
                                                                     double distance) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
-  if (among.empty()) return result;
-  const TriangleTree tree(mesh);
+  if (among.empty()) return {};
+  // They are few beside the others, so that the hierarchy is theirs.
+  Mesh few{mesh.vertices, {}};
+  for (const std::uint32_t t : among) few.triangles.push_back(mesh.triangles[t]);
+  const TriangleTree tree(few);
   const auto corners = [&](std::uint32_t t) {
     const auto& [a, b, c] = mesh.triangles[t];
     return std::array<Vec3, 3>{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
@@ -26,26 +28,27 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> find_crossings(const Mesh& 
     }
     return count;
   };
-  std::vector<std::vector<std::uint32_t>> crossed(among.size());
-  constexpr std::size_t kGrain = 64;
-  parallel::for_ranges(among.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t t = among[i];
-      const std::array<Vec3, 3> own = corners(t);
-      tree.for_each_along(t, [&](std::uint32_t other) {
-        if (other == t) return;
-        const int common = shared(t, other);
-        if (common < 2 && contact_of(own, corners(other), common, distance) == Contact::crossing) {
-          crossed[i].push_back(other);
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;  // the first one by its place in `among`
+  constexpr std::size_t kGrain = 1024;
+  std::vector<std::vector<Pair>> found(mesh.triangles.size() / kGrain + 1);
+  parallel::for_ranges(found.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin * kGrain; t < std::min(mesh.triangles.size(), end * kGrain); ++t) {
+      const auto other = static_cast<std::uint32_t>(t);
+      const std::array<Vec3, 3> of_other = corners(other);
+      tree.for_each_along(of_other, [&](std::uint32_t i) {
+        if (among[i] == other) return;
+        const int common = shared(among[i], other);
+        if (common < 2 && contact_of(corners(among[i]), of_other, common, distance) == Contact::crossing) {
+          found[t / kGrain].emplace_back(i, other);
         }
       });
     }
   });
-  for (std::size_t i = 0; i < among.size(); ++i) {
-    std::sort(crossed[i].begin(), crossed[i].end());
-    for (const std::uint32_t other : crossed[i]) result.emplace_back(among[i], other);
-  }
-  return result;
+  std::vector<Pair> pairs;
+  for (const std::vector<Pair>& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
+  std::sort(pairs.begin(), pairs.end());
+  for (Pair& pair : pairs) pair.first = among[pair.first];
+  return pairs;
 }
 
 }  // namespace vantage::internal::core

@@ -27,10 +27,10 @@ class TriangleTree {
   template <typename Visit>
   bool any_near(const Box& box, const Visit& visit) const;
 
-  /// The same for triangles whose bounding boxes meet that of triangle `t` and may touch it: far fewer, of one that is
-  /// long and slanted. `t` is one of them.
+  /// The same for triangles whose bounding boxes meet that of a triangle with these corners, and may touch it: far
+  /// fewer, of one that is long and slanted.
   template <typename Visit>
-  void for_each_along(std::uint32_t t, const Visit& visit) const;
+  void for_each_along(const std::array<Vec3, 3>& corners, const Visit& visit) const;
 
   struct Nearest {
     double distance;
@@ -84,10 +84,9 @@ void TriangleTree::for_each_near(const Box& box, double margin, const Visit& vis
 }
 
 template <typename Visit>
-void TriangleTree::for_each_along(std::uint32_t t, const Visit& visit) const {
-  const auto& [a, b, c] = mesh_.triangles[t];
-  const std::array<Vec3, 3> corners{mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]};
-  const Box own = triangle_box(mesh_, t);
+void TriangleTree::for_each_along(const std::array<Vec3, 3>& corners, const Visit& visit) const {
+  Box own;
+  for (const Vec3& corner : corners) own.extend(corner);
   const auto touches = [&](const Box& box) {
     return (box.min.array() <= own.max.array()).all() && (box.max.array() >= own.min.array()).all() &&
            may_touch(corners, box);
