@@ -49,7 +49,9 @@ Operand missed_at_most(const Levels& levels, std::uint64_t cost) {
 Solid cleaned(const Solid& solid) {
   if (solid.empty()) return solid;
   LabelledMesh labelled = solid.to_mesh();
-  clean_inward(labelled, Vec3::Zero(), {}, cleaning_limits(0, solid.epsilon(), solid.bounds()));
+  CleaningLimits limits = cleaning_limits(0, solid.epsilon(), solid.bounds());
+  limits.is_checked = false;
+  clean_inward(labelled, Vec3::Zero(), {}, limits);
   return simplified(Solid(labelled, "what sees some cells"));
 }
 

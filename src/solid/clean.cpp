@@ -68,8 +68,8 @@ class Cleaner {
   };
 
   void clean_once();
-  bool freeze_crossings();
-  void freeze(std::uint32_t vertex);
+  bool freeze_crossings(bool with_neighbours);
+  void freeze(const std::vector<std::uint32_t>& vertices);
   bool find_suspects();
   void suspect_all_of(std::uint32_t vertex);
   void begin();
@@ -448,19 +448,20 @@ void Cleaner::clean_once() {
   }
 }
 
-/// Freezes all that was merged to become `vertex`.
-void Cleaner::freeze(std::uint32_t vertex) {
+/// Freezes all that was merged to become one of `vertices`, which are sorted.
+void Cleaner::freeze(const std::vector<std::uint32_t>& vertices) {
   for (std::uint32_t v = 0; v < frozen_.size(); ++v) {
     std::uint32_t now = v;
     while (became_[now] != now) now = became_[now];
-    if (now == vertex) frozen_[v] = 1;
+    if (std::binary_search(vertices.begin(), vertices.end(), now)) frozen_[v] = 1;
   }
 }
 
 /// Where the solid is thinner than vertices move, a facet that goes inward may come out on the other side. Freezes the
-/// vertices that had moved of facets that pass through each other now. False where there are none.
-bool Cleaner::freeze_crossings() {
-  if (result_.merged == 0) return false;
+/// vertices that had moved of facets that pass through each other now, and of facets beside these. False where there
+/// are none.
+bool Cleaner::freeze_crossings(bool with_neighbours) {
+  if (result_.merged == 0 || !limits_.is_checked) return false;
   Mesh mesh{vertices_, {}};
   std::vector<std::uint32_t> changed;
   const auto has_moved = [&](std::uint32_t v) { return moved_[v] > 0; };
@@ -480,7 +481,15 @@ bool Cleaner::freeze_crossings() {
   }
   std::sort(met.begin(), met.end());
   met.erase(std::unique(met.begin(), met.end()), met.end());
-  for (const std::uint32_t vertex : met) freeze(vertex);
+  const std::size_t count = met.size();
+  for (std::size_t i = 0; i < count && with_neighbours; ++i) {
+    for (const std::uint32_t t : stars_->of(met[i])) {
+      std::copy_if(triangles_[t].begin(), triangles_[t].end(), std::back_inserter(met), has_moved);
+    }
+  }
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  freeze(met);
   return !met.empty();
 }
 
@@ -492,7 +501,7 @@ Cleaning Cleaner::run() {
   constexpr int kAttempts = 12;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     clean_once();
-    if (!freeze_crossings()) {
+    if (!freeze_crossings(attempt > 0)) {  // the first time they are many
       finish();
       if (result_.merged > 0) core::drop_slivers(labelled_, 0);  // a thin piece may have been turned inside out
       return result_;
