@@ -52,7 +52,8 @@ MODULES = {
     "scene": ["core"],
     "target": ["core", "request", "scene"],
     "sensor": ["core"],
-    "solid": ["core", "sensor"],
+    "arrangement": ["core"],
+    "solid": ["core", "sensor", "arrangement"],
     "exact": ["core", "scene", "target"],
     "query": ["core", "scene", "target", "sensor", "exact"],
     # What missions need of other libraries: these register it (enable_maps, enable_spheres).

@@ -231,6 +231,20 @@ Solid simplified(const Solid& solid) {
   return evaluated(one.impl().manifold.Simplify(), 0, "simplification", {});
 }
 
+std::vector<Triangle> triangulate(const std::vector<std::vector<NumberedPoint>>& rings, double epsilon) {
+  manifold::PolygonsIdx polygons;
+  for (const std::vector<NumberedPoint>& ring : rings) {
+    manifold::SimplePolygonIdx& polygon = polygons.emplace_back();
+    for (const auto& [place, number] : ring) polygon.push_back({{place.x(), place.y()}, static_cast<int>(number)});
+  }
+  std::vector<Triangle> triangles;
+  for (const manifold::ivec3& t : manifold::TriangulateIdx(polygons, epsilon)) {
+    triangles.push_back(
+        {static_cast<std::uint32_t>(t.x), static_cast<std::uint32_t>(t.y), static_cast<std::uint32_t>(t.z)});
+  }
+  return triangles;
+}
+
 Solid make_box(const Box& box, const BoxLabels& labels) {
   if (!(box.min.array() < box.max.array()).all()) {
     throw Error(ErrorCode::internal_defect, "a box must have min < max on every axis", "", "");

@@ -4,6 +4,7 @@
 namespace vantage {
 namespace internal {
 namespace app {}
+namespace arrangement {}
 namespace city {}
 namespace core {}
 namespace depth {}
@@ -25,6 +26,7 @@ namespace verify {}
 }  // namespace internal
 
 namespace app = internal::app;
+namespace arrangement = internal::arrangement;
 namespace city = internal::city;
 namespace core = internal::core;
 namespace depth = internal::depth;

@@ -1,0 +1,156 @@
+#include "arrangement/arrangement.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "arrangement/levels.h"
+#include "arrangement/lines.h"
+#include "arrangement/meetings.h"
+#include "arrangement/subdivision.h"
+
+namespace vantage::internal::arrangement {
+namespace {
+
+constexpr int kAttempts = 3;
+/// Operands move by some thousand times what their coordinates are rounded by, less than booleans are off by.
+constexpr double kStep = 0x1p-42;
+
+/// What bounds the points that weigh enough, and its corners.
+class Border {
+ public:
+  Border(const Soup& soup, const Subdivision& subdivision, const std::vector<std::uint64_t>& levels,
+         std::span<const Operand> operands, std::uint64_t least);
+
+  /// nullopt where a ring has fewer than three corners.
+  std::optional<Surface> surface(const Meetings& meetings, const Lines& lines) const;
+
+ private:
+  bool is_border(std::uint32_t half) const {
+    return is_kept_[half] && !(subdivision_.is_of_meeting(half) && is_kept_[subdivision_.twin(half)]);
+  }
+  std::uint32_t next(std::uint32_t half) const;
+  void find_corners();
+
+  const Soup& soup_;
+  const Subdivision& subdivision_;
+  std::vector<char> is_kept_;             // per half-edge: what lies to its left
+  std::vector<std::uint32_t> corner_of_;  // per node: a line of the border through it, or one of the two below
+  static constexpr std::uint32_t kNoBorder = kNone, kCorner = kNone - 1;
+};
+
+Border::Border(const Soup& soup, const Subdivision& subdivision, const std::vector<std::uint64_t>& levels,
+               std::span<const Operand> operands, std::uint64_t least)
+    : soup_(soup), subdivision_(subdivision), is_kept_(subdivision.size()) {
+  for (std::uint32_t half = 0; half < is_kept_.size(); ++half) {
+    const std::uint64_t own = operands[soup.facets()[subdivision.facet(half)].mesh].weight;
+    is_kept_[half] = levels[half] < least && levels[half] + own >= least;
+  }
+  find_corners();
+}
+
+/// Where the border comes to a node and goes on straight there is no corner, on any facet.
+void Border::find_corners() {
+  corner_of_.assign(subdivision_.nodes(), kNoBorder);
+  for (std::uint32_t half = 0; half < is_kept_.size(); ++half) {
+    if (!is_border(half)) continue;
+    // Each piece of the border has two half-edges in it, one in each direction: heads are all of its ends.
+    std::uint32_t& corner = corner_of_[subdivision_.head(half)];
+    const std::uint32_t line = subdivision_.line(half);
+    corner = corner == kNoBorder || corner == line ? line : kCorner;
+  }
+  for (std::uint32_t node = 0; node < soup_.points().size(); ++node) {
+    if (corner_of_[node] != kNoBorder) corner_of_[node] = kCorner;
+  }
+}
+
+/// The next half-edge of the border round the same part.
+std::uint32_t Border::next(std::uint32_t half) const {
+  std::uint32_t next = subdivision_.next(half);
+  while (!is_border(next)) next = subdivision_.next(subdivision_.twin(next));
+  return next;
+}
+
+std::optional<Surface> Border::surface(const Meetings& meetings, const Lines& lines) const {
+  Surface surface;
+  std::vector<std::uint32_t> number(subdivision_.nodes(), kNone);  // of a node's point
+  const auto place_of = [&](std::uint32_t node) {
+    const std::size_t points = soup_.points().size(), crossings = meetings.crossings.size();
+    return node < points               ? soup_.points()[node]
+           : node < points + crossings ? meetings.crossings[node - points].place
+                                       : lines.triples[node - points - crossings].place;
+  };
+  struct Ring {
+    std::uint32_t facet, begin;
+  };
+  std::vector<Ring> rings;
+  std::vector<char> is_done(subdivision_.size(), 0);
+  for (std::uint32_t begin = 0; begin < is_done.size(); ++begin) {
+    if (is_done[begin] || !is_border(begin)) continue;
+    rings.push_back({subdivision_.facet(begin), begin});
+    for (std::uint32_t half = begin; !is_done[half]; half = next(half)) is_done[half] = 1;
+  }
+  std::stable_sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.facet < b.facet; });
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    if (i == 0 || rings[i].facet != rings[i - 1].facet) {
+      const Facet& facet = soup_.facets()[rings[i].facet];
+      surface.parts.push_back({facet.mesh, facet.given, facet.normal, static_cast<std::uint32_t>(i), 0});
+    }
+    ++surface.parts.back().rings;
+    std::vector<std::uint32_t>& ring = surface.rings.emplace_back();
+    std::uint32_t half = rings[i].begin;
+    do {
+      const std::uint32_t node = subdivision_.head(half);
+      if (corner_of_[node] == kCorner) {
+        if (number[node] == kNone) {
+          number[node] = static_cast<std::uint32_t>(surface.points.size());
+          surface.points.push_back(place_of(node));
+        }
+        ring.push_back(number[node]);
+      }
+      half = next(half);
+    } while (half != rings[i].begin);
+    if (ring.size() < 3) return std::nullopt;
+  }
+  return surface;
+}
+
+std::optional<Surface> attempt(std::span<const Operand> operands, std::uint64_t least, double step, std::uint32_t seed,
+                               const core::ProgressReporter& progress) {
+  const auto soup = Soup::of(operands, step, seed);
+  if (!soup) return std::nullopt;
+  progress.report(0.1);
+  const auto meetings = find_meetings(*soup, progress);
+  if (!meetings) return std::nullopt;
+  progress.report(0.4);
+  const auto lines = find_lines(*soup, *meetings, progress);
+  if (!lines) return std::nullopt;
+  progress.report(0.7);
+  const auto subdivision = Subdivision::of(*soup, *meetings, *lines);
+  if (!subdivision) return std::nullopt;
+  progress.report(0.8);
+  const auto levels = find_levels(*soup, *subdivision, operands);
+  if (!levels) return std::nullopt;
+  progress.report(0.9);
+  auto surface = Border(*soup, *subdivision, *levels, operands, least).surface(*meetings, *lines);
+  if (surface) surface->epsilon_m = 2 * step + kPlaceRounding * soup->largest();
+  return surface;
+}
+
+}  // namespace
+
+std::optional<Surface> weighing_at_least(std::span<const Operand> operands, std::uint64_t least,
+                                         const core::ProgressReporter& progress) {
+  double largest = 0, facets = 0;
+  for (const Operand& operand : operands) {
+    facets += static_cast<double>(operand.mesh->triangles.size());
+    for (const Vec3& vertex : operand.mesh->vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  }
+  progress.spend(facets);
+  double step = kStep * largest;
+  for (std::uint32_t seed = 1; seed <= kAttempts; ++seed, step *= 4) {
+    if (auto surface = attempt(operands, least, step, seed, progress)) return surface;
+  }
+  return std::nullopt;
+}
+
+}  // namespace vantage::internal::arrangement

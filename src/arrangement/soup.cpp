@@ -1,0 +1,149 @@
+#include "arrangement/soup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/exact_crossing.h"
+#include "core/orientation.h"
+#include "core/walk_bvh.h"
+
+namespace vantage::internal::arrangement {
+namespace {
+
+/// Between -1 and 1, the same on every machine (PCG hash, Jarzynski and Olano 2020).
+double random_number(std::uint32_t& state) {
+  state = state * 747796405u + 2891336453u;
+  const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
+  return static_cast<double>((word >> 22) ^ word) * 0x1p-31 - 1;
+}
+
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto flat = [&](const Vec3& p) { return Eigen::Vector2d(p[axis], p[(axis + 1) % 3]); };
+    if (core::turn(flat(a), flat(b), flat(c)) != 0) return false;
+  }
+  return true;
+}
+
+/// A half of an edge.
+struct Half {
+  std::uint32_t low, high;  // points
+  bool is_back;             // from high to low
+  std::uint32_t facet, side;
+};
+
+}  // namespace
+
+std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std::uint32_t seed) {
+  Soup soup;
+  std::uint32_t random = seed;
+  for (std::uint32_t m = 0; m < operands.size(); ++m) {
+    const Mesh& mesh = *operands[m].mesh;
+    Vec3 move;
+    for (int axis = 0; axis < 3; ++axis) move[axis] = step * random_number(random);
+    const auto first = static_cast<std::uint32_t>(soup.points_.size());
+    for (const Vec3& vertex : mesh.vertices) soup.points_.push_back(vertex + move);
+    const std::size_t first_facet = soup.facets_.size();
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      auto [a, b, c] = mesh.triangles[t];
+      if (operands[m].is_complement) std::swap(b, c);
+      soup.facets_.push_back({{first + a, first + b, first + c}, {}, m, false, Vec3::Zero(), t});
+    }
+    if (!soup.add_edges(first_facet)) return std::nullopt;
+  }
+  for (const Vec3& point : soup.points_) soup.largest_ = std::max(soup.largest_, point.cwiseAbs().maxCoeff());
+  for (Facet& facet : soup.facets_) {
+    const auto& [a, b, c] = facet.corners;
+    const Vec3 &p = soup.points_[a], &q = soup.points_[b], &r = soup.points_[c];
+    facet.is_flat = has_no_area(p, q, r);
+    const core::BoundedVec3 normal = core::cross(core::bounded_difference(q, p), core::bounded_difference(r, p));
+    facet.normal = {normal[0].near(), normal[1].near(), normal[2].near()};
+  }
+  soup.build_bvh();
+  return soup;
+}
+
+bool Soup::add_edges(std::size_t first_facet) {
+  std::vector<Half> halves;
+  halves.reserve(3 * (facets_.size() - first_facet));
+  for (std::size_t f = first_facet; f < facets_.size(); ++f) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = facets_[f].corners[k], to = facets_[f].corners[(k + 1) % 3];
+      if (from == to) return false;
+      halves.push_back({std::min(from, to), std::max(from, to), from > to, static_cast<std::uint32_t>(f), k});
+    }
+  }
+  std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
+    return std::tie(a.low, a.high, a.is_back, a.facet) < std::tie(b.low, b.high, b.is_back, b.facet);
+  });
+  const auto is_same = [](const Half& a, const Half& b) { return a.low == b.low && a.high == b.high; };
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    const Half& forth = halves[i];
+    if (i + 1 == halves.size() || !is_same(forth, halves[i + 1]) || forth.is_back || !halves[i + 1].is_back) {
+      return false;
+    }
+    if (i + 2 < halves.size() && is_same(forth, halves[i + 2])) return false;
+    const Half& back = halves[i + 1];
+    const auto edge = static_cast<std::uint32_t>(edges_.size());
+    edges_.push_back({forth.low, forth.high, {forth.facet, back.facet}});
+    facets_[forth.facet].edges[forth.side] = facets_[back.facet].edges[back.side] = edge;
+  }
+  return true;
+}
+
+void Soup::build_bvh() {
+  std::vector<core::Bounds> boxes;
+  boxes.reserve(facets_.size());
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const Facet& facet : facets_) {
+    Box box;
+    for (const std::uint32_t corner : facet.corners) box.extend(points_[corner]);
+    core::Bounds& bounds = boxes.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      bounds.min[i] = std::nextafter(static_cast<float>(box.min[axis]), -kInfinity);
+      bounds.max[i] = std::nextafter(static_cast<float>(box.max[axis]), kInfinity);
+    }
+  }
+  bvh_ = core::build_bvh(boxes, order_);
+}
+
+core::Bounded Soup::height(std::uint32_t facet, std::uint32_t point) const {
+  const auto& [a, b, c] = facets_[facet].corners;
+  const Vec3 &p = points_[a], &q = points_[b], &r = points_[c];
+  const core::BoundedVec3 normal = core::cross(core::bounded_difference(q, p), core::bounded_difference(r, p));
+  return core::dot(normal, core::bounded_difference(points_[point], p));
+}
+
+std::optional<std::uint64_t> Soup::level_at(std::uint32_t point, std::uint32_t mesh,
+                                            std::span<const Operand> operands) const {
+  const Vec3& p = points_[point];
+  std::vector<int> windings(operands.size(), 0);
+  const auto is_above = [&](const core::BvhNode& node) {
+    const auto& [low, high] = node.bounds;
+    return p.x() >= low[0] && p.x() <= high[0] && p.y() >= low[1] && p.y() <= high[1] && p.z() <= high[2];
+  };
+  const bool is_off_surface = core::walk_bvh(bvh_, is_above, [&](std::uint32_t item) {
+    const Facet& facet = facets_[order_[item]];
+    if (facet.mesh == mesh) return true;
+    const core::TriangleCorners corners{points_[facet.corners[0]], points_[facet.corners[1]],
+                                        points_[facet.corners[2]]};
+    if (core::is_on_triangle(p, corners)) return false;
+    windings[facet.mesh] += core::crossing_above(p, corners);
+    return true;
+  });
+  if (!is_off_surface) return std::nullopt;
+  std::uint64_t level = 0;
+  for (std::size_t m = 0; m < operands.size(); ++m) {
+    if (m == mesh) continue;
+    const int winding = windings[m] + (operands[m].is_complement ? 1 : 0);
+    if (winding != 0 && winding != 1) return std::nullopt;
+    if (winding == 1) level += operands[m].weight;
+  }
+  return level;
+}
+
+}  // namespace vantage::internal::arrangement

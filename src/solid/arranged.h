@@ -1,0 +1,30 @@
+// Solids out of one arrangement of many: unions, intersections, differences and shares, without a tree of booleans.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/progress_reporter.h"
+#include "solid/csg.h"
+
+namespace vantage::internal::solid {
+
+/// A closed mesh, and what each point in it counts (or outside of it).
+struct Weighted {
+  const LabelledMesh* labelled = nullptr;
+  std::uint64_t weight = 1;
+  bool is_complement = false;
+};
+
+struct Arranged {
+  Solid solid;           ///< a facet has the label of the one that it is a part of
+  double epsilon_m = 0;  ///< as Solid::epsilon(): how far from their surfaces its corners may be
+};
+
+/// The points whose weights are at least `least` together. nullopt where an arrangement cannot be made: then booleans
+/// have to. See arrangement/arrangement.h.
+std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, std::uint64_t least,
+                                          const core::ProgressReporter& progress);
+
+}  // namespace vantage::internal::solid
