@@ -19,7 +19,7 @@ TEST(Report, TellsWhatWasComputed) {
   volume.causes[1].area_m2 = 12.5;
   volume.tolerance_m = 0.02;
   volume.lift_m = {1e-4};
-  volume.counts = {11, 12, 13, 14, 15};
+  volume.counts = {11, 12, 13, 14, 15, 16};
   volume.seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 1.5};
   const MeshMeasures measures = measure(volume.mesh);
   const std::string text = report_json(volume, measures, {"m.yaml", "city.obj", "plaza", "v.ply"});
@@ -53,7 +53,8 @@ TEST(Report, TellsWhatWasComputed) {
                                        {"candidate_blockers", 12},
                                        {"visible_blockers", 13},
                                        {"visible_facets", 14},
-                                       {"constraint_edges", 15}}));
+                                       {"constraint_edges", 15},
+                                       {"boolean_fallbacks", 16}}));
   EXPECT_EQ(
       report.at("seconds"),
       json({{"read", 0.1}, {"prepare", 0.2}, {"engine", 0.3}, {"navigation", 0.4}, {"write", 0.5}, {"total", 1.5}}));

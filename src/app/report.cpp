@@ -36,11 +36,9 @@ Json json_of(const std::vector<Cause>& causes) {
 }
 
 Json json_of(const StageCounts& counts) {
-  return {{"scene_polygons", counts.scene_polygons},
-          {"candidate_blockers", counts.candidate_blockers},
-          {"visible_blockers", counts.visible_blockers},
-          {"visible_facets", counts.visible_facets},
-          {"constraint_edges", counts.constraint_edges}};
+  return {{"scene_polygons", counts.scene_polygons},     {"candidate_blockers", counts.candidate_blockers},
+          {"visible_blockers", counts.visible_blockers}, {"visible_facets", counts.visible_facets},
+          {"constraint_edges", counts.constraint_edges}, {"boolean_fallbacks", counts.boolean_fallbacks}};
 }
 
 Json json_of(const Seconds& seconds) {

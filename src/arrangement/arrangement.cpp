@@ -1,7 +1,8 @@
 #include "arrangement/arrangement.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <utility>
 
 #include "arrangement/levels.h"
 #include "arrangement/lines.h"
@@ -15,6 +16,51 @@ constexpr int kAttempts = 3;
 /// Operands move by some thousand times what their coordinates are rounded by, less than booleans are off by.
 constexpr double kStep = 0x1p-42;
 
+/// Where nodes are, of the operands as they were given: so nothing leaves their bounds, and where facets of two
+/// operands lie in one plane the result does not leave it. Only where a plane is passed at so small an angle that the
+/// moves count is the place the one between operands that were moved.
+class Places {
+ public:
+  Places(const Soup& soup, const Meetings& meetings, const Lines& lines, double step)
+      : soup_(soup), meetings_(meetings), lines_(lines), step_(step) {}
+
+  Vec3 of(std::uint32_t node) const {
+    const std::size_t points = soup_.points().size(), crossings = meetings_.crossings.size();
+    if (node < points) return soup_.given()[node];
+    if (node < points + crossings) return of_crossing(static_cast<std::uint32_t>(node - points));
+    const TriplePoint& triple = lines_.triples[node - points - crossings];
+    const Meeting& meeting = meetings_.meetings[triple.meetings[0]];
+    return passing(of_crossing(meeting.ends[0]), of_crossing(meeting.ends[1]), triple.facets[2], triple.along);
+  }
+
+ private:
+  static Vec3 between(const Vec3& from, const Vec3& to, double along) {
+    const Vec3 place = along <= 0.5 ? Vec3(from + along * (to - from)) : Vec3(to + (1 - along) * (from - to));
+    return place.cwiseMax(from.cwiseMin(to)).cwiseMin(from.cwiseMax(to));
+  }
+  Vec3 of_crossing(std::uint32_t crossing) const {
+    const Edge& edge = soup_.edges()[meetings_.crossings[crossing].edge];
+    return passing(soup_.given()[edge.from], soup_.given()[edge.to], meetings_.crossings[crossing].facet,
+                   meetings_.crossings[crossing].along);
+  }
+  /// Where the way between two places passes through a facet's plane; `along`: what it is between operands that were
+  /// moved.
+  Vec3 passing(const Vec3& from, const Vec3& to, std::uint32_t facet, double along) const {
+    constexpr double kClear = 64;
+    const auto& [a, b, c] = soup_.facets()[facet].corners;
+    const Vec3& corner = soup_.given()[a];
+    const Vec3 normal = (soup_.given()[b] - corner).cross(soup_.given()[c] - corner);
+    const double of_from = normal.dot(from - corner), of_to = normal.dot(to - corner), height = of_from - of_to;
+    if (std::abs(height) > kClear * step_ * normal.norm()) along = std::clamp(of_from / height, 0.0, 1.0);
+    return between(from, to, along);
+  }
+
+  const Soup& soup_;
+  const Meetings& meetings_;
+  const Lines& lines_;
+  double step_;
+};
+
 /// What bounds the points that weigh enough, and its corners.
 class Border {
  public:
@@ -22,7 +68,7 @@ class Border {
          std::span<const Operand> operands, std::uint64_t least);
 
   /// nullopt where a ring has fewer than three corners.
-  std::optional<Surface> surface(const Meetings& meetings, const Lines& lines) const;
+  std::optional<Surface> surface(const Meetings& meetings, const Lines& lines, double step) const;
 
  private:
   bool is_border(std::uint32_t half) const {
@@ -70,15 +116,10 @@ std::uint32_t Border::next(std::uint32_t half) const {
   return next;
 }
 
-std::optional<Surface> Border::surface(const Meetings& meetings, const Lines& lines) const {
+std::optional<Surface> Border::surface(const Meetings& meetings, const Lines& lines, double step) const {
   Surface surface;
+  const Places places(soup_, meetings, lines, step);
   std::vector<std::uint32_t> number(subdivision_.nodes(), kNone);  // of a node's point
-  const auto place_of = [&](std::uint32_t node) {
-    const std::size_t points = soup_.points().size(), crossings = meetings.crossings.size();
-    return node < points               ? soup_.points()[node]
-           : node < points + crossings ? meetings.crossings[node - points].place
-                                       : lines.triples[node - points - crossings].place;
-  };
   struct Ring {
     std::uint32_t facet, begin;
   };
@@ -103,7 +144,7 @@ std::optional<Surface> Border::surface(const Meetings& meetings, const Lines& li
       if (corner_of_[node] == kCorner) {
         if (number[node] == kNone) {
           number[node] = static_cast<std::uint32_t>(surface.points.size());
-          surface.points.push_back(place_of(node));
+          surface.points.push_back(places.of(node));
         }
         ring.push_back(number[node]);
       }
@@ -131,8 +172,11 @@ std::optional<Surface> attempt(std::span<const Operand> operands, std::uint64_t 
   const auto levels = find_levels(*soup, *subdivision, operands);
   if (!levels) return std::nullopt;
   progress.report(0.9);
-  auto surface = Border(*soup, *subdivision, *levels, operands, least).surface(*meetings, *lines);
-  if (surface) surface->epsilon_m = 2 * step + kPlaceRounding * soup->largest();
+  auto surface = Border(*soup, *subdivision, *levels, operands, least).surface(*meetings, *lines, step);
+  if (!surface) return std::nullopt;
+  double off_by = kPlaceRounding * soup->largest();
+  for (const Crossing& crossing : meetings->crossings) off_by = std::max(off_by, crossing.off_by_m);
+  surface->epsilon_m = 4 * (step + off_by);
   return surface;
 }
 

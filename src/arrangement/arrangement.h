@@ -25,12 +25,13 @@ struct Surface {
   /// of a ring has two parts, which run along it in opposite directions.
   std::vector<std::vector<std::uint32_t>> rings;
   /// Each point lies no farther than this from what it comes from: corners of the operands, and what facets of them
-  /// have in common.
+  /// have in common. Corners of operands are where they were given; no point lies outside of all operands' bounds, and
+  /// where all facets that meet lie in one plane across an axis so does the point.
   double epsilon_m = 0;
 };
 
 /// The points that operands hold whose weights are at least `least` together: 1 or more. n of n weights of 1 are an
-/// intersection, 1 a union. The operands are moved apart a little, see Surface::epsilon_m and Soup.
+/// intersection, 1 a union. All operands but the first are moved a little, see Surface::epsilon_m and Soup.
 ///
 /// Every facet meets those of all other meshes once. What is left of a facet is one part, however many meshes divide
 /// it: where both sides of a meeting are kept there is no piece of it.

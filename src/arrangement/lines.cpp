@@ -31,6 +31,9 @@ class Geometry {
     return meetings_.crossings[meetings_.meetings[m].ends[which]];
   }
 
+  /// What the places of a meeting's ends are off by.
+  double off_by(std::uint32_t m) const { return std::max(end(m, 0).off_by_m, end(m, 1).off_by_m); }
+
   /// The crossing's height beyond a facet, times the sum of its edge's heights beyond the crossing's own facet.
   core::Bounded height(const Crossing& crossing, std::uint32_t facet) const {
     const Edge& edge = soup_.edges()[crossing.edge];
@@ -65,7 +68,7 @@ Passing Geometry::rounded(std::uint32_t m, std::uint32_t facet) const {
   Passing passing;
   passing.begin = plane.normal.dot(end(m, 0).place - corner);
   passing.end = plane.normal.dot(end(m, 1).place - corner);
-  passing.error = 4 * kPlaceRounding * soup_.largest() * plane.normal.cwiseAbs().sum();
+  passing.error = 4 * off_by(m) * plane.normal.cwiseAbs().sum();
   return passing;
 }
 
@@ -75,7 +78,7 @@ Passing Geometry::passing(std::uint32_t m, std::uint32_t facet, bool& is_known) 
   if (quick.is_through()) {
     place(quick);
     const double length = (end(m, 1).place - end(m, 0).place).cwiseAbs().maxCoeff();
-    if (quick.off_by * length <= 4 * kPlaceRounding * soup_.largest()) return quick;
+    if (quick.off_by * length <= 4 * off_by(m)) return quick;
   }
   const core::Bounded begin = height(end(m, 0), facet), end_height = height(end(m, 1), facet);
   if (begin.sign() == 0 || end_height.sign() == 0) {
@@ -162,10 +165,8 @@ bool TripleFinder::test(std::uint32_t of_b, std::uint32_t of_c, std::vector<Trip
   if (!of_b_through_c.is_through()) return true;
   const std::uint32_t of_b_and_c = meeting_of(b, c);
   if (of_b_and_c == kNone) return false;
-  const Vec3 &begin = geometry_.end(of_b, 0).place, &end = geometry_.end(of_b, 1).place;
   // On a, the meeting with c runs along n_a x n_c: it leaves b's operand where n_b . (n_a x n_c) > 0.
-  found.push_back(
-      {{a, b, c}, {of_b, of_c, of_b_and_c}, of_c_through_b.begin > 0, begin + of_b_through_c.along * (end - begin)});
+  found.push_back({{a, b, c}, {of_b, of_c, of_b_and_c}, of_c_through_b.begin > 0, of_b_through_c.along});
   return true;
 }
 
@@ -173,11 +174,11 @@ bool TripleFinder::find(std::uint32_t a, const core::ProgressReporter& progress,
                         std::vector<TriplePoint>& found) const {
   const std::uint32_t first = first_of_[a], last = first_of_[a + 1];
   if (last - first < 2) return true;
-  const Vec3 rounding = Vec3::Constant(4 * kPlaceRounding * soup_.largest());
   std::vector<MeetingBox> boxes;
   Box all;
   for (std::uint32_t m = first; m < last; ++m) {
     const Vec3 &begin = geometry_.end(m, 0).place, &end = geometry_.end(m, 1).place;
+    const Vec3 rounding = Vec3::Constant(4 * geometry_.off_by(m));
     boxes.push_back({begin.cwiseMin(end) - rounding, begin.cwiseMax(end) + rounding, m});
     all.extend(begin);
     all.extend(end);

@@ -17,7 +17,7 @@ struct TriplePoint {
   std::array<std::uint32_t, 3> facets;    ///< a < b < c
   std::array<std::uint32_t, 3> meetings;  ///< of a and b, of a and c, of b and c
   bool is_positive;                       ///< the determinant of the outward normals, in that order
-  Vec3 place;                             ///< rounded
+  double along;                           ///< part of the meeting of a and b, from its begin
 };
 
 /// Numbers for each of many lists, one after the other.

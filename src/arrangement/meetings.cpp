@@ -153,6 +153,9 @@ bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::v
   return is_known;
 }
 
+/// A place that is farther off than this part of the largest coordinate is none: about what booleans are off by.
+constexpr double kFarthestOff = 0x1p-40;
+
 /// False where rounding would decide where it is.
 bool place_crossing(const Soup& soup, Crossing& crossing) {
   const Edge& edge = soup.edges()[crossing.edge];
@@ -160,13 +163,14 @@ bool place_crossing(const Soup& soup, Crossing& crossing) {
   crossing.to = soup.height(crossing.facet, edge.to);
   if (crossing.from.sign() * crossing.to.sign() != -1) return false;
   const double height = crossing.from.size() + crossing.to.size();
-  constexpr double kRounding = 0x1p-50;
-  if (crossing.from.error + crossing.to.error > kRounding * height) return false;
   crossing.along = crossing.from.size() / height;
   const Vec3 &from = soup.points()[edge.from], &to = soup.points()[edge.to];
   crossing.place = crossing.along <= 0.5 ? Vec3(from + crossing.along * (to - from))
                                          : Vec3(to + crossing.to.size() / height * (from - to));
-  return true;
+  // Heights beyond a needle of a facet, which has hardly any normal, have lost digits.
+  const double lost = (crossing.from.error + crossing.to.error) / height * (to - from).cwiseAbs().maxCoeff();
+  crossing.off_by_m = kPlaceRounding * soup.largest() + 2 * lost;
+  return crossing.off_by_m <= kFarthestOff * soup.largest();
 }
 
 }  // namespace

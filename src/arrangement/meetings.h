@@ -10,7 +10,7 @@
 
 namespace vantage::internal::arrangement {
 
-/// What coordinates of crossings are off by, in parts of the largest one, with room.
+/// What coordinates are off by that are computed without losing digits, in parts of the largest one, with room.
 constexpr double kPlaceRounding = 0x1p-48;
 
 /// Where an edge passes through a facet of another mesh.
@@ -19,6 +19,7 @@ struct Crossing {
   bool goes_out;           ///< along the edge's direction the facet's operand is left
   double along;            ///< part of the edge, from its `from`
   Vec3 place;              ///< rounded
+  double off_by_m;         ///< no coordinate of that place is farther off
   core::Bounded from, to;  ///< heights of the edge's ends beyond the facet
   /// The meetings of the facet with the edge's two facets, and whether each of them begins here.
   std::array<std::uint32_t, 2> meetings{kNone, kNone};

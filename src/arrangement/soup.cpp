@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,11 +14,27 @@
 namespace vantage::internal::arrangement {
 namespace {
 
-/// Between -1 and 1, the same on every machine (PCG hash, Jarzynski and Olano 2020).
-double random_number(std::uint32_t& state) {
+/// The same on every machine (PCG hash, Jarzynski and Olano 2020).
+std::uint32_t random_number(std::uint32_t& state) {
   state = state * 747796405u + 2891336453u;
   const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
-  return static_cast<double>((word >> 22) ^ word) * 0x1p-31 - 1;
+  return (word >> 22) ^ word;
+}
+
+/// Vectors with coordinates between -1 and 1. Along each axis no two are nearer to each other than half of what they
+/// would be at equal distances: many walls lie in planes across an axis.
+std::vector<Vec3> moves_of(std::size_t count, std::uint32_t seed) {
+  std::vector<Vec3> moves(count);
+  std::vector<std::uint32_t> places(count);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::iota(places.begin(), places.end(), 0u);
+    for (std::size_t i = count; i > 1; --i) std::swap(places[i - 1], places[random_number(seed) % i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double place = places[i] + 0.25 + 0.5 * (random_number(seed) * 0x1p-32);
+      moves[i][axis] = 2 * place / static_cast<double>(count) - 1;
+    }
+  }
+  return moves;
 }
 
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -39,12 +56,12 @@ struct Half {
 
 std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std::uint32_t seed) {
   Soup soup;
-  std::uint32_t random = seed;
+  const std::vector<Vec3> moves = moves_of(operands.size(), seed);
   for (std::uint32_t m = 0; m < operands.size(); ++m) {
     const Mesh& mesh = *operands[m].mesh;
-    Vec3 move;
-    for (int axis = 0; axis < 3; ++axis) move[axis] = step * random_number(random);
+    const Vec3 move = (m > 0 ? step : 0) * moves[m];
     const auto first = static_cast<std::uint32_t>(soup.points_.size());
+    soup.given_.insert(soup.given_.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const Vec3& vertex : mesh.vertices) soup.points_.push_back(vertex + move);
     const std::size_t first_facet = soup.facets_.size();
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -37,15 +37,17 @@ struct Facet {
   std::uint32_t given;  ///< its number in the operand's mesh
 };
 
-/// Facets are numbered through, operand by operand; those of a complement are turned round. Each operand is moved by a
-/// vector of its own, so that nothing of two operands lies on each other but by a rare chance (Halperin and Shelton, A
-/// perturbation scheme for spherical arrangements, 1998): the solids as they stand then are the ones that count.
+/// Facets are numbered through, operand by operand; those of a complement are turned round. Each operand but the first
+/// is moved by a vector of its own, so that nothing of two operands lies on each other but by a rare chance (Halperin
+/// and Shelton, A perturbation scheme for spherical arrangements, 1998): the solids as they stand then are the ones
+/// that count.
 class Soup {
  public:
   /// `step`: no operand moves farther along any axis. nullopt where a mesh is not closed as Operand asks.
   static std::optional<Soup> of(std::span<const Operand> operands, double step, std::uint32_t seed);
 
   const std::vector<Vec3>& points() const { return points_; }
+  const std::vector<Vec3>& given() const { return given_; }  ///< points, as they were before they were moved
   const std::vector<Facet>& facets() const { return facets_; }
   const std::vector<Edge>& edges() const { return edges_; }
   std::uint32_t mesh_of_edge(std::uint32_t edge) const { return facets_[edges_[edge].facets[0]].mesh; }
@@ -65,7 +67,7 @@ class Soup {
   bool add_edges(std::size_t first_facet);
   void build_bvh();
 
-  std::vector<Vec3> points_;
+  std::vector<Vec3> points_, given_;
   std::vector<Facet> facets_;
   std::vector<Edge> edges_;
   double largest_ = 0;

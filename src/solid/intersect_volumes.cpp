@@ -8,8 +8,9 @@
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
+#include "solid/arranged.h"
 #include "solid/clean.h"
-#include "solid/outside_limits.h"
+#include "solid/numerics.h"
 #include "solid/regions.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -19,7 +20,6 @@ namespace {
 
 using internal::solid::FacetSourceList;
 using internal::solid::LabelledMesh;
-using internal::solid::Solid;
 
 using Views = std::vector<std::vector<Target>>;
 
@@ -80,6 +80,7 @@ void add_work(const Volume& part, Volume& result) {
   result.counts.visible_blockers += part.counts.visible_blockers;
   result.counts.visible_facets += part.counts.visible_facets;
   result.counts.constraint_edges += part.counts.constraint_edges;
+  result.counts.boolean_fallbacks += part.counts.boolean_fallbacks;
   result.seconds.engine += part.seconds.engine;
   result.seconds.total += part.seconds.total;
   for (const Warning& note : part.notes) {
@@ -97,10 +98,11 @@ void make_empty(Outcome outcome, std::string reason, std::string hint, Volume& r
   result.causes.clear();
 }
 
-Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes, FacetSourceList& sources) {
+LabelledMesh labelled_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes,
+                         FacetSourceList& sources) {
   std::vector<std::uint32_t> merged;
   for (const Cause& cause : volume.causes) merged.push_back(causes.add(cause));
-  return Solid(internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin), "the volume");
+  return internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin);
 }
 
 /// What a boolean left of the volumes' solids becomes the result's mesh.
@@ -147,25 +149,22 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   const Vec3 origin = result.frame.origin;
   internal::core::CauseList causes;
   FacetSourceList sources;
-  std::vector<Solid> solids;
-  double sliver = 0, rounding = 0;
-  for (const Volume& volume : volumes) {
-    solids.push_back(solid_of(volume, origin, causes, sources));
-    sliver = std::max(sliver, internal::solid::sliver_thickness(solids.back()));
-    rounding = std::max(rounding, solids.back().epsilon());
-  }
+  std::vector<LabelledMesh> meshes;
+  for (const Volume& volume : volumes) meshes.push_back(labelled_of(volume, origin, causes, sources));
   const internal::core::ProgressReporter progress =
       internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("parts");
-  LabelledMesh labelled = internal::solid::intersect(solids, progress).to_mesh();
-  internal::core::drop_slivers(labelled, sliver);
+  const internal::solid::Arranged common = internal::solid::intersection_of(std::move(meshes), progress);
+  result.counts.boolean_fallbacks += common.fallbacks;
+  LabelledMesh labelled = common.solid.to_mesh();
+  internal::core::drop_slivers(labelled, internal::solid::numerics::kSliverEpsilons * common.epsilon_m);
   if (labelled.mesh.empty()) {
     make_empty(Outcome::no_common_view,
                "no position sees all " + std::to_string(volumes.size()) + " parts of the target",
                "choose a part of the target, or make a volume for each part", result);
     return result;
   }
-  finish(std::move(labelled), origin, rounding, volumes, sources, causes, result);
+  finish(std::move(labelled), origin, common.epsilon_m, volumes, sources, causes, result);
   return result;
 }
 
@@ -190,19 +189,19 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
   const Vec3 origin = first->frame.origin;
   internal::core::CauseList causes;
   FacetSourceList sources;
-  std::vector<Solid> solids;
+  std::vector<LabelledMesh> meshes;
   std::vector<Volume> used;
-  double rounding = 0;
   for (const Volume& volume : volumes) {
     if (!has_volume(volume)) continue;
-    solids.push_back(solid_of(volume, origin, causes, sources));
-    rounding = std::max(rounding, solids.back().epsilon());
+    meshes.push_back(labelled_of(volume, origin, causes, sources));
     used.push_back(volume);
   }
   const internal::core::ProgressReporter progress =
       internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("targets");
-  finish(internal::solid::unite(solids, progress).to_mesh(), origin, rounding, used, sources, causes, result);
+  const internal::solid::Arranged whole = internal::solid::union_of(std::move(meshes), progress);
+  result.counts.boolean_fallbacks += whole.fallbacks;
+  finish(whole.solid.to_mesh(), origin, whole.epsilon_m, used, sources, causes, result);
   return result;
 }
 

@@ -14,9 +14,10 @@
 #include "core/progress_reporter.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "solid/arranged.h"
 #include "solid/cell_tree.h"
 #include "solid/clean.h"
-#include "solid/outside_limits.h"
+#include "solid/numerics.h"
 #include "solid/regions.h"
 #include "vantage/volume.h"
 
@@ -32,8 +33,12 @@ constexpr double kLongestRange = 1e9;  // metres; as of sensors
 /// What a cell costs is counted in this part of a cell of average size. One part alone has cells of one size.
 constexpr std::uint64_t kUnitsPerCell = 8;
 
+/// What the volumes of cells take of the whole.
+constexpr double kPartOfCells = 0.5;
+
 constexpr double kOneUlp = 0x1p-51;         // of a product with a decimal number that is no binary one
 constexpr double kPlaneRounding = 0x1p-48;  // of coordinates, on the way from the target's frame and back to it
+constexpr double kBehind = 0x1p-40;         // of coordinates: farther than an arrangement moves a cell
 constexpr double kAreaRounding = 0x1p-36;   // of the areas of cells, with what their strips have
 
 double area_of(const TargetFrame& frame) {
@@ -96,8 +101,9 @@ class Local {
  public:
   explicit Local(const TargetFrame& frame) : frame_(frame) {}
 
-  /// Corners of the target's plane that rounding has moved out of it are put back. Other parts have other planes.
-  Solid solid_of(const Volume& volume) {
+  /// Corners of the target's plane that rounding has moved out of it are put back; those of a cell a little behind it,
+  /// so that only the region's facet in that plane counts. Other parts have other planes.
+  LabelledMesh labelled(const Volume& volume, bool is_cell) {
     std::vector<std::uint32_t> merged;
     for (const Cause& cause : volume.causes) merged.push_back(causes_.add(cause));
     LabelledMesh labelled{volume.mesh, sources_.add(volume, merged)};
@@ -108,10 +114,10 @@ class Local {
       if (volume.causes[volume.cause_of[t]].kind != CauseKind::target_plane) continue;
       for (const std::uint32_t v : volume.mesh.triangles[t]) {
         double& height = labelled.mesh.vertices[v].z();
-        if (std::abs(height) <= kPlaneRounding * largest) height = 0;
+        if (std::abs(height) <= kPlaneRounding * largest) height = is_cell ? -kBehind * largest : 0;
       }
     }
-    return Solid(labelled, "the volume of a cell");
+    return labelled;
   }
 
   /// Makes the result's mesh of what booleans left.
@@ -129,6 +135,24 @@ class Local {
   FacetSourceList sources_;
 };
 
+/// The positions in the region that miss cells of no more than `budget`.
+Arranged seen_in(const LabelledMesh& region, const std::vector<LabelledMesh>& volumes,
+                 const std::vector<std::uint64_t>& costs, std::uint64_t budget,
+                 const core::ProgressReporter& progress) {
+  const std::uint64_t all = std::accumulate(costs.begin(), costs.end(), std::uint64_t{0});
+  std::vector<Weighted> operands{{&region, all + 1}};
+  for (std::size_t i = 0; i < volumes.size(); ++i) operands.push_back({&volumes[i], costs[i]});
+  if (auto arranged = weighing_at_least(operands, all + 1 + all - budget, progress)) {
+    return *arranged;
+  }
+  const auto volume_of = [&](std::size_t i) {
+    return volumes[i].mesh.empty() ? Solid() : Solid(volumes[i], "the volume of a cell");
+  };
+  const Solid whole(region, "the range"), seen = seen_within(costs, budget, volume_of, progress),
+                                          common = intersect(whole, seen, progress.part(1, 1));
+  return {common, std::max(whole.epsilon(), common.epsilon()), 1};
+}
+
 /// Where the whole target is in range and each part is looked at from its front, whatever the scene.
 Volume volume_without_scene(const PreparedTarget& target, const ExactOptions& options) {
   const PreparedTarget alone = target.alone();
@@ -142,6 +166,7 @@ void add_counts(const StageCounts& cell, StageCounts& all) {
   all.visible_blockers += cell.visible_blockers;
   all.visible_facets += cell.visible_facets;
   all.constraint_edges += cell.constraint_edges;
+  all.boolean_fallbacks += cell.boolean_fallbacks;
 }
 
 void make_empty(const PreparedTarget& target, Volume& result) {
@@ -183,25 +208,27 @@ Volume share_volume(const PreparedTarget& target, const ExactOptions& options, c
     costs.resize(cells.size(), plan.costs[part]);
   }
   Local local(target.frame());
-  const Solid region = local.solid_of(result);
-  const core::ProgressReporter quiet = progress.part(0, 0);
+  const LabelledMesh region = local.labelled(result, false);
+  const core::ProgressReporter making = progress.part(0, kPartOfCells);
   const Progress ask = [&](std::string_view, double) {
-    quiet.check();
+    making.check();
     return true;
   };
-  const auto volume_of = [&](std::size_t i) {
+  std::vector<LabelledMesh> volumes;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     const Volume volume = compute_visibility(cells[i], coarse, callback ? ask : Progress());
     add_counts(volume.counts, result.counts);
-    return volume.outcome == Outcome::computed ? local.solid_of(volume) : Solid();
-  };
-  const Solid seen = seen_within(costs, plan.budget, volume_of, progress);
-  const Solid common = intersect(region, seen, progress.part(1, 1));
-  LabelledMesh labelled = common.to_mesh();
-  core::drop_slivers(labelled, sliver_thickness(region));
+    volumes.push_back(volume.outcome == Outcome::computed ? local.labelled(volume, true) : LabelledMesh());
+    making.report(i + 1, cells.size());
+  }
+  const Arranged seen = seen_in(region, volumes, costs, plan.budget, progress.part(kPartOfCells, 1));
+  result.counts.boolean_fallbacks += seen.fallbacks;
+  LabelledMesh labelled = seen.solid.to_mesh();
+  core::drop_slivers(labelled, numerics::kSliverEpsilons * seen.epsilon_m);
   if (labelled.mesh.empty()) {
     make_empty(target, result);
   } else {
-    local.finish(std::move(labelled), std::max(region.epsilon(), common.epsilon()), result);
+    local.finish(std::move(labelled), seen.epsilon_m, result);
   }
   progress.finish();
   result.seconds.engine = result.seconds.total = stopwatch.seconds();
