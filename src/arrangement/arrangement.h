@@ -38,8 +38,8 @@ struct Surface {
 ///
 /// nullopt where three attempts, each with operands moved four times as far, have left in doubt how things lie, and
 /// where a mesh is not closed as Operand asks, or bounds no solid. The sum of the weights must be below 2^62. Throws
-/// Error(cancelled), and Error(work_too_large): each facet counts once, each pair of facets that meet, and each three
-/// of them that do, counts as four. The same on every machine, and with any number of threads.
+/// Error(cancelled), and Error(work_too_large): each facet counts once, and so do each pair of facets that meet,
+/// and each three of them. The same on every machine, and with any number of threads.
 std::optional<Surface> weighing_at_least(std::span<const Operand> operands, std::uint64_t least,
                                          const core::ProgressReporter& progress);
 

@@ -202,7 +202,7 @@ bool TripleFinder::find(std::uint32_t a, const core::ProgressReporter& progress,
       }
     }
   }
-  progress.spend(4 * static_cast<double>(found.size() - before));
+  progress.spend(static_cast<double>(found.size() - before));
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
             [](const TriplePoint& x, const TriplePoint& y) { return x.facets < y.facets; });
   return true;

@@ -145,7 +145,7 @@ bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::v
         if (!is_done) is_known = false;
         if (!is_known) return;
         std::sort(found.begin() + first, found.end(), [](const Found& x, const Found& y) { return x.b < y.b; });
-        progress.spend(4 * static_cast<double>(found.size() - static_cast<std::size_t>(first)));
+        progress.spend(static_cast<double>(found.size() - static_cast<std::size_t>(first)));
       }
     }
   });

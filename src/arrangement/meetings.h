@@ -39,7 +39,7 @@ struct Meetings {
 };
 
 /// All of them. Exact: nullopt where something only touches, so that it is unknown what passes through what. Throws
-/// Error(cancelled), and Error(work_too_large): each meeting counts as four facets. Cost: O((n + k) log n) for k pairs
+/// Error(cancelled), and Error(work_too_large): each meeting counts as a facet. Cost: O((n + k) log n) for k pairs
 /// of facets whose boxes overlap.
 std::optional<Meetings> find_meetings(const Soup& soup, const core::ProgressReporter& progress);
 

@@ -32,45 +32,6 @@ std::vector<Triangle> triangles_of(const Surface& surface, const Part& part) {
   return triangulate(rings, surface.epsilon_m);
 }
 
-/// So many meshes are in one arrangement. What it costs grows with the square of their number, where all of them meet.
-constexpr std::size_t kMostAtOnce = 8;
-
-Arranged combined_at_once(std::span<const LabelledMesh> meshes, bool is_intersection,
-                          const core::ProgressReporter& progress) {
-  std::vector<Weighted> operands;
-  for (const LabelledMesh& mesh : meshes) operands.push_back({&mesh});
-  if (auto arranged = weighing_at_least(operands, is_intersection ? operands.size() : 1, progress)) return *arranged;
-  std::vector<Solid> solids;
-  for (const LabelledMesh& mesh : meshes) solids.push_back(mesh.mesh.empty() ? Solid() : Solid(mesh, "the volume"));
-  const Solid solid = is_intersection ? intersect(solids, progress) : unite(solids, progress);
-  return {solid, solid.epsilon(), 1};
-}
-
-Arranged combined(std::vector<LabelledMesh> meshes, bool is_intersection, const core::ProgressReporter& progress) {
-  double epsilon_m = 0;
-  std::size_t fallbacks = 0;
-  const auto all = static_cast<double>(meshes.size());
-  while (true) {
-    const std::size_t groups = (meshes.size() + kMostAtOnce - 1) / kMostAtOnce;
-    double farthest_m = 0;
-    std::vector<LabelledMesh> next;
-    for (std::size_t g = 0; g < groups; ++g) {
-      const std::size_t begin = meshes.size() * g / groups, end = meshes.size() * (g + 1) / groups;
-      const double left = static_cast<double>(meshes.size()) / all;
-      const Arranged group = combined_at_once({meshes.data() + begin, end - begin}, is_intersection,
-                                              progress.part(1 - left, 1 - left / 2));
-      fallbacks += group.fallbacks;
-      farthest_m = std::max(farthest_m, group.epsilon_m);
-      if (groups == 1 || (is_intersection && group.solid.empty())) {
-        return {group.solid, epsilon_m + farthest_m, fallbacks};
-      }
-      next.push_back(group.solid.to_mesh());
-    }
-    epsilon_m += farthest_m;
-    meshes = std::move(next);
-  }
-}
-
 }  // namespace
 
 std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, std::uint64_t least,
@@ -94,18 +55,10 @@ std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, st
     all.insert(all.end(), triangles[i].begin(), triangles[i].end());
     labelled.labels.resize(all.size(), operands[part.operand].labelled->labels[part.triangle]);
   }
-  if (labelled.mesh.triangles.empty()) return Arranged{{}, surface->epsilon_m, 0};
+  if (labelled.mesh.triangles.empty()) return Arranged{{}, surface->epsilon_m};
   // Two facets may both have been cut along one line that is none of their borders: such an edge has four facets.
   Solid solid(labelled, "an arrangement");
-  return Arranged{simplified(solid), std::max(surface->epsilon_m, solid.epsilon()), 0};
-}
-
-Arranged intersection_of(std::vector<LabelledMesh> meshes, const core::ProgressReporter& progress) {
-  return combined(std::move(meshes), true, progress);
-}
-
-Arranged union_of(std::vector<LabelledMesh> meshes, const core::ProgressReporter& progress) {
-  return combined(std::move(meshes), false, progress);
+  return Arranged{simplified(solid), std::max(surface->epsilon_m, solid.epsilon())};
 }
 
 }  // namespace vantage::internal::solid

@@ -1,11 +1,9 @@
-// Solids out of one arrangement of many: unions, intersections, differences and shares, without a tree of booleans.
+// Solids out of one arrangement of many, without a tree of booleans.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/progress_reporter.h"
 #include "solid/csg.h"
@@ -20,19 +18,13 @@ struct Weighted {
 };
 
 struct Arranged {
-  Solid solid;                ///< a facet has the label of the one that it is a part of
-  double epsilon_m = 0;       ///< as Solid::epsilon(): how far from their surfaces its corners may be
-  std::size_t fallbacks = 0;  ///< arrangements that could not be made
+  Solid solid;           ///< a facet has the label of the one that it is a part of
+  double epsilon_m = 0;  ///< as Solid::epsilon(): how far from their surfaces its corners may be
 };
 
 /// The points whose weights are at least `least` together; what lies in one plane and has one label is joined. nullopt
 /// where an arrangement cannot be made: then booleans have to. See arrangement/arrangement.h.
 std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, std::uint64_t least,
                                           const core::ProgressReporter& progress);
-
-/// What all of the meshes hold, or any one of them: by arrangements of a few at a time, and where one cannot be made by
-/// booleans. There must be one mesh.
-Arranged intersection_of(std::vector<LabelledMesh> meshes, const core::ProgressReporter& progress);
-Arranged union_of(std::vector<LabelledMesh> meshes, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::solid

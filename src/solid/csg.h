@@ -78,13 +78,13 @@ struct BoxLabels {
 /// epsilon(): what follows costs less.
 Solid simplified(const Solid& solid);
 
-/// Triangles of an area in the plane, counter-clockwise, with the numbers that the points of its borders have: corners
-/// of those alone. `rings`: counter-clockwise round the area, clockwise round holes. They may pass through each other
-/// by rounding; each piece of them has one triangle, and any other edge two. Cost: O(n log n) expected.
 struct NumberedPoint {
   Eigen::Vector2d place;
   std::uint32_t number;
 };
+/// Triangles of an area in the plane, counter-clockwise, by the numbers of the points round it. `rings`:
+/// counter-clockwise round the area, clockwise round holes; they may pass through each other by rounding. Each piece of
+/// a ring is a side of one triangle, any other side is one of two. Cost: O(n log n) expected.
 std::vector<Triangle> triangulate(const std::vector<std::vector<NumberedPoint>>& rings, double epsilon);
 
 /// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.

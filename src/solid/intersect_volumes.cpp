@@ -8,9 +8,8 @@
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
-#include "solid/arranged.h"
 #include "solid/clean.h"
-#include "solid/numerics.h"
+#include "solid/outside_limits.h"
 #include "solid/regions.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -20,6 +19,7 @@ namespace {
 
 using internal::solid::FacetSourceList;
 using internal::solid::LabelledMesh;
+using internal::solid::Solid;
 
 using Views = std::vector<std::vector<Target>>;
 
@@ -98,11 +98,10 @@ void make_empty(Outcome outcome, std::string reason, std::string hint, Volume& r
   result.causes.clear();
 }
 
-LabelledMesh labelled_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes,
-                         FacetSourceList& sources) {
+Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes, FacetSourceList& sources) {
   std::vector<std::uint32_t> merged;
   for (const Cause& cause : volume.causes) merged.push_back(causes.add(cause));
-  return internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin);
+  return Solid(internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin), "the volume");
 }
 
 /// What a boolean left of the volumes' solids becomes the result's mesh.
@@ -149,22 +148,25 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   const Vec3 origin = result.frame.origin;
   internal::core::CauseList causes;
   FacetSourceList sources;
-  std::vector<LabelledMesh> meshes;
-  for (const Volume& volume : volumes) meshes.push_back(labelled_of(volume, origin, causes, sources));
+  std::vector<Solid> solids;
+  double sliver = 0, rounding = 0;
+  for (const Volume& volume : volumes) {
+    solids.push_back(solid_of(volume, origin, causes, sources));
+    sliver = std::max(sliver, internal::solid::sliver_thickness(solids.back()));
+    rounding = std::max(rounding, solids.back().epsilon());
+  }
   const internal::core::ProgressReporter progress =
       internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("parts");
-  const internal::solid::Arranged common = internal::solid::intersection_of(std::move(meshes), progress);
-  result.counts.boolean_fallbacks += common.fallbacks;
-  LabelledMesh labelled = common.solid.to_mesh();
-  internal::core::drop_slivers(labelled, internal::solid::numerics::kSliverEpsilons * common.epsilon_m);
+  LabelledMesh labelled = internal::solid::intersect(solids, progress).to_mesh();
+  internal::core::drop_slivers(labelled, sliver);
   if (labelled.mesh.empty()) {
     make_empty(Outcome::no_common_view,
                "no position sees all " + std::to_string(volumes.size()) + " parts of the target",
                "choose a part of the target, or make a volume for each part", result);
     return result;
   }
-  finish(std::move(labelled), origin, common.epsilon_m, volumes, sources, causes, result);
+  finish(std::move(labelled), origin, rounding, volumes, sources, causes, result);
   return result;
 }
 
@@ -189,19 +191,19 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
   const Vec3 origin = first->frame.origin;
   internal::core::CauseList causes;
   FacetSourceList sources;
-  std::vector<LabelledMesh> meshes;
+  std::vector<Solid> solids;
   std::vector<Volume> used;
+  double rounding = 0;
   for (const Volume& volume : volumes) {
     if (!has_volume(volume)) continue;
-    meshes.push_back(labelled_of(volume, origin, causes, sources));
+    solids.push_back(solid_of(volume, origin, causes, sources));
+    rounding = std::max(rounding, solids.back().epsilon());
     used.push_back(volume);
   }
   const internal::core::ProgressReporter progress =
       internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("targets");
-  const internal::solid::Arranged whole = internal::solid::union_of(std::move(meshes), progress);
-  result.counts.boolean_fallbacks += whole.fallbacks;
-  finish(whole.solid.to_mesh(), origin, whole.epsilon_m, used, sources, causes, result);
+  finish(internal::solid::unite(solids, progress).to_mesh(), origin, rounding, used, sources, causes, result);
   return result;
 }
 

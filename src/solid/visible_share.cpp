@@ -135,22 +135,21 @@ class Local {
   FacetSourceList sources_;
 };
 
-/// The positions in the region that miss cells of no more than `budget`.
+/// The positions in the region that miss cells of no more than `budget`. `fallbacks` counts trees of booleans.
 Arranged seen_in(const LabelledMesh& region, const std::vector<LabelledMesh>& volumes,
-                 const std::vector<std::uint64_t>& costs, std::uint64_t budget,
+                 const std::vector<std::uint64_t>& costs, std::uint64_t budget, std::size_t& fallbacks,
                  const core::ProgressReporter& progress) {
   const std::uint64_t all = std::accumulate(costs.begin(), costs.end(), std::uint64_t{0});
   std::vector<Weighted> operands{{&region, all + 1}};
   for (std::size_t i = 0; i < volumes.size(); ++i) operands.push_back({&volumes[i], costs[i]});
-  if (auto arranged = weighing_at_least(operands, all + 1 + all - budget, progress)) {
-    return *arranged;
-  }
+  if (auto arranged = weighing_at_least(operands, all + 1 + all - budget, progress)) return *arranged;
+  ++fallbacks;
   const auto volume_of = [&](std::size_t i) {
     return volumes[i].mesh.empty() ? Solid() : Solid(volumes[i], "the volume of a cell");
   };
-  const Solid whole(region, "the range"), seen = seen_within(costs, budget, volume_of, progress),
-                                          common = intersect(whole, seen, progress.part(1, 1));
-  return {common, std::max(whole.epsilon(), common.epsilon()), 1};
+  const Solid whole(region, "the range"), seen = seen_within(costs, budget, volume_of, progress);
+  const Solid common = intersect(whole, seen, progress.part(1, 1));
+  return {common, std::max(whole.epsilon(), common.epsilon())};
 }
 
 /// Where the whole target is in range and each part is looked at from its front, whatever the scene.
@@ -221,8 +220,8 @@ Volume share_volume(const PreparedTarget& target, const ExactOptions& options, c
     volumes.push_back(volume.outcome == Outcome::computed ? local.labelled(volume, true) : LabelledMesh());
     making.report(i + 1, cells.size());
   }
-  const Arranged seen = seen_in(region, volumes, costs, plan.budget, progress.part(kPartOfCells, 1));
-  result.counts.boolean_fallbacks += seen.fallbacks;
+  const Arranged seen =
+      seen_in(region, volumes, costs, plan.budget, result.counts.boolean_fallbacks, progress.part(kPartOfCells, 1));
   LabelledMesh labelled = seen.solid.to_mesh();
   core::drop_slivers(labelled, numerics::kSliverEpsilons * seen.epsilon_m);
   if (labelled.mesh.empty()) {
