@@ -229,6 +229,27 @@ TEST(Arrangement, NothingAndEverything) {
   EXPECT_NEAR(hollow->solid.volume(), 26, 1e-10);
 }
 
+// Facets of hardly any width have hardly any normal: what is rounded there is larger than the normal.
+TEST(Arrangement, Needles) {
+  Random random(2005);
+  for (const double width : {1e-6, 1e-10, 1e-13, 1e-15}) {
+    for (int round = 0; round < 10; ++round) {
+      std::vector<Mesh> meshes{random_hull(random, 1)};
+      std::vector<Solid> solids{Solid(labelled({meshes[0]})[0])};
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 from = random.point(-2, 2), to = random.point(-2, 2), beside = from + width * random.direction();
+        meshes.push_back(solid::convex_hull(std::vector<Vec3>{from, to, beside, from + random.direction()}));
+        solids.push_back(Solid(labelled({meshes.back()})[0]));
+      }
+      for (const std::uint64_t least : {1u, 2u}) {
+        const auto arranged = at_least(meshes, least);
+        ASSERT_TRUE(arranged) << "width " << width << ", round " << round;
+        EXPECT_NEAR(arranged->solid.volume(), by_booleans(solids, least).volume(), 1e-9) << width << " " << round;
+      }
+    }
+  }
+}
+
 // Facets without an area do no harm: their edges are cut, and nothing passes through them.
 TEST(Arrangement, FacetsWithoutAnArea) {
   Mesh box = make_box_mesh({0, 0, 0}, {4, 4, 4});

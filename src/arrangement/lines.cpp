@@ -68,7 +68,8 @@ Passing Geometry::rounded(std::uint32_t m, std::uint32_t facet) const {
   Passing passing;
   passing.begin = plane.normal.dot(end(m, 0).place - corner);
   passing.end = plane.normal.dot(end(m, 1).place - corner);
-  passing.error = 4 * off_by(m) * plane.normal.cwiseAbs().sum();
+  // No coordinate of a place is farther from one of the corner than twice the largest one.
+  passing.error = 4 * off_by(m) * plane.normal.cwiseAbs().sum() + 8 * plane.off_by * soup_.largest();
   return passing;
 }
 

@@ -44,6 +44,14 @@ class PairTest {
 
   const Vec3& corner(const Facet& facet, std::size_t k) const { return soup_.points()[facet.corners[k]]; }
   int side(const Facet& plane, const Vec3& point) const {
+    // Most corners are far from the plane: the normal is off, and the products and their sum are rounded.
+    constexpr double kRounding = 0x1p-50, kUp = 1 + 0x1p-40;
+    const Vec3 way = point - corner(plane, 0);
+    const double height = plane.normal.dot(way);
+    const double rounding =
+        kUp * (plane.off_by * way.cwiseAbs().sum() + kRounding * plane.normal.cwiseAbs().dot(way.cwiseAbs()));
+    if (height > rounding) return -1;
+    if (height < -rounding) return 1;
     return core::orientation(corner(plane, 0), corner(plane, 1), corner(plane, 2), point);
   }
   Signs sides(const Facet& plane, const Facet& other) const {
@@ -134,10 +142,16 @@ bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::v
           }
           return true;
         };
+        const auto overlaps_facet = [&](std::uint32_t b) {
+          const auto& [p, q, r] = soup.facets()[b].corners;
+          const Vec3 &x = soup.points()[p], &y = soup.points()[q], &z = soup.points()[r];
+          return (x.cwiseMin(y).cwiseMin(z).array() <= box.max.array()).all() &&
+                 (x.cwiseMax(y).cwiseMax(z).array() >= box.min.array()).all();
+        };
         const auto first = static_cast<std::ptrdiff_t>(found.size());
         const bool is_done = core::walk_bvh(soup.bvh(), overlaps, [&](std::uint32_t item) {
           const std::uint32_t b = soup.order()[item];
-          if (b <= a || soup.facets()[b].mesh == soup.facets()[a].mesh) return true;
+          if (b <= a || soup.facets()[b].mesh == soup.facets()[a].mesh || !overlaps_facet(b)) return true;
           const Answer answer = test.meets(a, b);
           if (answer == Answer::yes) found.push_back(test.found());
           return answer != Answer::unknown;

@@ -67,7 +67,7 @@ std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       auto [a, b, c] = mesh.triangles[t];
       if (operands[m].is_complement) std::swap(b, c);
-      soup.facets_.push_back({{first + a, first + b, first + c}, {}, m, false, Vec3::Zero(), t});
+      soup.facets_.push_back({{first + a, first + b, first + c}, {}, m, false, Vec3::Zero(), 0, t});
     }
     if (!soup.add_edges(first_facet)) return std::nullopt;
   }
@@ -78,6 +78,9 @@ std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std
     facet.is_flat = has_no_area(p, q, r);
     const core::BoundedVec3 normal = core::cross(core::bounded_difference(q, p), core::bounded_difference(r, p));
     facet.normal = {normal[0].near(), normal[1].near(), normal[2].near()};
+    constexpr double kRounding = 0x1p-52;
+    facet.off_by = 0;
+    for (const core::Bounded& one : normal) facet.off_by = std::max(facet.off_by, one.error + kRounding * one.size());
   }
   soup.build_bvh();
   return soup;

@@ -34,6 +34,7 @@ struct Facet {
   std::uint32_t mesh;   ///< operand
   bool is_flat;         ///< without any area: nothing passes through it
   Vec3 normal;          ///< of the length of twice its area, rounded
+  double off_by;        ///< no coordinate of the normal is farther off
   std::uint32_t given;  ///< its number in the operand's mesh
 };
 
