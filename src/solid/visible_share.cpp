@@ -26,7 +26,7 @@ namespace {
 
 /// The volumes of cells are computed for a range that is longer by this part, and with facets that are off by half of
 /// that: they matter nowhere within the range of the whole target, to which the result is cut. The fewer facets the
-/// cells have the faster are their booleans.
+/// cells have the faster they are arranged.
 constexpr double kLonger = 0.1;
 constexpr double kLongestRange = 1e9;  // metres; as of sensors
 
@@ -38,7 +38,7 @@ constexpr double kPartOfCells = 0.5;
 
 constexpr double kOneUlp = 0x1p-51;         // of a product with a decimal number that is no binary one
 constexpr double kPlaneRounding = 0x1p-48;  // of coordinates, on the way from the target's frame and back to it
-constexpr double kBehind = 0x1p-40;         // of coordinates: farther than an arrangement moves a cell
+constexpr double kBehind = 0x1p-40;         // of local coordinates: farther than an arrangement at first moves a cell
 constexpr double kAreaRounding = 0x1p-36;   // of the areas of cells, with what their strips have
 
 double area_of(const TargetFrame& frame) {
@@ -108,13 +108,19 @@ class Local {
     for (const Cause& cause : volume.causes) merged.push_back(causes_.add(cause));
     LabelledMesh labelled{volume.mesh, sources_.add(volume, merged)};
     for (Vec3& vertex : labelled.mesh.vertices) vertex = frame_.to_local(vertex);
-    double largest = 0;
-    for (const Vec3& vertex : volume.mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+    const auto largest_of = [](const Mesh& mesh) {
+      double largest = 0;
+      for (const Vec3& vertex : mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+      return largest;
+    };
+    // Walls end in these corners: as far as they move behind the plane the walls may move out.
+    const double rounding = kPlaneRounding * largest_of(volume.mesh),
+                 behind = is_cell ? kBehind * largest_of(labelled.mesh) : 0;
     for (std::size_t t = 0; t < volume.cause_of.size(); ++t) {
       if (volume.causes[volume.cause_of[t]].kind != CauseKind::target_plane) continue;
       for (const std::uint32_t v : volume.mesh.triangles[t]) {
         double& height = labelled.mesh.vertices[v].z();
-        if (std::abs(height) <= kPlaneRounding * largest) height = is_cell ? -kBehind * largest : 0;
+        if (std::abs(height) <= rounding) height = -behind;
       }
     }
     return labelled;
