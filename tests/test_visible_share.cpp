@@ -61,6 +61,7 @@ double seen_beside_plate(const Vec3& p, double width) {
 Volume volume_of(const Scene& scene, const Target& target, const Sensor& sensor) {
   Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, sensor));
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+  EXPECT_EQ(volume.counts.boolean_fallbacks, 0U);
   EXPECT_EQ(first_open_edge(volume.mesh), "");
   EXPECT_EQ(volume.cause_of.size(), volume.mesh.triangles.size());
   EXPECT_EQ(volume.polygon_of.size(), volume.mesh.triangles.size());

@@ -276,10 +276,10 @@ VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progr
 /// and in front of all its parts. Guaranteed from the inside: the parts are cut into convex cells, and from each point
 /// of the result so many of them are seen whole that their area is the share or more. Parts get cells in proportion to
 /// their area, at least one each; what a cell of a part costs is rounded up to an eighth of an average cell. The result
-/// has all that so many whole cells allow but where there are more than 16 of them, or parts: then some of what is
-/// missed is rounded up. It may have several pieces and holes, and is not star-shaped. Where all cells must be seen it
-/// is the volume of the whole target. Where nothing is left, Outcome::no_common_view. Cost: a volume for each cell, and
-/// booleans in proportion to the cells times the root of what may be missed; docs/camera.md has figures.
+/// has all that so many whole cells allow (less where StageCounts::boolean_fallbacks says that booleans stood in, and
+/// there are more than 16 cells). It may have several pieces and holes, and is not star-shaped. Where all cells must be
+/// seen it is the volume of the whole target. Where nothing is left, Outcome::no_common_view. Cost: a volume for each
+/// cell, and an arrangement of these, in which each meets each other one; docs/camera.md has figures.
 ///
 /// Throws as compute_visibility and intersect_volumes do.
 VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOptions& options = {},

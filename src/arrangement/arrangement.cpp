@@ -1,5 +1,6 @@
 #include "arrangement/arrangement.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,8 +14,10 @@ namespace vantage::internal::arrangement {
 namespace {
 
 constexpr int kAttempts = 3;
-/// Operands move by some thousand times what their coordinates are rounded by, less than booleans are off by.
-constexpr double kStep = 0x1p-42;
+/// Operands move by some hundred times what their coordinates are rounded by.
+constexpr double kStep = 0x1p-44;
+/// Where a corner is, between operands as they were given, is at most so many of these away from where it was found.
+constexpr double kFarthestBack = 8;
 
 /// Where nodes are, of the operands as they were given: so nothing leaves their bounds, and where facets of two
 /// operands lie in one plane the result does not leave it. Only where a plane is passed at so small an angle that the
@@ -43,15 +46,20 @@ class Places {
     return passing(soup_.given()[edge.from], soup_.given()[edge.to], meetings_.crossings[crossing].facet,
                    meetings_.crossings[crossing].along);
   }
-  /// Where the way between two places passes through a facet's plane; `along`: what it is between operands that were
-  /// moved.
+  /// Where the way between two places passes through a facet's plane. `along`: where it does between operands that were
+  /// moved. Along a plane these two are far apart, and the second one is as near to the plane.
   Vec3 passing(const Vec3& from, const Vec3& to, std::uint32_t facet, double along) const {
-    constexpr double kClear = 64;
     const auto& [a, b, c] = soup_.facets()[facet].corners;
     const Vec3& corner = soup_.given()[a];
-    const Vec3 normal = (soup_.given()[b] - corner).cross(soup_.given()[c] - corner);
-    const double of_from = normal.dot(from - corner), of_to = normal.dot(to - corner), height = of_from - of_to;
-    if (std::abs(height) > kClear * step_ * normal.norm()) along = std::clamp(of_from / height, 0.0, 1.0);
+    const core::BoundedVec3 normal = core::cross(core::bounded_difference(soup_.given()[b], corner),
+                                                 core::bounded_difference(soup_.given()[c], corner));
+    const core::Bounded of_from = core::dot(normal, core::bounded_difference(from, corner)),
+                        of_to = core::dot(normal, core::bounded_difference(to, corner)), height = of_from - of_to;
+    const double length = (to - from).cwiseAbs().maxCoeff(), farthest = kFarthestBack * step_;
+    if (height.size() > 0 && (of_from.error + height.error) * length <= step_ * height.size()) {
+      const double given = std::clamp(of_from.near() / height.near(), 0.0, 1.0);
+      if (std::abs(given - along) * length <= farthest) along = given;
+    }
     return between(from, to, along);
   }
 
@@ -155,28 +163,26 @@ std::optional<Surface> Border::surface(const Meetings& meetings, const Lines& li
   return surface;
 }
 
-std::optional<Surface> attempt(std::span<const Operand> operands, std::uint64_t least, double step, std::uint32_t seed,
+std::optional<Surface> attempt(const Soup& soup, std::span<const Operand> operands, std::uint64_t least, double step,
                                const core::ProgressReporter& progress) {
-  const auto soup = Soup::of(operands, step, seed);
-  if (!soup) return std::nullopt;
   progress.report(0.1);
-  const auto meetings = find_meetings(*soup, progress);
+  const auto meetings = find_meetings(soup, progress);
   if (!meetings) return std::nullopt;
   progress.report(0.4);
-  const auto lines = find_lines(*soup, *meetings, progress);
+  const auto lines = find_lines(soup, *meetings, progress);
   if (!lines) return std::nullopt;
   progress.report(0.7);
-  const auto subdivision = Subdivision::of(*soup, *meetings, *lines);
+  const auto subdivision = Subdivision::of(soup, *meetings, *lines);
   if (!subdivision) return std::nullopt;
   progress.report(0.8);
-  const auto levels = find_levels(*soup, *subdivision, operands);
+  const auto levels = find_levels(soup, *subdivision, operands);
   if (!levels) return std::nullopt;
   progress.report(0.9);
-  auto surface = Border(*soup, *subdivision, *levels, operands, least).surface(*meetings, *lines, step);
+  auto surface = Border(soup, *subdivision, *levels, operands, least).surface(*meetings, *lines, step);
   if (!surface) return std::nullopt;
-  double off_by = kPlaceRounding * soup->largest();
+  double off_by = kPlaceRounding * soup.largest();
   for (const Crossing& crossing : meetings->crossings) off_by = std::max(off_by, crossing.off_by_m);
-  surface->epsilon_m = 4 * (step + off_by);
+  surface->epsilon_m = (2 * kFarthestBack + 4) * step + 4 * off_by;
   return surface;
 }
 
@@ -192,7 +198,9 @@ std::optional<Surface> weighing_at_least(std::span<const Operand> operands, std:
   progress.spend(facets);
   double step = kStep * largest;
   for (std::uint32_t seed = 1; seed <= kAttempts; ++seed, step *= 4) {
-    if (auto surface = attempt(operands, least, step, seed, progress)) return surface;
+    const auto soup = Soup::of(operands, step, seed);
+    if (!soup) return std::nullopt;
+    if (auto surface = attempt(*soup, operands, least, step, progress)) return surface;
   }
   return std::nullopt;
 }

@@ -92,8 +92,9 @@ Passing Geometry::passing(std::uint32_t m, std::uint32_t facet, bool& is_known) 
   exact.begin = begin.near() / of_begin;
   exact.end = end_height.near() / of_end;
   constexpr double kRounding = 0x1p-48;
+  const double divided = kRounding + 2 * std::max(end(m, 0).along_off_by, end(m, 1).along_off_by);
   const double error = std::max(begin.error / of_begin, end_height.error / of_end) +
-                       kRounding * std::max(std::abs(exact.begin), std::abs(exact.end));
+                       divided * std::max(std::abs(exact.begin), std::abs(exact.end));
   // The signs are certain, whatever the bound says.
   exact.error = std::min({error, std::abs(exact.begin) / 2, std::abs(exact.end) / 2});
   if ((exact.begin > 0) != (exact.end > 0)) place(exact);
@@ -113,7 +114,7 @@ bool Geometry::is_before(std::uint32_t m, std::uint32_t first, std::uint32_t sec
 
 /// Of the triple points on a meeting.
 struct OnMeeting {
-  std::uint32_t meeting, triple, third;  // the facet besides the two of the meeting
+  std::uint32_t triple, third;  // the facet besides the two of the meeting
   double along, off_by;
 };
 
@@ -194,6 +195,7 @@ bool TripleFinder::find(std::uint32_t a, const core::ProgressReporter& progress,
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     progress.tick();
     for (std::size_t k = i + 1; k < boxes.size() && boxes[k].min[axis] <= boxes[i].max[axis]; ++k) {
+      progress.tick();
       if ((boxes[k].min.array() > boxes[i].max.array()).any() || (boxes[k].max.array() < boxes[i].min.array()).any()) {
         continue;
       }
@@ -217,7 +219,7 @@ bool find_triples(const Soup& soup, const TripleFinder& finder, const core::Prog
   std::atomic<bool> is_known = true;
   parallel::for_ranges(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t part = begin; part < end; ++part) {
-      for (std::size_t f = part * kGrain; f < std::min(count, (part + 1) * kGrain) && is_known; ++f) {
+      for (std::size_t f = part * kGrain; f < std::min(count, (part + 1) * kGrain); ++f) {
         if (!finder.find(static_cast<std::uint32_t>(f), progress, parts[part])) is_known = false;
       }
     }
@@ -257,7 +259,7 @@ bool order_on_meetings(const std::vector<TriplePoint>& triples, const Geometry& 
         const std::uint32_t third = triple.facets[triple.meetings[0] == m ? 2 : triple.meetings[1] == m ? 1 : 0];
         const Passing passing = geometry.passing(meeting, third, is_known);
         if (!passing.is_through()) is_known = false;
-        items.push_back({meeting, t, third, passing.along, passing.off_by});
+        items.push_back({t, third, passing.along, passing.off_by});
       }
       sort_along<OnMeeting>(items, [&](const OnMeeting& x, const OnMeeting& y) {
         return geometry.is_before(meeting, x.third, y.third, is_known);
@@ -284,8 +286,9 @@ bool order_on_edges(const Meetings& meetings, Lists& on_edges, std::size_t edges
       if (list.size() < 2) continue;
       items.clear();
       bool is_known = true;
-      constexpr double kRounding = 0x1p-48;
-      for (const std::uint32_t c : list) items.push_back({c, meetings.crossings[c].along, kRounding});
+      for (const std::uint32_t c : list) {
+        items.push_back({c, meetings.crossings[c].along, meetings.crossings[c].along_off_by});
+      }
       sort_along<OnEdge>(items, [&](const OnEdge& x, const OnEdge& y) {
         const Crossing &one = meetings.crossings[x.crossing], &other = meetings.crossings[y.crossing];
         const core::Bounded difference = one.from * other.to - other.from * one.to;

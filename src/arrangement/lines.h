@@ -45,7 +45,8 @@ struct Lines {
 };
 
 /// nullopt where 106 digits do not tell an order. Throws Error(cancelled), and Error(work_too_large): each triple point
-/// counts as a facet. Cost: O(k log k) for k pairs of meetings on one facet whose boxes overlap.
+/// counts as a facet. Cost: O(k) for k pairs of
+/// meetings on one facet that overlap along its longest axis.
 std::optional<Lines> find_lines(const Soup& soup, const Meetings& meetings, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::arrangement

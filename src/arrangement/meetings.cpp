@@ -19,7 +19,6 @@ struct End {
   std::uint32_t edge, facet;
   std::uint32_t meeting;
   bool is_begin;
-  bool edge_goes_out;
 
   std::uint64_t key() const { return std::uint64_t{edge} << 32 | facet; }
 };
@@ -93,8 +92,7 @@ bool PairTest::add_edges(std::uint32_t of, std::uint32_t through, const Signs& s
     const bool leaves = from > 0, is_begin = leaves == is_first;
     int& count = is_begin ? begins_ : ends_;
     if (++count > 1) return false;
-    const bool goes_along = edge.from == facet.corners[k];
-    found_.ends[is_begin ? 0 : 1] = {facet.edges[k], through, kNone, is_begin, leaves == goes_along};
+    found_.ends[is_begin ? 0 : 1] = {facet.edges[k], through, kNone, is_begin};
   }
   return true;
 }
@@ -120,7 +118,8 @@ Answer PairTest::meets(std::uint32_t a, std::uint32_t b) {
   return begins_ == 1 ? Answer::yes : Answer::no;
 }
 
-/// All pairs, by the first facet. False where one is unknown.
+/// All pairs, by the first facet. False where one is unknown; the others are found, and counted, all the same: so what
+/// is counted does not depend on threads.
 bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::vector<Found>& all) {
   constexpr std::size_t kGrain = 256;
   const std::size_t count = soup.facets().size();
@@ -149,15 +148,13 @@ bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::v
                  (x.cwiseMax(y).cwiseMax(z).array() >= box.min.array()).all();
         };
         const auto first = static_cast<std::ptrdiff_t>(found.size());
-        const bool is_done = core::walk_bvh(soup.bvh(), overlaps, [&](std::uint32_t item) {
+        core::walk_bvh(soup.bvh(), overlaps, [&](std::uint32_t item) {
           const std::uint32_t b = soup.order()[item];
-          if (b <= a || soup.facets()[b].mesh == soup.facets()[a].mesh || !overlaps_facet(b)) return true;
+          if (b <= a || soup.facets()[b].mesh == soup.facets()[a].mesh || !overlaps_facet(b)) return;
           const Answer answer = test.meets(a, b);
           if (answer == Answer::yes) found.push_back(test.found());
-          return answer != Answer::unknown;
+          if (answer == Answer::unknown) is_known = false;
         });
-        if (!is_done) is_known = false;
-        if (!is_known) return;
         std::sort(found.begin() + first, found.end(), [](const Found& x, const Found& y) { return x.b < y.b; });
         progress.spend(static_cast<double>(found.size() - static_cast<std::size_t>(first)));
       }
@@ -182,8 +179,9 @@ bool place_crossing(const Soup& soup, Crossing& crossing) {
   crossing.place = crossing.along <= 0.5 ? Vec3(from + crossing.along * (to - from))
                                          : Vec3(to + crossing.to.size() / height * (from - to));
   // Heights beyond a needle of a facet, which has hardly any normal, have lost digits.
-  const double lost = (crossing.from.error + crossing.to.error) / height * (to - from).cwiseAbs().maxCoeff();
-  crossing.off_by_m = kPlaceRounding * soup.largest() + 2 * lost;
+  constexpr double kRounding = 0x1p-50;
+  crossing.along_off_by = kRounding + 2 * (crossing.from.error + crossing.to.error) / height;
+  crossing.off_by_m = kPlaceRounding * soup.largest() + crossing.along_off_by * (to - from).cwiseAbs().maxCoeff();
   return crossing.off_by_m <= kFarthestOff * soup.largest();
 }
 
@@ -211,7 +209,6 @@ std::optional<Meetings> find_meetings(const Soup& soup, const core::ProgressRepo
     Crossing& crossing = result.crossings.emplace_back();
     crossing.edge = ends[i].edge;
     crossing.facet = ends[i].facet;
-    crossing.goes_out = ends[i].edge_goes_out;
     const Edge& edge = soup.edges()[crossing.edge];
     for (std::size_t k = 0; k < 2; ++k) {
       const End& end = ends[i + k];

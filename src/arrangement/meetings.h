@@ -16,8 +16,8 @@ constexpr double kPlaceRounding = 0x1p-48;
 /// Where an edge passes through a facet of another mesh.
 struct Crossing {
   std::uint32_t edge, facet;
-  bool goes_out;           ///< along the edge's direction the facet's operand is left
   double along;            ///< part of the edge, from its `from`
+  double along_off_by;     ///< that part is no farther off
   Vec3 place;              ///< rounded
   double off_by_m;         ///< no coordinate of that place is farther off
   core::Bounded from, to;  ///< heights of the edge's ends beyond the facet

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <span>
 #include <utility>
 
+#include "core/edges.h"
 #include "core/exact_crossing.h"
 #include "core/orientation.h"
 #include "core/walk_bvh.h"
@@ -45,13 +46,6 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return true;
 }
 
-/// A half of an edge.
-struct Half {
-  std::uint32_t low, high;  // points
-  bool is_back;             // from high to low
-  std::uint32_t facet, side;
-};
-
 }  // namespace
 
 std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std::uint32_t seed) {
@@ -63,7 +57,7 @@ std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std
     const auto first = static_cast<std::uint32_t>(soup.points_.size());
     soup.given_.insert(soup.given_.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const Vec3& vertex : mesh.vertices) soup.points_.push_back(vertex + move);
-    const std::size_t first_facet = soup.facets_.size();
+    const auto first_facet = static_cast<std::uint32_t>(soup.facets_.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       auto [a, b, c] = mesh.triangles[t];
       if (operands[m].is_complement) std::swap(b, c);
@@ -86,32 +80,25 @@ std::optional<Soup> Soup::of(std::span<const Operand> operands, double step, std
   return soup;
 }
 
-bool Soup::add_edges(std::size_t first_facet) {
-  std::vector<Half> halves;
-  halves.reserve(3 * (facets_.size() - first_facet));
-  for (std::size_t f = first_facet; f < facets_.size(); ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = facets_[f].corners[k], to = facets_[f].corners[(k + 1) % 3];
-      if (from == to) return false;
-      halves.push_back({std::min(from, to), std::max(from, to), from > to, static_cast<std::uint32_t>(f), k});
+bool Soup::add_edges(std::uint32_t first_facet) {
+  std::vector<Triangle> triangles;
+  for (std::size_t f = first_facet; f < facets_.size(); ++f) triangles.push_back(facets_[f].corners);
+  const std::vector<core::EdgeUse> uses = core::edge_uses(triangles, points_.size());
+  bool is_closed = true;
+  core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
+    if (edge.size() != 2 || edge[0].low == edge[0].high || edge[0].forward == edge[1].forward) {
+      is_closed = false;
+      return;
     }
-  }
-  std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) {
-    return std::tie(a.low, a.high, a.is_back, a.facet) < std::tie(b.low, b.high, b.is_back, b.facet);
+    const bool first_is_forward = edge[0].forward;
+    const std::uint32_t forth = first_facet + edge[first_is_forward ? 0 : 1].triangle,
+                        back = first_facet + edge[first_is_forward ? 1 : 0].triangle;
+    const auto number = static_cast<std::uint32_t>(edges_.size());
+    edges_.push_back({edge[0].low, edge[0].high, {forth, back}});
+    facets_[forth].edges[facets_[forth].corner_of(edge[0].low)] = number;
+    facets_[back].edges[facets_[back].corner_of(edge[0].high)] = number;
   });
-  const auto is_same = [](const Half& a, const Half& b) { return a.low == b.low && a.high == b.high; };
-  for (std::size_t i = 0; i < halves.size(); i += 2) {
-    const Half& forth = halves[i];
-    if (i + 1 == halves.size() || !is_same(forth, halves[i + 1]) || forth.is_back || !halves[i + 1].is_back) {
-      return false;
-    }
-    if (i + 2 < halves.size() && is_same(forth, halves[i + 2])) return false;
-    const Half& back = halves[i + 1];
-    const auto edge = static_cast<std::uint32_t>(edges_.size());
-    edges_.push_back({forth.low, forth.high, {forth.facet, back.facet}});
-    facets_[forth.facet].edges[forth.side] = facets_[back.facet].edges[back.side] = edge;
-  }
-  return true;
+  return is_closed;
 }
 
 void Soup::build_bvh() {

@@ -36,6 +36,8 @@ struct Facet {
   Vec3 normal;          ///< of the length of twice its area, rounded
   double off_by;        ///< no coordinate of the normal is farther off
   std::uint32_t given;  ///< its number in the operand's mesh
+
+  unsigned corner_of(std::uint32_t point) const { return corners[0] == point ? 0 : corners[1] == point ? 1 : 2; }
 };
 
 /// Facets are numbered through, operand by operand; those of a complement are turned round. Each operand but the first
@@ -65,7 +67,7 @@ class Soup {
                                         std::span<const Operand> operands) const;
 
  private:
-  bool add_edges(std::size_t first_facet);
+  bool add_edges(std::uint32_t first_facet);
   void build_bvh();
 
   std::vector<Vec3> points_, given_;

@@ -67,10 +67,11 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   /// same every time, on any machine, if the callers count the same. Without a limit it does nothing.
   void spend(double work) const {
     if (!limit_) return;
-    check_work(work);
-    // Not all libraries have += of an atomic double.
-    for (double done = limit_->done; !limit_->done.compare_exchange_weak(done, done + work);) {
-    }
+    // Each try asks anew: what other threads have counted since counts, too. Not all libraries have += of an atomic
+    // double.
+    double done = limit_->done;
+    do check_work(work);
+    while (!limit_->done.compare_exchange_weak(done, done + work));
   }
   /// What was counted so far; 0 without a limit.
   double spent() const { return limit_ ? limit_->done.load() : 0; }

@@ -6,6 +6,7 @@
 
 #include "arrangement/arrangement.h"
 #include "core/parallel.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -57,8 +58,13 @@ std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, st
   }
   if (labelled.mesh.triangles.empty()) return Arranged{{}, surface->epsilon_m};
   // Two facets may both have been cut along one line that is none of their borders: such an edge has four facets.
-  Solid solid(labelled, "an arrangement");
-  return Arranged{simplified(solid), std::max(surface->epsilon_m, solid.epsilon())};
+  try {
+    const Solid solid(labelled, "an arrangement");
+    return Arranged{simplified(solid), std::max(surface->epsilon_m, solid.epsilon())};
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::mesh_not_closed) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace vantage::internal::solid

@@ -8,8 +8,8 @@
 namespace vantage::internal::solid {
 namespace {
 
-/// Booleans grow with the square of the levels, and so do the facets of what they leave: 16 cells take seconds in a
-/// city, and 64 a minute. Up to 16 cells of one cost nothing is rounded: below the root no node has more.
+/// Booleans grow with the square of the levels, and so do the facets of what they leave. Up to 16 cells of one cost
+/// nothing is rounded: below the root no node has more.
 constexpr std::uint64_t kMostLevels = 8;
 
 /// A level whose solid is larger than that of the one before by no more than this part of it is left out.

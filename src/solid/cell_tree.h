@@ -1,4 +1,5 @@
 // Which positions miss how much of a target that is cut into cells: unions and intersections of the cells' volumes.
+// This is where an arrangement (arranged.h) cannot be made.
 #pragma once
 
 #include <cstddef>

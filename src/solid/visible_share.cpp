@@ -38,7 +38,7 @@ constexpr double kPartOfCells = 0.5;
 
 constexpr double kOneUlp = 0x1p-51;         // of a product with a decimal number that is no binary one
 constexpr double kPlaneRounding = 0x1p-48;  // of coordinates, on the way from the target's frame and back to it
-constexpr double kBehind = 0x1p-40;         // of local coordinates: farther than an arrangement at first moves a cell
+constexpr double kBehind = 0x1p-42;         // of a cell's range: farther than an arrangement at first moves the cell
 constexpr double kAreaRounding = 0x1p-36;   // of the areas of cells, with what their strips have
 
 double area_of(const TargetFrame& frame) {
@@ -101,26 +101,21 @@ class Local {
  public:
   explicit Local(const TargetFrame& frame) : frame_(frame) {}
 
-  /// Corners of the target's plane that rounding has moved out of it are put back; those of a cell a little behind it,
-  /// so that only the region's facet in that plane counts. Other parts have other planes.
-  LabelledMesh labelled(const Volume& volume, bool is_cell) {
+  /// Corners of the target's plane that rounding has moved out of it are put back, or a little behind it: so that of
+  /// several volumes only one has its facet there. Walls end in these corners, and move out by as much at most. Other
+  /// parts have other planes.
+  LabelledMesh labelled(const Volume& volume, double behind_m) {
     std::vector<std::uint32_t> merged;
     for (const Cause& cause : volume.causes) merged.push_back(causes_.add(cause));
     LabelledMesh labelled{volume.mesh, sources_.add(volume, merged)};
     for (Vec3& vertex : labelled.mesh.vertices) vertex = frame_.to_local(vertex);
-    const auto largest_of = [](const Mesh& mesh) {
-      double largest = 0;
-      for (const Vec3& vertex : mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
-      return largest;
-    };
-    // Walls end in these corners: as far as they move behind the plane the walls may move out.
-    const double rounding = kPlaneRounding * largest_of(volume.mesh),
-                 behind = is_cell ? kBehind * largest_of(labelled.mesh) : 0;
+    double largest = 0;
+    for (const Vec3& vertex : volume.mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
     for (std::size_t t = 0; t < volume.cause_of.size(); ++t) {
       if (volume.causes[volume.cause_of[t]].kind != CauseKind::target_plane) continue;
       for (const std::uint32_t v : volume.mesh.triangles[t]) {
         double& height = labelled.mesh.vertices[v].z();
-        if (std::abs(height) <= rounding) height = -behind;
+        if (std::abs(height) <= kPlaneRounding * largest) height = -behind_m;
       }
     }
     return labelled;
@@ -213,7 +208,7 @@ Volume share_volume(const PreparedTarget& target, const ExactOptions& options, c
     costs.resize(cells.size(), plan.costs[part]);
   }
   Local local(target.frame());
-  const LabelledMesh region = local.labelled(result, false);
+  const LabelledMesh region = local.labelled(result, 0);
   const core::ProgressReporter making = progress.part(0, kPartOfCells);
   const Progress ask = [&](std::string_view, double) {
     making.check();
@@ -223,7 +218,7 @@ Volume share_volume(const PreparedTarget& target, const ExactOptions& options, c
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Volume volume = compute_visibility(cells[i], coarse, callback ? ask : Progress());
     add_counts(volume.counts, result.counts);
-    volumes.push_back(volume.outcome == Outcome::computed ? local.labelled(volume, true) : LabelledMesh());
+    volumes.push_back(volume.outcome == Outcome::computed ? local.labelled(volume, kBehind * longer) : LabelledMesh());
     making.report(i + 1, cells.size());
   }
   const Arranged seen =

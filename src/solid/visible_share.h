@@ -13,7 +13,7 @@ bool has_share(const PreparedTarget& target);
 
 /// What sees at least the share of the target that its sensor asks, within the range of all of it and in front of all
 /// its parts. The target has a share. Guaranteed from the inside: from each point so many of the cells are seen whole.
-/// Cost: a volume for each cell, and an arrangement of these, which grows with the square of their number and more.
+/// Cost: a volume for each cell, and an arrangement of these, in which each meets each other one.
 Volume share_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress);
 
 }  // namespace vantage::internal::solid
