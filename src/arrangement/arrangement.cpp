@@ -19,9 +19,9 @@ constexpr double kStep = 0x1p-44;
 /// Where a corner is, between operands as they were given, is at most so many of these away from where it was found.
 constexpr double kFarthestBack = 8;
 
-/// Where nodes are, of the operands as they were given: so nothing leaves their bounds, and where facets of two
-/// operands lie in one plane the result does not leave it. Only where a plane is passed at so small an angle that the
-/// moves count is the place the one between operands that were moved.
+/// Where nodes are, of the operands as they were given: so nothing leaves their bounds. Only where a plane is passed at
+/// so small an angle that the moves count is the place the one between operands that were moved. In the plane of a
+/// facet across an axis it lies exactly.
 class Places {
  public:
   Places(const Soup& soup, const Meetings& meetings, const Lines& lines, double step)
@@ -60,7 +60,12 @@ class Places {
       const double given = std::clamp(of_from.near() / height.near(), 0.0, 1.0);
       if (std::abs(given - along) * length <= farthest) along = given;
     }
-    return between(from, to, along);
+    Vec3 place = between(from, to, along);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double level = corner[axis];
+      if (soup_.given()[b][axis] == level && soup_.given()[c][axis] == level) place[axis] = level;
+    }
+    return place;
   }
 
   const Soup& soup_;

@@ -26,7 +26,7 @@ struct Surface {
   std::vector<std::vector<std::uint32_t>> rings;
   /// Each point lies no farther than this from the planes of the facets that meet there, and from what they have in
   /// common where they do not meet at a small angle. Corners of operands are where they were given; no point lies
-  /// outside of all operands' bounds.
+  /// outside of all operands' bounds, and what lies on a facet across an axis has its coordinate.
   double epsilon_m = 0;
 };
 
