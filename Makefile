@@ -40,8 +40,8 @@ build: prepare  ## the program, at build/bin/vantage
 	@$(call compile,release,vantage_cli)
 
 .PHONY: test
-test: tested  ## build and run all tests
-	ctest --preset release --parallel $(JOBS)
+test: tested  ## build and run all tests but those that `make nightly` adds
+	ctest --preset release --parallel $(JOBS) --label-exclude nightly
 
 .PHONY: check
 check: tested tools  ## before a commit: build, unit tests, format, and lint of what changed
@@ -70,9 +70,11 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, static builds, attack
+nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
+	@$(MAKE) --no-print-directory tsan wheelcheck
+	ctest --preset release --parallel $(JOBS) --label-regex nightly
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
 	build-asan/bin/vantage_attack --meshes 500 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
@@ -100,11 +102,12 @@ install: build  ## into PREFIX (/usr/local)
 format: tools  ## format our sources in place
 	@scripts/format.sh
 
+# Few files are checked soonest one by one, all of them as they are joined.
 .PHONY: lint
-lint: tools  ## formatting, and clang-tidy over the library and the program (ALL=1: tests and benchmarks too)
-	@$(call configure,release)
+lint: tools  ## formatting, and clang-tidy over what recent commits changed (ALL=1: over everything)
+	@$(call configure,release,$(if $(ALL),,-B build-lint -DVANTAGE_JOIN_SOURCES=OFF))
 	@status=0; scripts/format.sh --check || status=1; \
-	  JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--library) || status=1; exit $$status
+	  BUILD=build$(if $(ALL),,-lint) JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--recent) || status=1; exit $$status
 
 .PHONY: python
 python: package  ## build the Python package in build/python, and run its tests

@@ -3,6 +3,7 @@
 #   scripts/lint.sh              all sources
 #   scripts/lint.sh --library    those of the libraries, the program and the Python package, where it is built
 #   scripts/lint.sh --changed    those that differ from the branch main
+#   scripts/lint.sh --recent     those that the last 25 commits changed (all, where the history is shorter)
 #   scripts/lint.sh FILE...      these
 # Needs the compile commands of a build (make build; BUILD: its folder). JOBS: how many at once. What was found clean is not
 # checked again until it, something that it includes, the rules or clang-tidy change (kept in ~/.cache/vantage-lint;
@@ -22,6 +23,11 @@ case "${1:-}" in
   --changed)
     list=$(git diff --name-only main && git ls-files --others --exclude-standard)
     list=$(grep -E '^(src|python|bench|tests)/.*\.cpp$' <<<"$list" | sort -u) || true
+    ;;
+  --recent)
+    if first=$(git rev-parse --quiet --verify HEAD~25); then list=$(git diff --name-only --diff-filter=d "$first")
+    else list=$(git ls-files); fi
+    list=$(grep -E '^(src|python)/.*\.cpp$' <<<"$list") || true
     ;;
   *) list=$(printf '%s\n' "$@") ;;
 esac
@@ -47,7 +53,7 @@ while read -r file; do
 done <<<"$list"
 mapfile -t compiled < <(printf '%s\n' "${!chosen[@]}" | sort)
 if [ ${#sources[@]} -eq 0 ]; then
-  if [ "${1:-}" = --changed ] && [ ${#known[@]} -gt 0 ]; then
+  if [[ "${1:-}" =~ ^--(changed|recent)$ ]] && [ ${#known[@]} -gt 0 ]; then
     echo "lint: nothing to check"
     exit 0
   fi

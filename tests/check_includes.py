@@ -53,8 +53,8 @@ MODULES = {
     "target": ["core", "request", "scene"],
     "sensor": ["core"],
     "arrangement": ["core"],
-    "solid": ["core", "sensor", "arrangement"],
     "exact": ["core", "scene", "target"],
+    "solid": ["core", "sensor", "arrangement", "exact"],
     "query": ["core", "scene", "target", "sensor", "exact"],
     # What missions need of other libraries: these register it (enable_maps, enable_spheres).
     "app/providers": ["core", "geo"],

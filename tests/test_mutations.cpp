@@ -63,7 +63,8 @@ Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation =
   for (std::uint32_t i = 0; i < blockers.count(); ++i) tree.insert(i);
   const CurveSampling sampling{kTolerance * 0.5, std::sqrt(8 * kRange * kTolerance)};
   const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, grid, progress);
-  Mesh mesh = triangulate_boundary(skeleton, blockers, tree, range, grid, kTolerance, progress).mesh;
+  const Envelope envelope{blockers, tree, range, nullptr, kTolerance, progress};
+  Mesh mesh = triangulate_boundary({skeleton, nullptr}, envelope, grid)->mesh;
   for (Vec3& v : mesh.vertices) v = frame.to_scene(v);
   return mesh;
 }

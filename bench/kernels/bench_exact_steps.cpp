@@ -59,8 +59,8 @@ void run_steps(const PreparedScene& scene, const TargetFrame& frame, const Exact
                                       std::sqrt(8 * range.radius() * options.tolerance_m)};
   const exact::Skeleton skeleton = exact::trace_envelope(blockers, tree, range, sampling, grid, progress);
   laps.end("envelope_ms");
-  benchmark::DoNotOptimize(
-      exact::triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, progress));
+  benchmark::DoNotOptimize(*exact::triangulate_boundary(
+      {skeleton, nullptr}, {blockers, tree, range, nullptr, options.tolerance_m, progress}, grid));
   laps.end("triangulation_ms");
 }
 

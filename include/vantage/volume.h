@@ -65,7 +65,7 @@ struct StageCounts {
   std::size_t visible_blockers = 0;    ///< blockers that bound the volume somewhere
   std::size_t visible_facets = 0;      ///< facets of those
   std::size_t constraint_edges = 0;    ///< edges handed to the triangulation
-  std::size_t boolean_fallbacks = 0;   ///< arrangements of solids that booleans had to stand in for
+  std::size_t boolean_fallbacks = 0;   ///< arrangements, and limits in the chart, that booleans had to stand in for
 };
 
 /// `total` may be more than the sum: the program counts from its start, and the reading of the mission under `read`.

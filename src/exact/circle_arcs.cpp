@@ -66,6 +66,18 @@ void CircleArcs::subtract_blocker(std::span<const Plane> planes, bool owns_ties)
   for (const Interval& part : hidden_.parts()) parts_.subtract(part.begin, part.end);
 }
 
+void CircleArcs::subtract_body(std::span<const Plane> planes) {
+  const double size = circle_.centre.norm() + circle_.radius;
+  hidden_ = parts_;
+  for (const Plane& plane : planes) {
+    const Wave wave = wave_of(-plane, -1);
+    const Cut found = cut(wave, tie_margin(plane, size));
+    if (found == Cut::some) subtract_below(wave, hidden_);
+    if (found == Cut::none || hidden_.empty()) return;
+  }
+  for (const Interval& part : hidden_.parts()) parts_.subtract(part.begin, part.end);
+}
+
 // Whether the circle lies wholly on the near side of one of the planes: told without an angle.
 bool CircleArcs::is_clear_of(std::span<const Plane> planes, double size) const {
   return std::ranges::any_of(planes, [&](const Plane& plane) {

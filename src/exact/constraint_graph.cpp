@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace vantage::internal::exact {
 namespace {
@@ -15,45 +17,104 @@ double turn_of(const OctahedralPoint& p) {
 
 }  // namespace
 
-ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, OctahedralGrid& grid, const IsRange& is_range, double snap)
-    : grid_(grid), snap_(snap), snapper_(2 * skeleton.planar.size() + 16 * skeleton.curved.size() + 1024, snap) {
+ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, const FloorSkeleton* floor, OctahedralGrid& grid,
+                                 const IsRange& is_range, double snap)
+    : grid_(grid),
+      snap_(snap),
+      has_floor_(floor != nullptr),
+      snapper_(2 * skeleton.planar.size() + 16 * skeleton.curved.size() + 1024, snap) {
   for (const OctahedralPoint& corner : {OctahedralPoint(0, 0), OctahedralPoint(1, 0), OctahedralPoint(0, 1),
                                         OctahedralPoint(-1, 0), OctahedralPoint(0, -1)})
-    snapper_.add(corner);
+    note(snapper_.add(corner), kBoth);
   at_node_.assign(points().size(), true);
   nodes_.assign(static_cast<std::size_t>(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
   node(0, 0) = 0;
+  if (floor) add_floor(*floor);
   add_creases(skeleton);
   grid_.settle(is_range);
   add_border();
   add_fill(is_range);
-  add_axes();
+  add_axes(Sheet::envelope);
+  if (floor) add_axes(Sheet::floor);
   add_horizon();
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  for (std::vector<Edge>& edges : edges_) {
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  }
+  keep_one_sided_rim();
   at_node_.resize(points().size());
   crease_gauges_.resize(points().size());
+  floor_gauges_.resize(points().size(), std::numeric_limits<double>::infinity());
 }
 
-void ConstraintGraph::add_edge(std::uint32_t a, std::uint32_t b) {
-  if (a != b) edges_.emplace_back(std::min(a, b), std::max(a, b));
+void ConstraintGraph::note(std::uint32_t vertex, Sheets sheets) {
+  if (sheets_.size() <= vertex) sheets_.resize(vertex + 1);
+  sheets_[vertex] |= sheets;
+}
+
+void ConstraintGraph::add_edge(std::uint32_t a, std::uint32_t b, Sheets sheets) {
+  if (a == b) return;
+  for (const Sheet sheet : {Sheet::envelope, Sheet::floor}) {
+    if ((sheets & bit(sheet)) != 0)
+      edges_[static_cast<std::size_t>(sheet)].emplace_back(std::min(a, b), std::max(a, b));
+  }
 }
 
 void ConstraintGraph::add_creases(const Skeleton& skeleton) {
-  for (const Skeleton::Edge& edge : skeleton.planar) add_crease(edge.from, edge.to, false);
-  for (const auto& line : skeleton.curved)
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i], line[i + 1], true);
+  for (const Skeleton::Edge& edge : skeleton.planar) add_crease(edge.from, edge.to, false, bit(Sheet::envelope));
+  for (const Skeleton::Curve& curve : skeleton.curved) {
+    const std::vector<Vec3>& line = curve.points;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i], line[i + 1], true, bit(Sheet::envelope));
+  }
 }
 
-std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const OctahedralPoint& on_map) {
+// The rim first: what else ends there is snapped to it.
+void ConstraintGraph::add_floor(const FloorSkeleton& floor) {
+  for (const Skeleton::Edge& edge : floor.rim) add_crease(edge.from, edge.to, true, kBoth);
+  for (const Skeleton::Curve& curve : floor.curved_rim) {
+    const std::vector<Vec3>& line = curve.points;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i + 1], line[i], true, kBoth);
+  }
+  for (const Skeleton::Edge& edge : floor.creases) add_crease(edge.from, edge.to, false, bit(Sheet::floor));
+  // Both sheets have the same points at the horizon, and cells that are cut in two have theirs at nodes alone.
+  for (std::uint32_t v = 0; v < points().size(); ++v) {
+    if (on_horizon(v)) grid_.mark(points()[v], points()[v], snap_);
+  }
+}
+
+// Of surfaces that end at one line there may be several. Where some end at it from the one side and some from the other
+// there is nothing between them.
+void ConstraintGraph::keep_one_sided_rim() {
+  const auto is_before = [](const Edge& x, const Edge& y) {
+    return std::minmax(x.first, x.second) < std::minmax(y.first, y.second);
+  };
+  std::sort(rim_.begin(), rim_.end(), is_before);
+  std::vector<Edge> kept;
+  for (std::size_t i = 0; i < rim_.size();) {
+    std::size_t end = i, forward = 0;
+    for (; end < rim_.size() && !is_before(rim_[i], rim_[end]); ++end) forward += rim_[end].first < rim_[end].second;
+    if (forward == 0 || forward == end - i) kept.push_back(std::minmax(rim_[i].first, rim_[i].second));
+    i = end;
+  }
+  rim_ = std::move(kept);
+}
+
+std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const OctahedralPoint& on_map, Sheets sheets) {
   const std::uint32_t vertex = snapper_.add(on_map);
-  if (crease_gauges_.size() <= vertex) crease_gauges_.resize(vertex + 1);
-  crease_gauges_[vertex] = std::max(crease_gauges_[vertex], 1 / point.lpNorm<1>());
+  note(vertex, sheets);
+  const double gauge = 1 / point.lpNorm<1>();
+  if ((sheets & bit(Sheet::envelope)) != 0) {
+    if (crease_gauges_.size() <= vertex) crease_gauges_.resize(vertex + 1);
+    crease_gauges_[vertex] = std::max(crease_gauges_[vertex], gauge);
+  } else {
+    if (floor_gauges_.size() <= vertex) floor_gauges_.resize(vertex + 1, std::numeric_limits<double>::infinity());
+    floor_gauges_[vertex] = std::min(floor_gauges_[vertex], gauge);
+  }
   return vertex;
 }
 
 // A straight line in space is straight in the octahedral map but for bends where it crosses the planes x = 0 and y = 0.
-void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_sphere) {
+void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool is_marked, Sheets sheets) {
   std::array<double, 4> stops{0, 1, 1, 1};
   int count = 1;
   for (int axis = 0; axis < 2; ++axis) {
@@ -63,13 +124,14 @@ void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_spher
   if (count == 3 && stops[2] < stops[1]) std::swap(stops[1], stops[2]);
   stops[count] = 1;
   OctahedralPoint previous = to_octahedral(from);
-  std::uint32_t vertex = add_crease_point(from, previous);
+  std::uint32_t vertex = add_crease_point(from, previous, sheets);
   for (int i = 1; i <= count; ++i) {
     const Vec3 stop = stops[i] == 1 ? to : Vec3(from + stops[i] * (to - from));
     const OctahedralPoint next = to_octahedral(stop);
-    const std::uint32_t next_vertex = add_crease_point(stop, next);
-    add_edge(vertex, next_vertex);
-    if (on_sphere) grid_.mark(previous, next, snap_);
+    const std::uint32_t next_vertex = add_crease_point(stop, next, sheets);
+    add_edge(vertex, next_vertex, sheets);
+    if (sheets == kBoth && vertex != next_vertex) rim_.emplace_back(vertex, next_vertex);
+    if (is_marked) grid_.mark(previous, next, snap_);
     previous = next;
     vertex = next_vertex;
   }
@@ -79,6 +141,7 @@ std::uint32_t ConstraintGraph::vertex_at(int i, int j) {
   std::uint32_t& slot = node(i, j);
   if (slot == kNone) {
     slot = snapper_.add(grid_.node(i, j));
+    note(slot, bit(Sheet::envelope));
     if (at_node_.size() <= slot) at_node_.resize(slot + 1);
     at_node_[slot] = true;
   }
@@ -101,7 +164,8 @@ void ConstraintGraph::add_border() {
     for (const OctahedralGrid::Run& run : grid_.range_runs(j)) {
       if (run.begin > -width) add_grid_edge({run.begin, j}, {run.begin, j + 1});
       if (run.end < width) add_grid_edge({run.end, j}, {run.end, j + 1});
-      for (int i : {run.begin, run.end - 1}) {
+      // Those of a floor meet its own at all nodes.
+      for (int i = run.begin; i < run.end; i = has_floor_ || i == run.end - 1 ? i + 1 : run.end - 1) {
         if (grid_.at_horizon(i, j)) {
           const OctahedralGrid::Corners c = OctahedralGrid::corners(i, j);
           vertex_at(c.a1, c.b0);
@@ -136,14 +200,14 @@ void ConstraintGraph::add_fill(const IsRange& is_range) {
 }
 
 // Triangles must not pass over the axes, where the octahedral map bends.
-void ConstraintGraph::add_axes() {
+void ConstraintGraph::add_axes(Sheet sheet) {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<std::uint32_t> on_axis;
     for (std::uint32_t v = 0; v < points().size(); ++v)
-      if (points()[v][1 - axis] == 0) on_axis.push_back(v);
+      if (points()[v][1 - axis] == 0 && is_of(sheet, v)) on_axis.push_back(v);
     std::sort(on_axis.begin(), on_axis.end(),
               [&](std::uint32_t a, std::uint32_t b) { return points()[a][axis] < points()[b][axis]; });
-    for (std::size_t k = 0; k + 1 < on_axis.size(); ++k) add_edge(on_axis[k], on_axis[k + 1]);
+    for (std::size_t k = 0; k + 1 < on_axis.size(); ++k) add_edge(on_axis[k], on_axis[k + 1], bit(sheet));
   }
 }
 
@@ -153,7 +217,10 @@ void ConstraintGraph::add_horizon() {
     if (on_horizon(v)) horizon.push_back(v);
   std::sort(horizon.begin(), horizon.end(),
             [&](std::uint32_t a, std::uint32_t b) { return turn_of(points()[a]) < turn_of(points()[b]); });
-  for (std::size_t k = 0; k < horizon.size(); ++k) add_edge(horizon[k], horizon[(k + 1) % horizon.size()]);
+  for (std::size_t k = 0; k < horizon.size(); ++k) {
+    note(horizon[k], kBoth);
+    add_edge(horizon[k], horizon[(k + 1) % horizon.size()], kBoth);
+  }
 }
 
 }  // namespace vantage::internal::exact

@@ -9,6 +9,7 @@
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "exact/half_space_volume.h"
+#include "exact/limited_visibility.h"
 #include "exact/link_scene.h"
 #include "target/lengths.h"
 #include "target/prepared_target_data.h"
@@ -33,18 +34,8 @@ void check(const PreparedTarget& target, const ExactOptions& options) {
   }
 }
 
-/// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
-void fill_volume(HalfSpaceVolume side, const TargetFrame& frame, double max_range, Volume& volume,
-                 const std::string& what, const std::string& hint) {
+void set_mesh(HalfSpaceVolume side, const TargetFrame& frame, Volume& volume) {
   volume.counts = side.counts;
-  const double near = internal::target::min_useful_depth(max_range);
-  if (side.blocked_within(near)) {
-    volume.outcome = Outcome::blocked_at_once;
-    volume.reason =
-        '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + internal::core::metres_text(near);
-    volume.hint = hint;
-    return;
-  }
   std::vector<std::uint32_t> facets(side.cause_of.size());
   std::iota(facets.begin(), facets.end(), 0u);
   internal::core::LabelledMesh labelled{std::move(side.mesh), std::move(facets)};
@@ -57,6 +48,18 @@ void fill_volume(HalfSpaceVolume side, const TargetFrame& frame, double max_rang
     volume.polygon_of.push_back(side.polygon_of[facet]);
   }
   volume.causes = std::move(side.causes);
+}
+
+/// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
+void fill_volume(HalfSpaceVolume side, const TargetFrame& frame, double max_range, Volume& volume,
+                 const std::string& what, const std::string& hint) {
+  const double near = internal::target::min_useful_depth(max_range);
+  if (!side.blocked_within(near)) return set_mesh(std::move(side), frame, volume);
+  volume.counts = side.counts;
+  volume.outcome = Outcome::blocked_at_once;
+  volume.reason =
+      '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + internal::core::metres_text(near);
+  volume.hint = hint;
 }
 
 void compute_polygon(const PreparedTarget& target, const ExactOptions& options,
@@ -103,12 +106,7 @@ void compute_point(const PreparedTarget& target, const ExactOptions& options,
               "move the point out of what it lies in");
 }
 
-}  // namespace
-
-Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options, const Progress& callback) {
-  const internal::core::Stopwatch stopwatch;
-  const internal::core::ProgressReporter progress(callback);
-  check(target, options);
+Volume volume_for(const PreparedTarget& target, const ExactOptions& options) {
   Volume volume;
   volume.tolerance_m = options.tolerance_m;
   volume.frame = target.frame();
@@ -116,6 +114,16 @@ Volume compute_visibility(const PreparedTarget& target, const ExactOptions& opti
   volume.notes = target.notes();
   volume.provenance = {VANTAGE_VERSION, "exact", target.target(), target.sensor(), "", ""};
   volume.counts.scene_polygons = target.scene().data().polygon_count();
+  return volume;
+}
+
+}  // namespace
+
+Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options, const Progress& callback) {
+  const internal::core::Stopwatch stopwatch;
+  const internal::core::ProgressReporter progress(callback);
+  check(target, options);
+  Volume volume = volume_for(target, options);
   internal::parallel::with_threads(options.threads, [&] {
     (target.target().is_point() ? compute_point : compute_polygon)(target, options, progress, volume);
   });
@@ -123,4 +131,30 @@ Volume compute_visibility(const PreparedTarget& target, const ExactOptions& opti
   return volume;
 }
 
+namespace internal::exact {
+
+LimitedVisibility compute_visibility_within(const PreparedTarget& target, const ChartLimits& limits,
+                                            const std::vector<Cause>& causes, const ExactOptions& options,
+                                            const Progress& callback) {
+  using How = LimitedVisibility::How;
+  const core::Stopwatch stopwatch;
+  const core::ProgressReporter progress(callback);
+  check(target, options);
+  if (!target.data().parts[0].is_reachable) return {How::needs_booleans, {}};
+  Volume volume = volume_for(target, options);
+  const target::RangeRegion range(volume.frame.polygon, range_limit_m(target.sensor()));
+  const std::optional<LimitsOfView> ready = limits_of_view(limits, causes, volume.frame, range);
+  if (!ready) return {How::needs_booleans, {}};
+  std::optional<HalfSpaceVolume> side;
+  parallel::with_threads(options.threads, [&] {
+    side = compute_half_space_within(target.scene(), volume.frame, range, *ready, options, progress);
+  });
+  if (!side) return {How::failed, {}};
+  if (side->mesh.empty()) return {How::needs_booleans, {}};
+  set_mesh(std::move(*side), volume.frame, volume);
+  volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
+  return {How::computed, std::move(volume)};
+}
+
+}  // namespace internal::exact
 }  // namespace vantage

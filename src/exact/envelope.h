@@ -15,8 +15,14 @@ struct Skeleton {
   struct Edge {
     Vec3 from, to;
   };
-  std::vector<Edge> planar;               ///< between two planes: straight
-  std::vector<std::vector<Vec3>> curved;  ///< on the range sphere: polylines with points on the curve
+  /// Where a plane meets the range sphere.
+  struct Curve {
+    Vec3 normal;  ///< of the plane normal . x = height, unit length
+    double height;
+    std::vector<Vec3> points;  ///< a polyline with points on the curve
+  };
+  std::vector<Edge> planar;  ///< between two planes: straight
+  std::vector<Curve> curved;
   std::size_t visible_blockers = 0;
   std::size_t visible_facets = 0;
 };

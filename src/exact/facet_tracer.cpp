@@ -11,9 +11,6 @@
 namespace vantage::internal::exact {
 namespace {
 
-// Two planes of one blocker whose inverse depths differ by less than this everywhere on a facet bound it together.
-constexpr double kSiblingMargin = 1e-12;
-
 double area_of(const core::FacetPolygon& polygon) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i)
@@ -160,7 +157,7 @@ void FacetTracer::trace_edge(const Vec3& from, const Vec3& to, std::uint32_t oth
   const double length = (to - from).norm();
   if (length < shortest_) return;
   shown_.assign(0, 1);
-  keep_in_range(from, to);
+  keep_in_range(range_, from, to, shown_);
   const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
   const auto subtract = [&](std::uint32_t c) {
     const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(cuts_[c].competitor));
@@ -180,24 +177,6 @@ void FacetTracer::trace_edge(const Vec3& from, const Vec3& to, std::uint32_t oth
   for (const Interval& part : shown_.parts()) {
     result.planar.push_back({part.begin == 0 ? from : Vec3(from + part.begin * (to - from)),
                              part.end == 1 ? to : Vec3(from + part.end * (to - from))});
-  }
-}
-
-void FacetTracer::keep_in_range(const Vec3& from, const Vec3& to) {
-  const double square = range_.radius() * range_.radius();
-  const Vec3 along = to - from;
-  for (std::size_t ball = 0; ball < range_.ball_count(); ++ball) {
-    const Vec3 centre(range_.centre(ball).x(), range_.centre(ball).y(), 0);
-    const Vec3 a = from - centre;
-    if (a.squaredNorm() <= square && (to - centre).squaredNorm() <= square) continue;
-    const double p = along.squaredNorm(), q = along.dot(a), r = a.squaredNorm() - square;
-    const double discriminant = q * q - p * r;
-    if (discriminant <= 0) {
-      shown_.assign(0, 0);
-      return;
-    }
-    const double root = std::sqrt(discriminant);
-    shown_.keep((-q - root) / p, (-q + root) / p);
   }
 }
 

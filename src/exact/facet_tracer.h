@@ -21,7 +21,7 @@ class FacetTracer {
 
   struct Result {
     std::vector<Skeleton::Edge> planar;
-    std::vector<std::vector<Vec3>> curved;
+    std::vector<Skeleton::Curve> curved;
     bool visible = false;
   };
 
@@ -47,7 +47,6 @@ class FacetTracer {
   void trace_own_edges(Result& result);
   void trace_crossings(const Facet& facet, Result& result);
   void trace_edge(const Vec3& from, const Vec3& to, std::uint32_t other, Result& result);
-  void keep_in_range(const Vec3& from, const Vec3& to);
   void trace_range(const Facet& facet, Result& result);
   bool is_met_elsewhere(std::size_t ball) const;
 

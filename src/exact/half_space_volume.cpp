@@ -19,49 +19,94 @@ double area_of(const Mesh& mesh, const Triangle& t) {
   return 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm();
 }
 
-void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Boundary& boundary,
-                HalfSpaceVolume& side) {
-  constexpr std::uint32_t kNone = ~0u;
-  std::vector<std::uint32_t> of_object(scene.objects().size(), kNone);
-  std::uint32_t range = kNone, plane = kNone;
-  const auto number = [&](std::uint32_t& slot, const auto& make_cause) {
+/// Added to a limit's label: the polygon of a blocker that is one.
+constexpr std::uint32_t kCeiling = 1u << 31;
+
+class Causes {
+ public:
+  Causes(const PreparedScene& scene, const BlockerSet& blockers, const LimitsOfView* limits, HalfSpaceVolume& side)
+      : scene_(scene),
+        blockers_(blockers),
+        limits_(limits),
+        side_(side),
+        of_object_(scene.objects().size(), kNone),
+        of_limit_(limits ? limits->causes.size() : 0, kNone) {}
+
+  void add(const Boundary& boundary) {
+    side_.cause_of.reserve(boundary.blocker_of.size());
+    side_.polygon_of.reserve(boundary.blocker_of.size());
+    for (std::size_t i = 0; i < boundary.blocker_of.size(); ++i) {
+      std::uint32_t polygon = kNoPolygon;
+      const std::uint32_t cause = cause_of(boundary.blocker_of[i], polygon);
+      side_.cause_of.push_back(cause);
+      side_.polygon_of.push_back(polygon);
+      side_.causes[cause].area_m2 += area_of(boundary.mesh, boundary.mesh.triangles[i]);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~0u;
+
+  template <typename MakeCause>
+  std::uint32_t number(std::uint32_t& slot, const MakeCause& make_cause) {
     if (slot == kNone) {
-      slot = static_cast<std::uint32_t>(side.causes.size());
-      side.causes.push_back(make_cause());
+      slot = static_cast<std::uint32_t>(side_.causes.size());
+      side_.causes.push_back(make_cause());
     }
     return slot;
-  };
-  side.cause_of.reserve(boundary.blocker_of.size());
-  side.polygon_of.reserve(boundary.blocker_of.size());
-  for (std::size_t i = 0; i < boundary.blocker_of.size(); ++i) {
-    const std::uint32_t blocker = boundary.blocker_of[i];
-    std::uint32_t index, polygon = kNoPolygon;
-    if (blocker == Boundary::kRange) {
-      index = number(range, [] { return Cause{CauseKind::range, "max_range"}; });
-    } else if (blocker == Boundary::kTargetPlane) {
-      index = number(plane, [] { return Cause{CauseKind::target_plane, "target plane"}; });
-    } else {
-      polygon = blockers.polygon[blocker];
-      const std::uint32_t object = scene.data().polygon_object[polygon];
-      index = number(of_object[object], [&] { return cause_of_object(object, scene.objects()[object]); });
+  }
+  std::uint32_t of_limit(std::uint32_t label) {
+    return number(of_limit_[label], [&] { return limits_->causes[label]; });
+  }
+  std::uint32_t cause_of(std::uint32_t blocker, std::uint32_t& polygon) {
+    if (blocker == Boundary::kRange) return number(range_, [] { return Cause{CauseKind::range, "max_range"}; });
+    if (blocker == Boundary::kTargetPlane) {
+      return number(plane_, [] { return Cause{CauseKind::target_plane, "target plane"}; });
     }
-    side.cause_of.push_back(index);
-    side.polygon_of.push_back(polygon);
-    side.causes[index].area_m2 += area_of(boundary.mesh, boundary.mesh.triangles[i]);
+    if (blocker >= Boundary::kFloor) return of_limit(limits_->floor.label(blocker - Boundary::kFloor));
+    const std::uint32_t of_blocker = blockers_.polygon[blocker];
+    if (of_blocker >= kCeiling) return of_limit(of_blocker - kCeiling);
+    polygon = of_blocker;
+    const std::uint32_t object = scene_.data().polygon_object[polygon];
+    return number(of_object_[object], [&] { return cause_of_object(object, scene_.objects()[object]); });
+  }
+
+  const PreparedScene& scene_;
+  const BlockerSet& blockers_;
+  const LimitsOfView* limits_;
+  HalfSpaceVolume& side_;
+  std::uint32_t range_ = kNone, plane_ = kNone;
+  std::vector<std::uint32_t> of_object_, of_limit_;
+};
+
+// What lies beyond a plane hides only what lies beyond it, too, where the target does not.
+bool holds_target(const std::vector<ChartLimits::Side>& ceilings, const TargetFrame& frame) {
+  return std::ranges::all_of(ceilings, [&](const ChartLimits::Side& side) {
+    return std::ranges::all_of(
+        frame.polygon, [&](const Eigen::Vector2d& corner) { return side.normal.head<2>().dot(corner) <= side.at; });
+  });
+}
+
+// They hide what is beyond them, as blockers do.
+void add_ceilings(const LimitsOfView& limits, BlockerSet& blockers, DirectionTree& tree) {
+  for (const ChartLimits::Side& side : limits.ceilings) {
+    blockers.planes.emplace_back(side.normal / side.at);
+    blockers.close(kCeiling + side.label);
+    if (!tree.insert(static_cast<std::uint32_t>(blockers.count() - 1))) blockers.drop_last();
   }
 }
 
-}  // namespace
-
-HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
-                                   const target::RangeRegion& range, const ExactOptions& options,
-                                   const core::ProgressReporter& progress) {
+/// `limits`: null where there are none.
+std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetFrame& frame,
+                                       const target::RangeRegion& range, const LimitsOfView* limits,
+                                       const ExactOptions& options, const core::ProgressReporter& progress) {
   const target::Lengths lengths = target::lengths_of(scene.data(), frame, range.radius());
   const target::LocalTarget target = target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
   OctahedralGrid grid(range, options.tolerance_m);
   progress.begin("finding blockers");
   BlockerSet blockers;
   DirectionTree tree(blockers, range);
+  if (limits) add_ceilings(*limits, blockers, tree);
   collect_blockers(scene.data(), frame, target, range, blockers, tree, progress);
   progress.begin("tracing the envelope");
   // Seen from the centre a chord must also stay well within a cell of the grid: a region may be no wider than the
@@ -69,19 +114,52 @@ HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame
   const double widest = 0.1 * range.inner_radius() * std::numbers::pi / 2 / grid.size();
   const CurveSampling sampling{std::min(options.tolerance_m * 0.5, widest),
                                std::sqrt(8 * range.radius() * options.tolerance_m)};
-  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, grid, progress);
+  Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, grid, progress);
+  const Floor* const floor = limits && !limits->floor.empty() ? &limits->floor : nullptr;
+  FloorSkeleton floor_skeleton;
+  if (floor) {
+    floor_skeleton = trace_floor(*floor, blockers, tree, range, sampling, progress);
+    add_rim_ends(floor_skeleton, range.radius(), sampling, skeleton);
+  }
   progress.begin("triangulating");
-  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, progress);
+  std::optional<Boundary> boundary =
+      triangulate_boundary({skeleton, floor ? &floor_skeleton : nullptr},
+                           {blockers, tree, range, floor, options.tolerance_m, progress}, grid);
+  if (!boundary) return std::nullopt;
   progress.finish();
 
   HalfSpaceVolume side;
   side.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,
-                 boundary.constraint_edges};
-  add_causes(scene, blockers, boundary, side);
+                 boundary->constraint_edges};
+  Causes(scene, blockers, limits, side).add(*boundary);
   side.range_height = 1 / range.gauge(Vec3::UnitZ());
-  side.mesh = std::move(boundary.mesh);
+  side.mesh = std::move(boundary->mesh);
   for (const Vec3& v : side.mesh.vertices) side.height = std::max(side.height, v.z());
   return side;
+}
+
+}  // namespace
+
+HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
+                                   const target::RangeRegion& range, const ExactOptions& options,
+                                   const core::ProgressReporter& progress) {
+  return *compute(scene, frame, range, nullptr, options, progress);
+}
+
+std::optional<LimitsOfView> limits_of_view(const ChartLimits& limits, std::vector<Cause> causes,
+                                           const TargetFrame& frame, const target::RangeRegion& range) {
+  LimitsOfView all{{}, {}, std::move(causes)};
+  std::optional<Floor> floor = Floor::of(limits, range.radius(), all.ceilings);
+  if (!floor || !holds_target(all.ceilings, frame)) return std::nullopt;
+  all.floor = std::move(*floor);
+  return all;
+}
+
+std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& scene, const TargetFrame& frame,
+                                                         const target::RangeRegion& range, const LimitsOfView& limits,
+                                                         const ExactOptions& options,
+                                                         const core::ProgressReporter& progress) {
+  return compute(scene, frame, range, &limits, options, progress);
 }
 
 std::string widest_scene_cause(const std::vector<Cause>& causes) {

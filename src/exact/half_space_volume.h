@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/progress_reporter.h"
+#include "exact/chart_limits.h"
+#include "exact/floor.h"
 #include "target/range_region.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
@@ -29,6 +32,24 @@ struct HalfSpaceVolume {
 HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
                                    const target::RangeRegion& range, const ExactOptions& options,
                                    const core::ProgressReporter& progress);
+
+/// Limits, ready to be cut in the chart.
+struct LimitsOfView {
+  std::vector<ChartLimits::Side> ceilings;
+  Floor floor;
+  std::vector<Cause> causes;  ///< by label
+};
+
+/// nullopt where booleans are needed: docs/theory.md, "Limits in the chart".
+std::optional<LimitsOfView> limits_of_view(const ChartLimits& limits, std::vector<Cause> causes,
+                                           const TargetFrame& frame, const target::RangeRegion& range);
+
+/// As compute_half_space, but only what keeps the limits. Its mesh may be empty. nullopt where floor and envelope meet
+/// in a way that could not be triangulated.
+std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& scene, const TargetFrame& frame,
+                                                         const target::RangeRegion& range, const LimitsOfView& limits,
+                                                         const ExactOptions& options,
+                                                         const core::ProgressReporter& progress);
 
 /// Both sides of a point as one solid in the front's frame, without the wall between them. `back` is in the frame
 /// turned about the u axis. What is left of the wall, where the two differ by their tolerance, gets the cause of what

@@ -3,11 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/parallel.h"
 #include "exact/constrained_delaunay.h"
 #include "exact/gauge.h"
 #include "exact/over_claim_bound.h"
+#include "exact/rim_sides.h"
 #include "target/numerics.h"
 
 namespace vantage::internal::exact {
@@ -31,7 +34,8 @@ class QuadrantMesher {
 
   QuadrantMesh run() {
     triangulate();
-    if (!delaunay_.failure().empty()) return failed();
+    if (!delaunay_.failure().empty()) result_.failure = delaunay_.failure();
+    if (!result_.failure.empty()) return failed();
     for (std::uint32_t v = 0; v < result_.graph_vertex.size(); ++v) result_.graph_gauge.push_back(gauges_[v + kSuper]);
     for (std::uint32_t v = kSuper + own_count(); v < delaunay_.vertices().size(); ++v) {
       result_.added.push_back(point(v));
@@ -44,7 +48,7 @@ class QuadrantMesher {
  private:
   static constexpr std::uint32_t kSuper = ConstrainedDelaunay::kOwn;  // its own vertices come first
 
-  enum class Region : std::uint8_t { outside, range_cell, kept };
+  enum class Region : std::uint8_t { outside, not_beyond_floor, range_cell, kept };
 
   /// What is known of one triangle of the triangulation, the gauge at its centre among it; valid while its vertices
   /// stay the same.
@@ -75,37 +79,41 @@ class QuadrantMesher {
   }
 
   void triangulate() {
-    const std::vector<ConstraintGraph::Edge> edges = take_own();
+    std::vector<ConstraintGraph::Edge> rim;
+    const std::vector<ConstraintGraph::Edge> edges = take_own(rim);
     std::vector<OctahedralPoint> points;
     for (const std::uint32_t v : result_.graph_vertex) points.push_back(graph_.points()[v]);
     delaunay_.add_vertices(points);
     for (const auto& [from, to] : edges) delaunay_.add_constraint(from + kSuper, to + kSuper);
+    if (envelope_.floor) rim_.emplace(std::move(rim));
     envelope_.progress.check();
     most_triangles_ = kMostGrowth * delaunay_.facets().size() + 1000;
     while (refine()) envelope_.progress.check();
-    tighten_tilted();
+    if (result_.failure.empty()) tighten_tilted();
   }
 
-  // The graph's vertices in the quadrant, and its edges between them.
-  std::vector<ConstraintGraph::Edge> take_own() {
+  // The graph's vertices in the quadrant, and its edges between them. `rim`: those of the triangulation.
+  std::vector<ConstraintGraph::Edge> take_own(std::vector<ConstraintGraph::Edge>& rim) {
     const double sa = quadrant_ & 1 ? -1 : 1, sb = quadrant_ & 2 ? -1 : 1;
     constexpr std::uint32_t kNone = ConstraintGraph::kNone;
     std::vector<std::uint32_t> local(graph_.points().size(), kNone);
     for (std::uint32_t v = 0; v < local.size(); ++v) {
-      if (sa * graph_.points()[v].x() >= 0 && sb * graph_.points()[v].y() >= 0) {
+      if (sa * graph_.points()[v].x() >= 0 && sb * graph_.points()[v].y() >= 0 && graph_.is_of(Sheet::envelope, v)) {
         local[v] = own_count();
         result_.graph_vertex.push_back(v);
       }
     }
     std::vector<ConstraintGraph::Edge> edges;
-    for (const auto& [a, b] : graph_.edges())
+    for (const auto& [a, b] : graph_.edges(Sheet::envelope))
       if (local[a] != kNone && local[b] != kNone) edges.emplace_back(local[a], local[b]);
+    for (const auto& [a, b] : graph_.rim())
+      if (local[a] != kNone && local[b] != kNone) rim.emplace_back(local[a] + kSuper, local[b] + kSuper);
     return edges;
   }
 
   QuadrantMesh failed() const {
     QuadrantMesh nothing;
-    nothing.failure = delaunay_.failure();
+    nothing.failure = result_.failure;
     return nothing;
   }
 
@@ -122,6 +130,7 @@ class QuadrantMesher {
         gauges_[v] = is_own(v) ? std::max(exact_gauges_[v], graph_.crease_gauge(in_graph(v))) : exact_gauges_[v];
       }
     });
+    if (!find_beyond_floor()) return false;
     find_fresh();
     parallel::for_ranges(fresh_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
@@ -131,11 +140,28 @@ class QuadrantMesher {
     for (const Fresh& fresh : fresh_) {
       known_[fresh.triangle].blocker = fresh.gauge.blocker;
       known_[fresh.triangle].gauge = fresh.gauge.value;
+      if (!is_beyond_floor(known_[fresh.triangle].vertices, fresh.gauge)) return false;
       improve(known_[fresh.triangle].vertices, fresh.gauge, added);
     }
     if (added.empty()) return false;
     delaunay_.add_vertices(added);
     return true;
+  }
+
+  bool find_beyond_floor() {
+    if (!rim_) return true;
+    result_.failure = rim_->find(
+        delaunay_, [&](const Triangle& t) { return is_outside_quadrant(t); },
+        [&](const OctahedralPoint& p) { return gauge_at(p).value <= envelope_.floor->at(p).gauge; }, is_beyond_);
+    return result_.failure.empty();
+  }
+
+  // `gauge` is that at the triangle's centre.
+  bool is_beyond_floor(const Triangle& t, const GaugeValue& gauge) {
+    if (!rim_) return true;
+    const bool crosses = gauge.value > (1 + kMostCrossing) * envelope_.floor->at(centre_of(t)).gauge;
+    if (crosses) result_.failure = "the floor has come out of the envelope";
+    return result_.failure.empty();
   }
 
   void find_fresh() {
@@ -145,16 +171,20 @@ class QuadrantMesher {
       const Triangle& t = delaunay_.facets()[i].vertices;
       if (known_[i].vertices == t) continue;
       known_[i] = {t, 0, 0, region_of(t)};
+      if (rim_ && known_[i].region == Region::kept && is_beyond_[i] == 0) known_[i].region = Region::not_beyond_floor;
       if (known_[i].region == Region::kept) fresh_.push_back({i, {}});
     }
   }
 
-  Region region_of(const Triangle& t) const {
-    if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return Region::outside;
-    const OctahedralPoint centre = centre_of(t);
+  bool is_outside_quadrant(const Triangle& t) const {
+    if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return true;
     // Rounding leaves slivers between the points of one side of the horizon.
-    if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
-      return Region::outside;
+    return on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre_of(t).cwiseAbs().sum() > 1 - 1e-9;
+  }
+
+  Region region_of(const Triangle& t) const {
+    if (is_outside_quadrant(t)) return Region::outside;
+    const OctahedralPoint centre = centre_of(t);
     if (may_bound_cell(t[0]) && may_bound_cell(t[1]) && may_bound_cell(t[2]) &&
         grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y())))
       return Region::range_cell;
@@ -276,6 +306,8 @@ class QuadrantMesher {
   std::vector<double> exact_gauges_;  // as evaluated
   std::vector<Known> known_;          // per triangle of it
   std::vector<Fresh> fresh_;
+  std::optional<RimSides> rim_;
+  std::vector<char> is_beyond_;  // per triangle of it: on the side of the rim that is beyond the floor
   QuadrantMesh result_;
 };
 

@@ -7,6 +7,7 @@
 #include "core/progress_reporter.h"
 #include "exact/constraint_graph.h"
 #include "exact/direction_tree.h"
+#include "exact/floor.h"
 #include "target/range_region.h"
 
 namespace vantage::internal::exact {
@@ -29,6 +30,7 @@ struct Envelope {
   const BlockerSet& blockers;
   const DirectionTree& tree;
   const target::RangeRegion& range;
+  const Floor* floor;  ///< what is not beyond it is left out; null where there is none
   double tolerance_m;
   const core::ProgressReporter& progress;
 };

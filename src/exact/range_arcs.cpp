@@ -52,6 +52,24 @@ double shortest_piece(const target::RangeRegion& range) {
   return kShortest * std::min(1.0, range.radius() / numerics::kFullRange);
 }
 
+void keep_in_range(const target::RangeRegion& range, const Vec3& from, const Vec3& to, IntervalSet& shown) {
+  const double square = range.radius() * range.radius();
+  const Vec3 along = to - from;
+  for (std::size_t ball = 0; ball < range.ball_count(); ++ball) {
+    const Vec3 centre(range.centre(ball).x(), range.centre(ball).y(), 0);
+    const Vec3 a = from - centre;
+    if (a.squaredNorm() <= square && (to - centre).squaredNorm() <= square) continue;
+    const double p = along.squaredNorm(), q = along.dot(a), r = a.squaredNorm() - square;
+    const double discriminant = q * q - p * r;
+    if (discriminant <= 0) {
+      shown.assign(0, 0);
+      return;
+    }
+    const double root = std::sqrt(discriminant);
+    shown.keep((-q - root) / p, (-q + root) / p);
+  }
+}
+
 void keep_in_balls(const target::RangeRegion& range, std::size_t ball, std::size_t also, CircleArcs& arcs) {
   for (const std::uint32_t other : range.neighbours(ball)) {
     if (arcs.empty()) return;
@@ -62,17 +80,18 @@ void keep_in_balls(const target::RangeRegion& range, std::size_t ball, std::size
 }
 
 void add_arcs(const SpaceCircle& circle, CircleArcs& arcs, double shortest, const CurveSampling& sampling,
-              std::vector<std::vector<Vec3>>& out) {
+              std::vector<Skeleton::Curve>& out) {
   arcs.drop_shorter_than(shortest / circle.radius);
   for (const Interval& part : arcs.parts()) {
     const int pieces = piece_count(circle, part, sampling);
-    std::vector<Vec3>& line = out.emplace_back();
+    const Vec3 normal = circle.axis_1.cross(circle.axis_2);
+    std::vector<Vec3>& line = out.emplace_back(Skeleton::Curve{normal, normal.dot(circle.centre), {}}).points;
     for (int i = 0; i <= pieces; ++i) line.push_back(circle.at(part.begin + part.length() * i / pieces));
   }
 }
 
 void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
-                         const CurveSampling& sampling, OctahedralGrid& grid, std::vector<std::vector<Vec3>>& out) {
+                         const CurveSampling& sampling, OctahedralGrid& grid, std::vector<Skeleton::Curve>& out) {
   const double inner = range.inner_radius();
   for (std::size_t i = 0; i < range.ball_count(); ++i) {
     for (const std::uint32_t j : range.neighbours(i)) {

@@ -14,6 +14,9 @@ namespace vantage::internal::exact {
 inline double tie_margin(double sum, double reach) { return numerics::kTie + 1e-15 * reach * sum; }
 inline double tie_margin(const Plane& plane, double reach) { return tie_margin(plane.cwiseAbs().sum(), reach); }
 
+/// Two planes of one blocker whose inverse depths differ by less than this everywhere on a facet bound it together.
+inline constexpr double kSiblingMargin = 1e-12;
+
 /// How far g . o may differ from 1 for corners o of a polygon that the plane may touch: merged polygons are
 /// planar to a nanometre only. Generous, because a plane taken for one that touches fewer corners may be taken for
 /// hidden.

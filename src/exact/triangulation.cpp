@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/parallel.h"
+#include "exact/floor_mesh.h"
 #include "exact/gauge.h"
 #include "exact/quadrant_mesh.h"
 #include "exact/range_cells.h"
@@ -42,17 +45,23 @@ bool is_closed(const Mesh& mesh) {
 
 class BoundaryBuilder {
  public:
-  BoundaryBuilder(const Skeleton& skeleton, const Envelope& envelope, OctahedralGrid& grid, double snap)
-      : envelope_(envelope), grid_(grid), snap_(snap), graph_(skeleton, grid, is_range(), snap) {}
+  BoundaryBuilder(const Creases& creases, const Envelope& envelope, OctahedralGrid& grid, double snap)
+      : envelope_(envelope),
+        grid_(grid),
+        snap_(snap),
+        graph_(creases.envelope, creases.floor, grid, is_range(), snap) {}
 
   Attempt run() {
-    result_.constraint_edges = graph_.edges().size();
+    result_.constraint_edges = graph_.edges(Sheet::envelope).size();
     parallel::both([&] { mesh_quadrants(); }, [&] { cells_ = cut_range_cells(graph_, grid_, envelope_.range); });
     Attempt attempt;
     for (const QuadrantMesh& quadrant : quadrants_) {
       if (attempt.failure.empty()) attempt.failure = quadrant.failure;
       attempt.border_splits.insert(attempt.border_splits.end(), quadrant.border_splits.begin(),
                                    quadrant.border_splits.end());
+    }
+    for (const FloorMesh& floor : floors_) {
+      if (attempt.failure.empty()) attempt.failure = floor.failure;
     }
     if (!attempt.failure.empty() || !attempt.border_splits.empty()) return attempt;
     result_.mesh.vertices = std::move(cells_.vertices);
@@ -61,7 +70,12 @@ class BoundaryBuilder {
     base_ = std::move(cells_.base);
     lift_graph();
     for (const QuadrantMesh& quadrant : quadrants_) add(quadrant);
-    emit_base();
+    if (envelope_.floor) {
+      attempt.failure = add_floors();
+      if (!attempt.failure.empty()) return attempt;
+    } else {
+      emit_base();
+    }
     drop_unused_vertices();
     if (!is_closed(result_.mesh)) attempt.failure = "the parts of the mesh do not meet";
     attempt.boundary = std::move(result_);
@@ -71,35 +85,100 @@ class BoundaryBuilder {
  private:
   IsRange is_range() const {
     return [this](const OctahedralPoint& p) {
-      return evaluate_gauge(envelope_.blockers, envelope_.tree, envelope_.range, p).blocker == GaugeValue::kRange;
+      const GaugeValue gauge = evaluate_gauge(envelope_.blockers, envelope_.tree, envelope_.range, p);
+      return gauge.blocker == GaugeValue::kRange && (!envelope_.floor || gauge.value < envelope_.floor->at(p).gauge);
     };
   }
 
   void mesh_quadrants() {
-    parallel::for_ranges(4, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q)
-        quadrants_[q] = mesh_quadrant(static_cast<int>(q), graph_, grid_, envelope_, snap_);
+    parallel::for_ranges(envelope_.floor ? 8 : 4, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const int quadrant = static_cast<int>(i % 4);
+        if (i < 4) {
+          quadrants_[i] = mesh_quadrant(quadrant, graph_, grid_, envelope_, snap_);
+        } else {
+          floors_[i - 4] = mesh_floor(quadrant, graph_, envelope_, snap_);
+        }
+      }
     });
   }
 
   // The mesh has the vertices of the graph first, then those of the cells, then those that refinement added. On the
   // axes the quadrant that draws a vertex in more decides.
   void lift_graph() {
-    std::vector<double> gauges(graph_.points().size(), 0);
+    gauges_.assign(graph_.points().size(), 0);
     for (const QuadrantMesh& quadrant : quadrants_) {
       for (std::size_t i = 0; i < quadrant.graph_vertex.size(); ++i) {
-        double& gauge = gauges[quadrant.graph_vertex[i]];
+        double& gauge = gauges_[quadrant.graph_vertex[i]];
         gauge = std::max(gauge, quadrant.graph_gauge[i]);
       }
     }
-    for (std::uint32_t v = 0; v < gauges.size(); ++v)
-      result_.mesh.vertices[v] = lifted(graph_.points()[v], gauges[v], graph_.on_horizon(v));
+    for (std::uint32_t v = 0; v < gauges_.size(); ++v) {
+      if (gauges_[v] > 0) result_.mesh.vertices[v] = lifted(graph_.points()[v], gauges_[v], graph_.on_horizon(v));
+    }
+  }
+
+  /// The floor's facets, and the base between both sheets. Why it is of no use, or nothing.
+  std::string add_floors() {
+    Mesh& mesh = result_.mesh;
+    const auto points = static_cast<std::uint32_t>(graph_.points().size());
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    std::vector<char> on_rim(points);
+    for (const auto& [a, b] : graph_.rim()) on_rim[a] = on_rim[b] = 1;
+    std::vector<double> gauges(points, std::numeric_limits<double>::infinity());
+    for (const FloorMesh& floor : floors_) {
+      for (std::size_t i = 0; i < floor.graph_vertex.size(); ++i) {
+        double& gauge = gauges[floor.graph_vertex[i]];
+        gauge = std::min(gauge, floor.graph_gauge[i]);
+      }
+    }
+    mesh.vertices.resize(first + points);
+    for (std::uint32_t v = 0; v < points; ++v) {
+      // What is drawn in there, since the rim was snapped across a crease, must not come before the limits.
+      const bool is_before = gauges_[v] > (1 + (Floor::kShrinks - 2) * numerics::kShrink) * gauges[v];
+      if (on_rim[v] != 0 && is_before) return "the rim lies before the floor";
+      const bool is_used = std::isfinite(gauges[v]) && gauges[v] > 0 && on_rim[v] == 0;
+      if (is_used) mesh.vertices[first + v] = to_direction(graph_.points()[v], graph_.on_horizon(v)) / gauges[v];
+    }
+    const auto on_floor = [&](std::uint32_t v) { return on_rim[v] != 0 ? v : first + v; };
+    std::vector<ConstraintGraph::Edge> base;
+    for (const FloorMesh& floor : floors_) {
+      const auto shift = static_cast<std::uint32_t>(mesh.vertices.size()) - points;
+      const auto renamed = [&](std::uint32_t v) { return v < points ? on_floor(v) : v + shift; };
+      for (std::size_t i = 0; i < floor.added.size(); ++i) {
+        mesh.vertices.emplace_back(exact::to_direction(floor.added[i]) / floor.added_gauge[i]);
+      }
+      for (std::size_t i = 0; i < floor.triangles.size(); ++i) {
+        const auto& [a, b, c] = floor.triangles[i];
+        mesh.triangles.push_back({renamed(a), renamed(c), renamed(b)});
+        result_.blocker_of.push_back(Boundary::kFloor + floor.plane_of[i]);
+      }
+      base.insert(base.end(), floor.base.begin(), floor.base.end());
+    }
+    std::sort(base.begin(), base.end());
+    std::sort(base_.begin(), base_.end());
+    if (base != base_) return "the sheets do not meet at the horizon";
+    for (const auto& [from, to] : base_) {
+      emit_base(on_floor(to), to, from);
+      emit_base(on_floor(to), from, on_floor(from));
+    }
+    return {};
+  }
+
+  void emit_base(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a == b || b == c || c == a) return;
+    result_.mesh.triangles.push_back({a, b, c});
+    result_.blocker_of.push_back(Boundary::kTargetPlane);
+  }
+
+  static Vec3 to_direction(const OctahedralPoint& point, bool horizon) {
+    Vec3 direction = exact::to_direction(point);
+    if (horizon) direction.z() = 0;
+    return direction;
   }
 
   static Vec3 lifted(const OctahedralPoint& point, double gauge, bool horizon) {
-    Vec3 direction = to_direction(point);
-    if (horizon) direction.z() = 0;
-    return direction * ((1 - numerics::kShrink) / gauge);
+    return to_direction(point, horizon) * ((1 - numerics::kShrink) / gauge);
   }
 
   void add(const QuadrantMesh& quadrant) {
@@ -118,10 +197,7 @@ class BoundaryBuilder {
   void emit_base() {
     const std::uint32_t centre = static_cast<std::uint32_t>(result_.mesh.vertices.size());
     result_.mesh.vertices.push_back(Vec3::Zero());
-    for (const auto& [from, to] : base_) {
-      result_.mesh.triangles.push_back({centre, to, from});
-      result_.blocker_of.push_back(Boundary::kTargetPlane);
-    }
+    for (const auto& [from, to] : base_) emit_base(centre, to, from);
   }
 
   void drop_unused_vertices() {
@@ -147,6 +223,8 @@ class BoundaryBuilder {
   double snap_;
   ConstraintGraph graph_;
   std::array<QuadrantMesh, 4> quadrants_;
+  std::array<FloorMesh, 4> floors_;
+  std::vector<double> gauges_;  // per point of the graph
   RangeCells cells_;
   std::vector<ConstraintGraph::Edge> base_;  // edges of the mesh on the horizon, as its triangles run them
   Boundary result_;
@@ -154,15 +232,12 @@ class BoundaryBuilder {
 
 }  // namespace
 
-Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const target::RangeRegion& range, OctahedralGrid& grid, double tolerance,
-                              const core::ProgressReporter& progress) {
-  const Envelope envelope{blockers, tree, range, tolerance, progress};
+std::optional<Boundary> triangulate_boundary(const Creases& creases, const Envelope& envelope, OctahedralGrid& grid) {
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
   double snap = numerics::kSnap, width = 1.0 / grid.size();
   for (;;) {
-    Attempt attempt = BoundaryBuilder(skeleton, envelope, grid, snap).run();
+    Attempt attempt = BoundaryBuilder(creases, envelope, grid, snap).run();
     if (attempt.failure.empty() && attempt.border_splits.empty()) return std::move(attempt.boundary);
     if (attempt.failure.empty()) {
       // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
@@ -170,6 +245,8 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
       width *= 2;
     } else if (snap < numerics::kWidestSnap) {
       snap *= 10;
+    } else if (creases.floor) {
+      return std::nullopt;
     } else {
       throw Error(ErrorCode::internal_defect, "the creases could not be triangulated: " + attempt.failure,
                   "triangulation", "please report this with the mission and the scene");

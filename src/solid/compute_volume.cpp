@@ -1,10 +1,14 @@
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
+#include "exact/limited_visibility.h"
 #include "solid/kernel_point.h"
+#include "solid/navigation.h"
+#include "solid/sensor_region_builder.h"
 #include "solid/visible_share.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
@@ -69,6 +73,23 @@ Volume volume_of_parts(const PreparedTarget& target, const ExactOptions& options
   return volume;
 }
 
+/// With the limits that can be cut in the chart. nullopt where there are none, and where booleans are needed; counts in
+/// `fallbacks` where these stand in.
+std::optional<Volume> volume_in_chart(const PreparedTarget& target, const Navigation& navigation,
+                                      const ExactOptions& options, const Progress& progress, std::size_t& fallbacks) {
+  using How = internal::exact::LimitedVisibility::How;
+  if (target.part_count() > 1 || target.target().is_point() || internal::solid::has_share(target)) return std::nullopt;
+  if (!target.sensor().limits_view()) return std::nullopt;
+  const internal::solid::LimitsInChart chart =
+      internal::solid::sensor_limits_in_chart(internal::sensor::viewed_of(target), target.sensor(), target.frame());
+  if (chart.limits.empty()) return std::nullopt;
+  const auto [how, volume] =
+      internal::exact::compute_visibility_within(target, chart.limits, chart.causes, options, progress);
+  if (how == How::failed) ++fallbacks;
+  if (how != How::computed) return std::nullopt;
+  return internal::solid::cut_to_other_limits(volume, target, chart.done, navigation, progress, options.work_limit);
+}
+
 }  // namespace
 
 Volume compute_parts(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
@@ -81,7 +102,13 @@ Volume compute_volume(const PreparedTarget& target, const Navigation& navigation
                       const Progress& progress) {
   Volume volume;
   internal::parallel::with_threads(options.threads, [&] {
+    std::size_t fallbacks = 0;
+    if (auto found = volume_in_chart(target, navigation, options, progress, fallbacks)) {
+      volume = std::move(*found);
+      return;
+    }
     volume = cut_to_limits(compute_parts(target, options, progress), target, navigation, progress, options.work_limit);
+    volume.counts.boolean_fallbacks += fallbacks;
   });
   return volume;
 }

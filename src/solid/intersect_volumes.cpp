@@ -104,10 +104,12 @@ Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseLi
   return Solid(internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin), "the volume");
 }
 
-/// What a boolean left of the volumes' solids becomes the result's mesh.
-void finish(LabelledMesh labelled, const Vec3& origin, double rounding, const std::vector<Volume>& volumes,
-            const FacetSourceList& sources, const internal::core::CauseList& causes, Volume& result) {
-  for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
+/// What a boolean left of the volumes' solids becomes the result's mesh. `bounds`: what it left lies within, but for
+/// rounding. Altitudes and boxes that the volumes were cut to are kept exactly.
+void finish(LabelledMesh labelled, const Vec3& origin, const Box& bounds, double rounding,
+            const std::vector<Volume>& volumes, const FacetSourceList& sources, const internal::core::CauseList& causes,
+            Volume& result) {
+  for (Vec3& vertex : labelled.mesh.vertices) vertex = (vertex + origin).cwiseMax(bounds.min).cwiseMin(bounds.max);
   // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
   internal::solid::clean_inward(
       labelled, origin, {},
@@ -150,7 +152,10 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   FacetSourceList sources;
   std::vector<Solid> solids;
   double sliver = 0, rounding = 0;
+  Box bounds = bounding_box(volumes.front().mesh);
   for (const Volume& volume : volumes) {
+    const Box own = bounding_box(volume.mesh);
+    bounds = {bounds.min.cwiseMax(own.min), bounds.max.cwiseMin(own.max)};
     solids.push_back(solid_of(volume, origin, causes, sources));
     sliver = std::max(sliver, internal::solid::sliver_thickness(solids.back()));
     rounding = std::max(rounding, solids.back().epsilon());
@@ -166,7 +171,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
                "choose a part of the target, or make a volume for each part", result);
     return result;
   }
-  finish(std::move(labelled), origin, rounding, volumes, sources, causes, result);
+  finish(std::move(labelled), origin, bounds, rounding, volumes, sources, causes, result);
   return result;
 }
 
@@ -194,8 +199,12 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
   std::vector<Solid> solids;
   std::vector<Volume> used;
   double rounding = 0;
+  Box bounds;
   for (const Volume& volume : volumes) {
     if (!has_volume(volume)) continue;
+    const Box own = bounding_box(volume.mesh);
+    bounds.extend(own.min);
+    bounds.extend(own.max);
     solids.push_back(solid_of(volume, origin, causes, sources));
     rounding = std::max(rounding, solids.back().epsilon());
     used.push_back(volume);
@@ -203,7 +212,7 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
   const internal::core::ProgressReporter progress =
       internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("targets");
-  finish(internal::solid::unite(solids, progress).to_mesh(), origin, rounding, used, sources, causes, result);
+  finish(internal::solid::unite(solids, progress).to_mesh(), origin, bounds, rounding, used, sources, causes, result);
   return result;
 }
 

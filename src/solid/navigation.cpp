@@ -1,12 +1,15 @@
 // Cutting a volume to where the vehicle may fly. Boxes, zones and the like are small solids beside a volume of perhaps
 // a hundred thousand facets, so they are combined first. What limits of the sensor and the clearance have in common
 // costs more than to cut the volume to one after the other.
+#include "solid/navigation.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,6 +26,7 @@
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
 #include "solid/sensor_region_builder.h"
+#include "vantage/each_limit.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -160,10 +164,19 @@ void cut_volume(Regions regions, const LateClearance& late, std::vector<std::uin
   if (!has_polygons) result.polygon_of.clear();
 }
 
-/// `target`: with the sensor; may be null.
-Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigation& navigation,
-              const Progress& callback, double work_limit) {
-  if (navigation.empty() && !(target && target->sensor().limits_view())) return volume;
+/// Whether the sensor has other limits than these.
+bool has_others(const Sensor& sensor, std::span<const Limit> done) {
+  bool found = false;
+  each_limit(sensor, [&](auto limit, const auto& /*value*/) {
+    found = found || std::ranges::find(done, decltype(limit)::value) == done.end();
+  });
+  return found;
+}
+
+/// `target`: with the sensor; may be null. `done`: limits of the sensor that the volume keeps.
+Volume cut_to(const Volume& volume, const PreparedTarget* target, std::span<const Limit> done,
+              const Navigation& navigation, const Progress& callback, double work_limit) {
+  if (navigation.empty() && !(target && has_others(target->sensor(), done))) return volume;
   const core::Stopwatch stopwatch;
   const core::ProgressReporter progress = core::ProgressReporter(callback).limited(
       work_limit, navigation.clearance
@@ -182,7 +195,7 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   FacetSourceList sources;
   std::vector<std::uint32_t> labels = sources.add(volume, causes);
   Regions regions = make_regions(volume.causes, sources.sources(), bounds, navigation, meshes, progress.part(0.3, 0.4));
-  if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), bounds, regions);
+  if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), done, bounds, regions);
   const LateClearance late{navigation.clearance ? &*navigation.clearance : nullptr, volume.frame.origin};
   cut_volume(std::move(regions), late, std::move(labels), progress.part(0.4, 1), result);
   progress.finish();
@@ -193,18 +206,24 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
 }
 
 }  // namespace
+
+Volume cut_to_other_limits(const Volume& volume, const PreparedTarget& target, std::span<const Limit> done,
+                           const Navigation& navigation, const Progress& progress, double work_limit) {
+  return cut_to(volume, &target, done, navigation, progress, work_limit);
+}
+
 }  // namespace vantage::internal::solid
 
 namespace vantage {
 
 Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress,
                          double work_limit) {
-  return internal::solid::cut_to(volume, nullptr, navigation, progress, work_limit);
+  return internal::solid::cut_to(volume, nullptr, {}, navigation, progress, work_limit);
 }
 
 Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
                      const Progress& progress, double work_limit) {
-  return internal::solid::cut_to(volume, &target, navigation, progress, work_limit);
+  return internal::solid::cut_to(volume, &target, {}, navigation, progress, work_limit);
 }
 
 }  // namespace vantage

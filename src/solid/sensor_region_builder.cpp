@@ -31,21 +31,34 @@ Region sensor_region(const std::string& name, Solid solid, const std::string& ex
 
 SensorRegionBuilder::SensorRegionBuilder(const sensor::Viewed& viewed, const Sensor& sensor, const Box& bounds,
                                          Regions& regions)
-    : viewed_(viewed), sensor_(sensor), regions_(regions) {
+    : viewed_(viewed), sensor_(sensor), regions_(&regions) {
   const Vec3 overshoot = Vec3::Constant(numerics::kOvershoot * (bounds.max - bounds.min).norm());
   box_ = {bounds.min - overshoot - viewed.origin, bounds.max + overshoot - viewed.origin};
   reach_ = std::min(range_limit_m(sensor) + viewed.radius(), box_.min.cwiseAbs().cwiseMax(box_.max.cwiseAbs()).norm());
 }
 
+SensorRegionBuilder::SensorRegionBuilder(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame,
+                                         LimitsInChart& chart)
+    : viewed_(viewed),
+      sensor_(sensor),
+      chart_(&chart),
+      frame_(&frame),
+      reach_(range_limit_m(sensor) + viewed.radius()) {}
+
+std::uint32_t SensorRegionBuilder::label_in_chart(const std::string& name) {
+  chart_->causes.push_back({CauseKind::sensor, name});
+  return static_cast<std::uint32_t>(chart_->causes.size() - 1);
+}
+
 std::uint32_t SensorRegionBuilder::label_of(const std::string& name) {
-  const auto& causes = regions_.causes;
+  const auto& causes = regions_->causes;
   const auto known = std::find_if(causes.begin(), causes.end(), [&](const Cause& cause) {
     return cause.kind == CauseKind::sensor && cause.name == name;
   });
   const auto cause = static_cast<std::uint32_t>(known - causes.begin());
-  if (known == causes.end()) regions_.causes.push_back({CauseKind::sensor, name});
-  regions_.sources.push_back({.cause = cause});
-  return static_cast<std::uint32_t>(regions_.sources.size() - 1);
+  if (known == causes.end()) regions_->causes.push_back({CauseKind::sensor, name});
+  regions_->sources.push_back({.cause = cause});
+  return static_cast<std::uint32_t>(regions_->sources.size() - 1);
 }
 
 /// Booleans look at all pairs of facets whose boxes overlap, and long narrow ones have large boxes.
@@ -68,19 +81,35 @@ Solid SensorRegionBuilder::solid_of(Mesh mesh, std::vector<std::uint32_t> labels
     for (const std::uint32_t t : of_triangle) relabelled.push_back(labels[t]);
     labels.swap(relabelled);
   }
-  return Solid(moved_to_origin(mesh, std::move(labels), regions_.origin - viewed_.origin), "a limit of the sensor");
+  return Solid(moved_to_origin(mesh, std::move(labels), regions_->origin - viewed_.origin), "a limit of the sensor");
 }
 
 void SensorRegionBuilder::keep(const std::string& name, Solid solid, const std::string& explanation) {
-  regions_.kept.push_back(sensor_region(name, std::move(solid), explanation));
+  regions_->kept.push_back(sensor_region(name, std::move(solid), explanation));
 }
 
 void SensorRegionBuilder::forbid(const std::string& name, Solid solid, const std::string& explanation) {
-  regions_.forbidden.push_back(sensor_region(name, std::move(solid), explanation));
+  regions_->forbidden.push_back(sensor_region(name, std::move(solid), explanation));
+}
+
+void SensorRegionBuilder::forbid(const std::string& name, const Mesh& convex) {
+  if (!chart_) return forbid(name, solid_of(convex, name));
+  exact::ChartLimits::Body body{convex, label_in_chart(name)};
+  for (Vec3& vertex : body.mesh.vertices) vertex = frame_->to_local(vertex + viewed_.origin);
+  chart_->limits.removed.push_back(std::move(body));
 }
 
 void SensorRegionBuilder::keep(const std::string& name, std::vector<HalfSpace> half_spaces,
                                const std::string& explanation) {
+  if (chart_) {
+    const std::uint32_t label = label_in_chart(name);
+    const Vec3 shift = frame_->origin - viewed_.origin;
+    for (const auto& [normal, at] : half_spaces) {
+      const Vec3 local(frame_->axis_u.dot(normal), frame_->axis_v.dot(normal), frame_->normal.dot(normal));
+      chart_->limits.kept.push_back({local, at - normal.dot(shift), label});
+    }
+    return;
+  }
   for (HalfSpace& half_space : half_spaces) {
     const double length = half_space.normal.norm();
     half_space = {half_space.normal / length, half_space.at / length};
@@ -120,15 +149,36 @@ double most_along(const std::vector<Vec3>& corners, const Vec3& direction) {
   return most;
 }
 
-void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, const Box& bounds, Regions& regions) {
+void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std::span<const Limit> done,
+                        const Box& bounds, Regions& regions) {
   SensorRegionBuilder builder(viewed, sensor, bounds, regions);
+  const auto is_done = [&](Limit limit) { return std::ranges::find(done, limit) != done.end(); };
   for (const sensor::ViewedPart& part : viewed.parts) {
     each_limit(sensor, [&](auto limit, const auto& value) {
       constexpr Limit kLimit = decltype(limit)::value;
-      if constexpr (kLimit != Limit::frame) add_regions<kLimit>(value, part, builder);
+      if constexpr (kLimit != Limit::frame) {
+        if (!is_done(kLimit)) add_regions<kLimit>(value, part, builder);
+      }
     });
   }
-  if (sensor.camera) add_frame_region(*sensor.camera, builder);
+  if (sensor.camera && !is_done(Limit::frame)) add_frame_region(*sensor.camera, builder);
+}
+
+LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame) {
+  LimitsInChart chart;
+  SensorRegionBuilder builder(viewed, sensor, frame, chart);
+  each_limit(sensor, [&](auto limit, const auto& value) {
+    constexpr Limit kLimit = decltype(limit)::value;
+    if constexpr (kLimit == Limit::frame) {
+      if (!sensor.mount.is_fixed()) return;
+      add_frame_region(*sensor.camera, builder);
+      chart.done.push_back(kLimit);
+    } else if constexpr (kLimit != Limit::pixel) {
+      add_regions<kLimit>(value, viewed.parts[0], builder);
+      chart.done.push_back(kLimit);
+    }
+  });
+  return chart;
 }
 
 }  // namespace vantage::internal::solid

@@ -1,9 +1,12 @@
 // The regions of the sensor's limits: each room of src/limits/ adds its own.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "exact/chart_limits.h"
 #include "sensor/viewed.h"
 #include "solid/kernel_point.h"
 #include "solid/regions.h"
@@ -11,11 +14,21 @@
 
 namespace vantage::internal::solid {
 
+/// Limits that are cut in the chart, where the volume is computed; in the frame of the target.
+struct LimitsInChart {
+  exact::ChartLimits limits;
+  std::vector<Cause> causes;  ///< by label
+  std::vector<Limit> done;    ///< these need no regions any more
+};
+
 /// Positions are relative to the origin of what is viewed.
 class SensorRegionBuilder {
  public:
   /// Keeps references. `bounds`: of the volume, scene frame. Regions are added to `regions`.
   SensorRegionBuilder(const sensor::Viewed& viewed, const Sensor& sensor, const Box& bounds, Regions& regions);
+  /// Half-spaces and convex meshes are added to `chart`, in `frame`; there may be no others.
+  SensorRegionBuilder(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame,
+                      LimitsInChart& chart);
 
   const sensor::Viewed& viewed() const { return viewed_; }
   const Sensor& sensor() const { return sensor_; }
@@ -33,12 +46,18 @@ class SensorRegionBuilder {
   void forbid(const std::string& name, Solid solid, const std::string& explanation = {});
   /// What the half-spaces share.
   void keep(const std::string& name, std::vector<HalfSpace> half_spaces, const std::string& explanation = {});
+  /// What is in a convex mesh.
+  void forbid(const std::string& name, const Mesh& convex);
 
  private:
   const sensor::Viewed& viewed_;
   const Sensor& sensor_;
-  Regions& regions_;
-  Box box_;  ///< about the volume and a little more
+  std::uint32_t label_in_chart(const std::string& name);
+
+  Regions* regions_ = nullptr;
+  LimitsInChart* chart_ = nullptr;
+  const TargetFrame* frame_ = nullptr;  // of the chart
+  Box box_;                             ///< about the volume and a little more
   double reach_ = 0;
 };
 
@@ -55,7 +74,12 @@ template <Limit kLimit>
 void add_regions(const LimitValueOf<kLimit>& limit, const sensor::ViewedPart& part, SensorRegionBuilder& builder);
 void add_frame_region(const Pinhole& camera, SensorRegionBuilder& builder);
 
-/// Adds what the sensor's limits besides the range keep and forbid. `bounds`: of the volume, scene frame.
-void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, const Box& bounds, Regions& regions);
+/// Adds what the sensor's limits besides the range keep and forbid, but for those that are done. `bounds`: of the
+/// volume, scene frame.
+void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std::span<const Limit> done,
+                        const Box& bounds, Regions& regions);
+
+/// Those of the sensor's limits that are convex, of a target that is one polygon.
+LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame);
 
 }  // namespace vantage::internal::solid

@@ -28,7 +28,7 @@ void add_regions<Limit::min_range>(const double& min_range_m, const sensor::View
   grow_to_hold(mesh, part.centre, [&](const Vec3& direction) {
     return most_along(part.corners, direction) + min_range_m * direction.norm();
   });
-  builder.forbid("min_range", builder.solid_of(mesh, "min_range"));
+  builder.forbid("min_range", mesh);
 }
 
 }  // namespace vantage::internal::solid

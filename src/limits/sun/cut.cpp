@@ -24,7 +24,7 @@ void add_regions<Limit::sun>(const SunLimit& limit, const sensor::ViewedPart& pa
       points.push_back(corner - length * (portable::cos(sides_angle) * sun + portable::sin(sides_angle) * aside));
     }
   }
-  builder.forbid("sun", builder.solid_of(convex_hull(points), "sun"));
+  builder.forbid("sun", convex_hull(points));
 }
 
 }  // namespace vantage::internal::solid

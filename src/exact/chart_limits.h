@@ -1,0 +1,32 @@
+// Limits on where the camera may be that are cut in the chart, with the volume itself: docs/theory.md, "Limits in the
+// chart".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vantage/geometry.h"
+
+namespace vantage::internal::exact {
+
+/// In the target's frame, metres. Labels are the caller's.
+struct ChartLimits {
+  /// Keeps what has normal . x <= at. The normal may have any length.
+  struct Side {
+    Vec3 normal;
+    double at;
+    std::uint32_t label;
+  };
+  /// Takes away what is in a convex mesh, closed and with its facets outwards, that holds the centre: where it reaches
+  /// in front of the target at all, it holds all that is near to the centre.
+  struct Body {
+    Mesh mesh;
+    std::uint32_t label;
+  };
+  std::vector<Side> kept;
+  std::vector<Body> removed;
+
+  bool empty() const { return kept.empty() && removed.empty(); }
+};
+
+}  // namespace vantage::internal::exact

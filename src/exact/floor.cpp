@@ -1,0 +1,227 @@
+#include "exact/floor.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/edges.h"
+#include "exact/segment_cover.h"
+#include "target/numerics.h"
+
+namespace vantage::internal::exact {
+namespace {
+
+using core::FacetPolygon;
+
+/// A plane that passes the centre nearer than this part of the range has an inverse depth that rounding decides.
+constexpr double kNearest = 1e-7;
+/// Of coordinates on the map.
+constexpr double kRounding = 1e-9;
+/// Cells along the side of a quadrant in which the planes that matter are listed.
+constexpr int kCells = 16;
+
+std::size_t cell_index(int quadrant, int i, int j) {
+  return (static_cast<std::size_t>(quadrant) * kCells + static_cast<std::size_t>(j)) * kCells +
+         static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+std::optional<Floor> Floor::of(const ChartLimits& limits, double reach, std::vector<ChartLimits::Side>& ceilings) {
+  Floor floor;
+  std::vector<ChartLimits::Side> beyond;
+  for (const ChartLimits::Side& side : limits.kept) {
+    const double size = side.normal.norm();
+    if (!(std::abs(side.at) > kNearest * reach * size)) {
+      // The target's own plane, from behind: all of the volume is in front of it.
+      const bool is_own = side.normal.head<2>().norm() <= 1e-15 * size && side.normal.z() < 0;
+      if (is_own) continue;
+      return std::nullopt;
+    }
+    (side.at > 0 ? ceilings : beyond).push_back(side);
+  }
+  if (!beyond.empty()) floor.add_kept(beyond, reach);
+  for (const ChartLimits::Body& body : limits.removed) {
+    if (!floor.add_removed(body)) return std::nullopt;
+  }
+  floor.list_planes();
+  return floor;
+}
+
+void Floor::add_kept(const std::vector<ChartLimits::Side>& sides, double reach) {
+  const auto body = static_cast<std::uint32_t>(bodies_.size()), first = static_cast<std::uint32_t>(planes_.size());
+  for (const ChartLimits::Side& side : sides) {
+    planes_.emplace_back(side.normal / (side.at * (1 + kShrinks * numerics::kShrink)));
+    labels_.push_back(side.label);
+  }
+  bodies_.push_back({first, static_cast<std::uint32_t>(planes_.size()), true});
+  FacetPolygon scratch;
+  for (std::uint32_t k = first; k < planes_.size(); ++k) {
+    if (planes_[k].norm() * reach <= 1) continue;
+    Facet facet{k, body, {}};
+    core::make_facet_square(planes_[k], reach, facet.polygon);
+    core::clip_facet(facet.polygon, Vec3::UnitZ(), 0, 0, FacetPolygon::kHorizon, scratch);
+    for (std::uint32_t other = first; other < planes_.size() && !facet.polygon.empty(); ++other) {
+      if (other == k) continue;
+      const double margin = kSiblingMargin + 1e-15 * reach * planes_[other].cwiseAbs().sum();
+      core::clip_facet(facet.polygon, planes_[other], 1, margin, other, scratch);
+    }
+    if (!facet.polygon.empty()) facets_.push_back(std::move(facet));
+  }
+}
+
+bool Floor::add_removed(const ChartLimits::Body& body) {
+  const Mesh& mesh = body.mesh;
+  const auto number = static_cast<std::uint32_t>(bodies_.size());
+  const auto first = static_cast<std::uint32_t>(planes_.size());
+  const double away = 1 + kShrinks * numerics::kShrink;
+  std::vector<std::uint32_t> plane_of(mesh.triangles.size(), Value::kNone);
+  std::vector<std::array<std::uint32_t, 3>> beside(mesh.triangles.size());
+  const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
+  bool is_closed = true;
+  core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
+    if (edge.size() != 2) {
+      is_closed = false;
+      return;
+    }
+    for (int i = 0; i < 2; ++i) {
+      const Triangle& t = mesh.triangles[edge[i].triangle];
+      const std::uint32_t from = edge[i].forward ? edge[i].low : edge[i].high;
+      beside[edge[i].triangle][t[0] == from ? 0 : t[1] == from ? 1 : 2] = edge[1 - i].triangle;
+    }
+  });
+  if (!is_closed) return false;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<Vec3, 3> corners;
+    double highest = 0;
+    for (int i = 0; i < 3; ++i) {
+      corners[i] = mesh.vertices[mesh.triangles[t][i]] * away;
+      highest = std::max(highest, corners[i].z());
+    }
+    if (highest <= 0) continue;
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    // It must hold what is next to it, whatever rounding has done to the normal of a narrow facet.
+    double at = std::max({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])});
+    for (const std::uint32_t other : beside[t]) {
+      for (const std::uint32_t v : mesh.triangles[other]) at = std::max(at, away * normal.dot(mesh.vertices[v]));
+    }
+    double size = 0;
+    for (const Vec3& corner : corners) size = std::max(size, corner.norm());
+    if (!(at > kNearest * size * normal.norm())) return false;
+    plane_of[t] = static_cast<std::uint32_t>(planes_.size());
+    planes_.emplace_back(normal / at);
+    labels_.push_back(body.label);
+  }
+  if (planes_.size() == first) return true;  // nothing of it is in front
+  bodies_.push_back({first, static_cast<std::uint32_t>(planes_.size()), false});
+  FacetPolygon scratch;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (plane_of[t] == Value::kNone) continue;
+    Facet facet{plane_of[t], number, {}};
+    for (int i = 0; i < 3; ++i) {
+      facet.polygon.corners.push_back(mesh.vertices[mesh.triangles[t][i]] * away);
+      const std::uint32_t next = plane_of[beside[t][i]];
+      facet.polygon.makers.push_back(next == Value::kNone ? FacetPolygon::kHorizon : next);
+    }
+    core::clip_facet(facet.polygon, Vec3::UnitZ(), 0, 0, FacetPolygon::kHorizon, scratch);
+    if (!facet.polygon.empty()) facets_.push_back(std::move(facet));
+  }
+  return true;
+}
+
+void Floor::list_planes() {
+  if (bodies_.empty()) return;
+  cells_.assign(static_cast<std::size_t>(4 * kCells) * kCells, {});
+  Found found(cells_.size());
+  for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].is_kept) list_kept(b, found);
+  }
+  for (const Facet& facet : facets_) {
+    if (!bodies_[facet.body].is_kept) list_facet(facet, found);
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    std::sort(found[c].begin(), found[c].end());
+    Listed& listed = cells_[c];
+    for (const auto& [body, plane] : found[c]) {
+      while (listed.first.size() <= body) listed.first.push_back(static_cast<std::uint32_t>(listed.planes.size()));
+      listed.planes.push_back(plane);
+    }
+    while (listed.first.size() <= bodies_.size()) {
+      listed.first.push_back(static_cast<std::uint32_t>(listed.planes.size()));
+    }
+  }
+}
+
+// A plane matters in a cell if it can be the least there.
+void Floor::list_kept(std::uint32_t body, Found& found) const {
+  const auto [first, end, is_kept] = bodies_[body];
+  for (int quadrant = 0; quadrant < 4; ++quadrant) {
+    for (int j = 0; j < kCells; ++j) {
+      for (int i = 0; i + j < kCells; ++i) {
+        const OctahedralCell cell{quadrant, static_cast<double>(i) / kCells, static_cast<double>(j) / kCells,
+                                  1.0 / kCells};
+        double bound = std::numeric_limits<double>::infinity();
+        for (std::uint32_t k = first; k < end; ++k) {
+          bound = std::min(bound, cell.max_of(on_quadrant(planes_[k], quadrant)));
+        }
+        bound += kRounding * std::abs(bound);
+        for (std::uint32_t k = first; k < end; ++k) {
+          if (cell.min_of(on_quadrant(planes_[k], quadrant)) <= bound) {
+            found[cell_index(quadrant, i, j)].emplace_back(body, k);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Where the facet is: another plane of its body is nowhere greater there.
+void Floor::list_facet(const Facet& facet, Found& found) const {
+  FacetPolygon scratch;
+  for (int quadrant = 0; quadrant < 4; ++quadrant) {
+    FacetPolygon part = facet.polygon;
+    core::clip_facet(part, {quadrant & 1 ? -1.0 : 1.0, 0, 0}, 0, 0, FacetPolygon::kFar, scratch);
+    if (!part.empty()) core::clip_facet(part, {0, quadrant & 2 ? -1.0 : 1.0, 0}, 0, 0, FacetPolygon::kFar, scratch);
+    if (part.empty()) continue;
+    OctahedralPoint low(1, 1), high(0, 0);
+    for (const Vec3& corner : part.corners) {
+      const OctahedralPoint at = to_octahedral(corner).cwiseAbs();
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    const auto cell_of = [](double x) { return std::clamp(static_cast<int>(x * kCells), 0, kCells - 1); };
+    const int last_j = cell_of(high.y() + kRounding), last_i = cell_of(high.x() + kRounding);
+    for (int j = cell_of(low.y() - kRounding); j <= last_j; ++j) {
+      for (int i = cell_of(low.x() - kRounding); i <= last_i && i + j < kCells; ++i) {
+        found[cell_index(quadrant, i, j)].emplace_back(facet.body, facet.plane);
+      }
+    }
+  }
+}
+
+const Floor::Listed& Floor::listed_at(const OctahedralPoint& point) const {
+  int i = std::min(static_cast<int>(std::abs(point.x()) * kCells), kCells - 1);
+  int j = std::min(static_cast<int>(std::abs(point.y()) * kCells), kCells - 1);
+  while (i + j >= kCells) --(i > j ? i : j);  // on the horizon, or beyond it by rounding
+  return cells_[cell_index(quadrant_of(point.x(), point.y()), i, j)];
+}
+
+Floor::Value Floor::at(const OctahedralPoint& point) const {
+  const Vec3 direction = to_direction(point);
+  const Listed& listed = listed_at(point);
+  Value least{std::numeric_limits<double>::infinity(), Value::kNone};
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const bool is_kept = bodies_[b].is_kept;
+    Value of_body{is_kept ? std::numeric_limits<double>::infinity() : 0, Value::kNone};
+    for (std::uint32_t i = listed.first[b]; i < listed.first[b + 1]; ++i) {
+      const double gauge = planes_[listed.planes[i]].dot(direction);
+      if (is_kept ? gauge < of_body.gauge : gauge > of_body.gauge) of_body = {gauge, listed.planes[i]};
+    }
+    if (of_body.gauge < least.gauge) least = of_body;
+  }
+  return least;
+}
+
+}  // namespace vantage::internal::exact

@@ -1,0 +1,160 @@
+// Limits that are cut where the volume is computed, against booleans of the volume and of what each limit keeps.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/mesh_probe.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/solids.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::Random;
+
+Vec3 direction_of(Random& random, double least_z) {
+  for (;;) {
+    const Vec3 direction = random.direction();
+    if (direction.z() >= least_z) return direction;
+  }
+}
+
+/// One limit or several.
+std::string draw_limits(Random& random, double scale, Sensor& sensor) {
+  std::string text;
+  const int wanted = random.integer(1, 15);
+  if ((wanted & 1) != 0) {
+    sensor.min_range_m = scale * random.uniform(2, 25);
+    text += " min_range";
+  }
+  if ((wanted & 2) != 0) {
+    sensor.incidence_deg = random.uniform(15, 85);
+    text += " incidence";
+  }
+  if ((wanted & 4) != 0) {
+    sensor.sun = SunLimit{random.direction(), random.uniform(3, 60)};
+    text += " sun";
+  }
+  if ((wanted & 8) != 0) {
+    sensor.camera = pinhole_of_fov(random.uniform(30, 100), random.uniform(30, 80), 4000, 3000);
+    const double pitch = random.uniform(-90, 0);
+    sensor.mount = {random.uniform(0, 360), pitch, pitch, 0};
+    text += " frame";
+  }
+  return text;
+}
+
+struct Drawn {
+  PreparedTarget target;
+  std::string text;
+};
+
+Drawn draw(Random& random, double scale, const Vec3& offset) {
+  Scene scene = testing::random_city(random, random.integer(3, 30), 12);
+  for (Vec3& vertex : scene.mesh.vertices) vertex = scale * vertex + offset;
+  const double radius = random.uniform(0.2, 4);
+  const Vec3 centre(random.uniform(-3, 3), random.uniform(-3, 3), radius + random.uniform(0.1, 12));
+  Target target = testing::random_target(random, random.integer(3, 7), scale * radius, scale * centre + offset,
+                                         direction_of(random, -0.2));
+  Sensor sensor{.max_range_m = scale * random.uniform(30, 90)};
+  const std::string text = draw_limits(random, scale, sensor);
+  return {PreparedTarget(PreparedScene(scene), target, sensor), text};
+}
+
+/// What booleans leave.
+Volume by_booleans(const PreparedTarget& target, const ExactOptions& options) {
+  return cut_to_limits(compute_parts(target, options), target, {});
+}
+
+class LimitsInChart : public ::testing::Test {
+ protected:
+  void compare(std::uint64_t seed, double scale, const Vec3& offset, int rounds);
+
+  int in_chart_ = 0, empty_ = 0;
+  std::size_t fallbacks_ = 0;  // rims near the horizon now and then do not close
+};
+
+void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset, int rounds) {
+  Random random(seed);
+  ExactOptions options;
+  options.tolerance_m = 0.01 * scale;
+  for (int round = 0; round < rounds; ++round) {
+    const Drawn drawn = draw(random, scale, offset);
+    const std::string where = "round " + std::to_string(round) + ":" + drawn.text;
+    const Volume found = compute_volume(drawn.target, {}, options), wanted = by_booleans(drawn.target, options);
+    ASSERT_EQ(found.outcome, wanted.outcome) << where;
+    fallbacks_ += found.counts.boolean_fallbacks;
+    if (found.outcome != Outcome::computed) {
+      ++empty_;
+      continue;
+    }
+    if (found.seconds.navigation == 0) ++in_chart_;
+    const MeshMeasures one = measure(found.mesh), other = measure(wanted.mesh);
+    EXPECT_TRUE(one.closed && one.oriented) << where;
+    // In the chart limits are moved away by 3e-8 of the distance, and cleaning after booleans moves surfaces inwards by
+    // up to a tenth of the tolerance.
+    EXPECT_LE((one.volume_m3 - other.volume_m3) / other.area_m2, 0.1 * options.tolerance_m) << where;
+    EXPECT_GE((one.volume_m3 - other.volume_m3) / other.area_m2, -3e-6 * scale) << where;
+    EXPECT_EQ(found.cause_of.size(), found.mesh.triangles.size()) << where;
+  }
+}
+
+TEST_F(LimitsInChart, AreWhatBooleansLeave) {
+  compare(4101, 1, Vec3::Zero(), 80);
+  EXPECT_GT(in_chart_, 30);
+  EXPECT_GT(empty_, 2);
+  EXPECT_LE(fallbacks_, 1U);
+}
+
+TEST_F(LimitsInChart, AtEveryScale) {
+  compare(4102, 1e-3, Vec3::Zero(), 20);
+  compare(4103, 100, Vec3::Zero(), 20);
+  compare(4104, 1, Vec3(4.5e5, 5.6e6, 300), 20);
+  EXPECT_GT(in_chart_, 20);
+  EXPECT_LE(fallbacks_, 1U);
+}
+
+// Facets say which limit they are due to, and lie on it.
+TEST_F(LimitsInChart, FacetsKnowTheirLimit) {
+  testing::SceneBuilder scene;
+  scene.ground("ground", 200).box("tower", {20, -5, 0}, {30, 5, 60});
+  Sensor sensor{.max_range_m = 100, .min_range_m = 15, .incidence_deg = 70};
+  const Target target = testing::target_of({{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}});
+  const Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, sensor));
+  ASSERT_EQ(volume.outcome, Outcome::computed);
+  bool has_near = false, has_slanted = false;
+  for (std::size_t t = 0; t < volume.mesh.triangles.size(); ++t) {
+    const Cause& cause = volume.causes[volume.cause_of[t]];
+    if (cause.kind != CauseKind::sensor) continue;
+    has_near = has_near || cause.name == "min_range";
+    has_slanted = has_slanted || cause.name == "incidence";
+    for (const std::uint32_t v : volume.mesh.triangles[t]) {
+      const Vec3 from = volume.mesh.vertices[v] - Vec3(0, 0, 3);
+      const Vec3 nearest = Vec3(from.x(), from.y(), 0).cwiseMax(Vec3(-1, -1, 0)).cwiseMin(Vec3(1, 1, 0));
+      if (cause.name == "min_range") {
+        EXPECT_GE((from - nearest).norm(), 15);
+        EXPECT_LE((from - nearest).norm(), 15.1);
+      }
+      if (cause.name == "incidence") {
+        double steepest = 0;
+        for (const Vec3& corner : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)}) {
+          steepest = std::max(steepest, std::atan2((from - corner).head<2>().norm(), from.z()));
+        }
+        EXPECT_LE(steepest, 70 * std::numbers::pi / 180);
+        EXPECT_GE(steepest, 69.9 * std::numbers::pi / 180);
+      }
+    }
+  }
+  EXPECT_TRUE(has_near && has_slanted);
+}
+
+}  // namespace
+}  // namespace vantage
