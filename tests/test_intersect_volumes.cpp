@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "support/mesh_probe.h"
 #include "support/random.h"
@@ -79,6 +80,31 @@ TEST(IntersectVolumes, HalvesMakeTheWhole) {
     EXPECT_NEAR(enclosed_volume(both.mesh), expected, 1e-4 * expected) << "target at " << x << " " << y << ", " << w;
     EXPECT_GT(enclosed_volume(left.mesh), 1.005 * expected) << "a half alone must claim more, or nothing is tested";
   }
+}
+
+// What both were cut to is kept exactly, though booleans round, and cleaning moves corners.
+TEST(IntersectVolumes, KeepsAltitudesExactly) {
+  Random random(813);
+  int computed = 0;
+  for (int round = 0; round < 40; ++round) {
+    const PreparedScene scene(testing::random_city(random, 12, 12));
+    Navigation navigation;
+    navigation.altitude = {random.uniform(0.1, 3), random.uniform(5, 20)};
+    std::vector<Volume> volumes;
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 centre(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(4, 12));
+      const Target target = testing::random_target(random, 4, 1.5, centre, random.direction());
+      volumes.push_back(compute_volume(PreparedTarget(scene, target, {40}), navigation, {0.1, 0}));
+    }
+    for (const Volume& volume : {intersect_volumes(volumes), unite_volumes(volumes)}) {
+      if (volume.outcome != Outcome::computed) continue;
+      ++computed;
+      const Box box = bounding_box(volume.mesh);
+      EXPECT_GE(box.min.z(), navigation.altitude->min_m) << "round " << round;
+      EXPECT_LE(box.max.z(), navigation.altitude->max_m) << "round " << round;
+    }
+  }
+  EXPECT_GT(computed, 30);
 }
 
 TEST(IntersectVolumes, KeepsCausesAndNamesEachOnce) {

@@ -109,12 +109,13 @@ Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseLi
 void finish(LabelledMesh labelled, const Vec3& origin, const Box& bounds, double rounding,
             const std::vector<Volume>& volumes, const FacetSourceList& sources, const internal::core::CauseList& causes,
             Volume& result) {
-  for (Vec3& vertex : labelled.mesh.vertices) vertex = (vertex + origin).cwiseMax(bounds.min).cwiseMin(bounds.max);
+  for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
   // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
   internal::solid::clean_inward(
       labelled, origin, {},
       internal::solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
   internal::core::mend_for_doubles(labelled);
+  for (Vec3& vertex : labelled.mesh.vertices) vertex = vertex.cwiseMax(bounds.min).cwiseMin(bounds.max);
   internal::solid::set_mesh(std::move(labelled), sources.sources(), causes.causes(), result);
   const bool has_polygons =
       std::none_of(volumes.begin(), volumes.end(), [](const Volume& volume) { return volume.polygon_of.empty(); });
