@@ -168,7 +168,7 @@ void cut_volume(Regions regions, const LateClearance& late, std::vector<std::uin
 bool has_others(const Sensor& sensor, std::span<const Limit> done) {
   bool found = false;
   each_limit(sensor, [&](auto limit, const auto& /*value*/) {
-    found = found || std::ranges::find(done, decltype(limit)::value) == done.end();
+    found = found || std::find(done.begin(), done.end(), decltype(limit)::value) == done.end();
   });
   return found;
 }

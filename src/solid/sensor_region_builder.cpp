@@ -152,7 +152,7 @@ double most_along(const std::vector<Vec3>& corners, const Vec3& direction) {
 void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std::span<const Limit> done,
                         const Box& bounds, Regions& regions) {
   SensorRegionBuilder builder(viewed, sensor, bounds, regions);
-  const auto is_done = [&](Limit limit) { return std::ranges::find(done, limit) != done.end(); };
+  const auto is_done = [&](Limit limit) { return std::find(done.begin(), done.end(), limit) != done.end(); };
   for (const sensor::ViewedPart& part : viewed.parts) {
     each_limit(sensor, [&](auto limit, const auto& value) {
       constexpr Limit kLimit = decltype(limit)::value;
