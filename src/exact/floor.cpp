@@ -17,6 +17,8 @@ using core::FacetPolygon;
 
 /// A plane that passes the centre nearer than this part of the range has an inverse depth that rounding decides.
 constexpr double kNearest = 1e-7;
+/// Normals of facets that are larger than this, in parts of the square of their distance, are right to 1e-9.
+constexpr double kNarrow = 1e-6;
 /// Of coordinates on the map.
 constexpr double kRounding = 1e-9;
 /// Cells along the side of a quadrant in which the planes that matter are listed.
@@ -102,13 +104,17 @@ bool Floor::add_removed(const ChartLimits::Body& body) {
     }
     if (highest <= 0) continue;
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    // It must hold what is next to it, whatever rounding has done to the normal of a narrow facet.
+    // The plane must hold what is next to the facet and, where that is so narrow that rounding turns it, all of the
+    // body.
     double at = std::max({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])});
     for (const std::uint32_t other : beside[t]) {
       for (const std::uint32_t v : mesh.triangles[other]) at = std::max(at, away * normal.dot(mesh.vertices[v]));
     }
     double size = 0;
     for (const Vec3& corner : corners) size = std::max(size, corner.norm());
+    if (normal.norm() < kNarrow * size * size) {
+      for (const Vec3& vertex : mesh.vertices) at = std::max(at, away * normal.dot(vertex));
+    }
     if (!(at > kNearest * size * normal.norm())) return false;
     plane_of[t] = static_cast<std::uint32_t>(planes_.size());
     planes_.emplace_back(normal / at);

@@ -39,9 +39,9 @@ class Floor {
     std::uint32_t plane;
   };
 
-  /// Of what the limits leave beyond something; the others become `ceilings`, planes that the volume ends at. All
-  /// planes are moved away by kShrinks, so that the finished mesh keeps the limits. nullopt
-  /// where a plane passes so near to the centre that this cannot be told.
+  /// Of the planes that the volume begins behind; those that it ends at become `ceilings`. All are moved away by
+  /// kShrinks, so that the finished mesh keeps the limits. nullopt where a plane passes so near to the centre that this
+  /// cannot be told.
   static std::optional<Floor> of(const ChartLimits& limits, double reach, std::vector<ChartLimits::Side>& ceilings);
 
   bool empty() const { return bodies_.empty(); }
