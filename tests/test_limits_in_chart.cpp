@@ -96,7 +96,7 @@ void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset
       ++empty_;
       continue;
     }
-    if (found.seconds.navigation == 0) ++in_chart_;
+    if (!found.kept_limits.empty()) ++in_chart_;
     const MeshMeasures one = measure(found.mesh), other = measure(wanted.mesh);
     EXPECT_TRUE(one.closed && one.oriented) << where;
     // In the chart limits are moved away by 3e-8 of the distance, and cleaning after booleans moves surfaces inwards by
@@ -120,6 +120,23 @@ TEST_F(LimitsInChart, AtEveryScale) {
   compare(4104, 1, Vec3(4.5e5, 5.6e6, 300), 20);
   EXPECT_GT(in_chart_, 20);
   EXPECT_LE(fallbacks_, 1U);
+}
+
+// A volume that keeps a limit is not cut to it again, but for another sensor it is.
+TEST_F(LimitsInChart, AreKeptForThatSensor) {
+  testing::SceneBuilder scene;
+  scene.ground("ground", 200).box("tower", {20, -5, 0}, {30, 5, 60});
+  const PreparedScene prepared{scene.scene()};
+  const Target target = testing::target_of({{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}});
+  const PreparedTarget near(prepared, target, {.max_range_m = 100, .min_range_m = 15});
+  const PreparedTarget far(prepared, target, {.max_range_m = 100, .min_range_m = 40});
+  const Volume view = compute_view(near);
+  EXPECT_EQ(view.kept_limits, std::vector<Limit>{Limit::min_range});
+  EXPECT_EQ(volume_hash(cut_to_limits(view, near).mesh), volume_hash(view.mesh));
+  EXPECT_NEAR(enclosed_volume(cut_to_limits(view, far).mesh), enclosed_volume(compute_view(far).mesh), 1);
+  EXPECT_TRUE(has_limits_in_view(near));
+  EXPECT_FALSE(has_limits_in_view(PreparedTarget(prepared, target, {100})));
+  EXPECT_TRUE(compute_view(PreparedTarget(prepared, target, {100})).kept_limits.empty());
 }
 
 // Facets say which limit they are due to, and lie on it.

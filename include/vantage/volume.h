@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/each_limit.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
@@ -113,6 +114,9 @@ struct Volume {
   std::optional<VolumeProvenance> provenance;  ///< run_mission adds the hashes
   StageCounts counts;
   Seconds seconds;
+
+  /// Limits of the sensor that it was computed with, besides the range: compute_view.
+  std::vector<Limit> kept_limits = {};
 
   /// Of a volume that was made from one that was read: how far that file's numbers had moved its surface already
   /// (VolumeFile::rounding_m). Writers add theirs.
@@ -243,7 +247,8 @@ VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesyst
 VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
                                      double work_limit = kWorkLimit);
 
-/// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
+/// Cuts a volume to the limits of the target's sensor, besides the range and those that it keeps (Volume::kept_limits,
+/// where it was computed for this sensor), and to the navigation limits, at once. Facets
 /// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
 /// "gimbal" and "sun". As cut_to_navigation otherwise. A link is no such limit: compute_visibility takes it into
 /// account.
@@ -285,7 +290,18 @@ VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progr
 VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOptions& options = {},
                                  const Progress& progress = {});
 
-/// All that a vehicle may use: compute_parts, cut to the limits of the sensor and of navigation. Throws as these do.
+/// compute_parts, but only what keeps those limits of the sensor that are cut where the view is computed:
+/// Volume::kept_limits. These are min_range, incidence, sun and the frame of a camera that does not turn, of a target
+/// that is one polygon (docs/theory.md, "Limits in the chart"). Where that fails (StageCounts::boolean_fallbacks), or
+/// they leave nothing, it is compute_parts: cut_to_limits then cuts it, or says why nothing is left. Throws as
+/// compute_parts does. Cost: the engine's, and 0 to 90 % more for each limit.
+VANTAGE_API Volume compute_view(const PreparedTarget& target, const ExactOptions& options = {},
+                                const Progress& progress = {});
+
+/// Whether the sensor has such limits, and the target is one polygon.
+VANTAGE_API bool has_limits_in_view(const PreparedTarget& target);
+
+/// All that a vehicle may use: compute_view, cut to the limits of the sensor and of navigation. Throws as these do.
 /// Cost: the sum of theirs.
 VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},
                                   const ExactOptions& options = {}, const Progress& progress = {});

@@ -71,16 +71,23 @@ bool same_bits(const Target& a, const Target& b) {
 }
 
 // All members are named: one that is added does not compile here before it is clear whether the volume depends on it.
-// Volumes are cut to the others afterwards; a camera's pixels may limit the range, too.
+// Volumes are cut to the others afterwards, or have been computed with them (compute_view); a camera's pixels may limit
+// the range, too.
 bool same_range(const Sensor& a, const Sensor& b) {
   const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = a;
   return same_bits(max_range_m, b.max_range_m) && same_bits(range_limit_m(a), range_limit_m(b)) && !link && !b.link &&
          same_bits(visible, b.visible);
 }
 
+/// Whether limits that the volume is computed with are the same.
+bool same_limits_in_view(const PreparedTarget& a, const PreparedTarget& b) {
+  const bool has_limits = has_limits_in_view(a);
+  return has_limits == has_limits_in_view(b) && (!has_limits || a.sensor() == b.sensor());
+}
+
 bool same_bits(const PreparedTarget& a, const PreparedTarget& b) {
   return &a.scene().data() == &b.scene().data() && same_range(a.sensor(), b.sensor()) &&
-         same_bits(a.target(), b.target());
+         same_bits(a.target(), b.target()) && same_limits_in_view(a, b);
 }
 
 std::shared_ptr<const Volume> find(KeptVolumes::Data& data, const PreparedTarget& target, double tolerance_m) {

@@ -108,7 +108,7 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const RunOp
     ExactOptions options = mission.as_written.exact;
     options.threads = 0;  // those of the arena that the mission runs in
     return internal::app::kept_or_computed(run.kept, target, options.tolerance_m,
-                                           [&] { return compute_parts(target, options, progress); });
+                                           [&] { return compute_view(target, options, progress); });
   }
   check_method(mission);
   SpheresOptions options = mission.as_written.spheres;

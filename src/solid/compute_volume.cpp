@@ -7,7 +7,6 @@
 #include "core/parallel.h"
 #include "exact/limited_visibility.h"
 #include "solid/kernel_point.h"
-#include "solid/navigation.h"
 #include "solid/sensor_region_builder.h"
 #include "solid/visible_share.h"
 #include "vantage/version.h"
@@ -73,24 +72,44 @@ Volume volume_of_parts(const PreparedTarget& target, const ExactOptions& options
   return volume;
 }
 
-/// With the limits that can be cut in the chart. nullopt where there are none, and where booleans are needed; counts in
+/// compute_visibility with the limits that are cut in the chart. nullopt where booleans are needed; counts in
 /// `fallbacks` where these stand in.
-std::optional<Volume> volume_in_chart(const PreparedTarget& target, const Navigation& navigation,
-                                      const ExactOptions& options, const Progress& progress, std::size_t& fallbacks) {
+std::optional<Volume> volume_in_chart(const PreparedTarget& target, const ExactOptions& options,
+                                      const Progress& progress, std::size_t& fallbacks) {
   using How = internal::exact::LimitedVisibility::How;
-  if (target.part_count() > 1 || target.target().is_point() || internal::solid::has_share(target)) return std::nullopt;
-  if (!target.sensor().limits_view()) return std::nullopt;
   const internal::solid::LimitsInChart chart =
       internal::solid::sensor_limits_in_chart(internal::sensor::viewed_of(target), target.sensor(), target.frame());
-  if (chart.limits.empty()) return std::nullopt;
-  const auto [how, volume] =
+  auto [how, volume] =
       internal::exact::compute_visibility_within(target, chart.limits, chart.causes, options, progress);
   if (how == How::failed) ++fallbacks;
   if (how != How::computed) return std::nullopt;
-  return internal::solid::cut_to_other_limits(volume, target, chart.done, navigation, progress, options.work_limit);
+  volume.kept_limits = chart.done;
+  return std::move(volume);
 }
 
 }  // namespace
+
+bool has_limits_in_view(const PreparedTarget& target) {
+  if (target.part_count() > 1 || target.target().is_point() || internal::solid::has_share(target)) return false;
+  bool found = false;
+  each_limit(target.sensor(), [&](auto limit, const auto& /*value*/) {
+    found = found || internal::solid::is_cut_in_chart(decltype(limit)::value, target.sensor());
+  });
+  return found;
+}
+
+Volume compute_view(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
+  std::size_t fallbacks = 0;
+  if (has_limits_in_view(target)) {
+    std::optional<Volume> volume;
+    internal::parallel::with_threads(options.threads,
+                                     [&] { volume = volume_in_chart(target, options, progress, fallbacks); });
+    if (volume) return std::move(*volume);
+  }
+  Volume volume = compute_parts(target, options, progress);
+  volume.counts.boolean_fallbacks += fallbacks;
+  return volume;
+}
 
 Volume compute_parts(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   Volume volume;
@@ -102,13 +121,7 @@ Volume compute_volume(const PreparedTarget& target, const Navigation& navigation
                       const Progress& progress) {
   Volume volume;
   internal::parallel::with_threads(options.threads, [&] {
-    std::size_t fallbacks = 0;
-    if (auto found = volume_in_chart(target, navigation, options, progress, fallbacks)) {
-      volume = std::move(*found);
-      return;
-    }
-    volume = cut_to_limits(compute_parts(target, options, progress), target, navigation, progress, options.work_limit);
-    volume.counts.boolean_fallbacks += fallbacks;
+    volume = cut_to_limits(compute_view(target, options, progress), target, navigation, progress, options.work_limit);
   });
   return volume;
 }

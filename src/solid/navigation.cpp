@@ -1,7 +1,6 @@
 // Cutting a volume to where the vehicle may fly. Boxes, zones and the like are small solids beside a volume of perhaps
 // a hundred thousand facets, so they are combined first. What limits of the sensor and the clearance have in common
 // costs more than to cut the volume to one after the other.
-#include "solid/navigation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -173,9 +172,13 @@ bool has_others(const Sensor& sensor, std::span<const Limit> done) {
   return found;
 }
 
-/// `target`: with the sensor; may be null. `done`: limits of the sensor that the volume keeps.
-Volume cut_to(const Volume& volume, const PreparedTarget* target, std::span<const Limit> done,
-              const Navigation& navigation, const Progress& callback, double work_limit) {
+/// `target`: with the sensor; may be null.
+Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigation& navigation,
+              const Progress& callback, double work_limit) {
+  // What it keeps is the limit of the sensor that it was computed for.
+  const bool is_of_sensor = target && volume.provenance && volume.provenance->sensor == target->sensor();
+  const std::span<const Limit> done =
+      is_of_sensor ? std::span<const Limit>(volume.kept_limits) : std::span<const Limit>();
   if (navigation.empty() && !(target && has_others(target->sensor(), done))) return volume;
   const core::Stopwatch stopwatch;
   const core::ProgressReporter progress = core::ProgressReporter(callback).limited(
@@ -207,23 +210,18 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, std::span<cons
 
 }  // namespace
 
-Volume cut_to_other_limits(const Volume& volume, const PreparedTarget& target, std::span<const Limit> done,
-                           const Navigation& navigation, const Progress& progress, double work_limit) {
-  return cut_to(volume, &target, done, navigation, progress, work_limit);
-}
-
 }  // namespace vantage::internal::solid
 
 namespace vantage {
 
 Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress,
                          double work_limit) {
-  return internal::solid::cut_to(volume, nullptr, {}, navigation, progress, work_limit);
+  return internal::solid::cut_to(volume, nullptr, navigation, progress, work_limit);
 }
 
 Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
                      const Progress& progress, double work_limit) {
-  return internal::solid::cut_to(volume, &target, {}, navigation, progress, work_limit);
+  return internal::solid::cut_to(volume, &target, navigation, progress, work_limit);
 }
 
 }  // namespace vantage

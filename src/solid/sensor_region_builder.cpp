@@ -164,18 +164,30 @@ void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std:
   if (sensor.camera && !is_done(Limit::frame)) add_frame_region(*sensor.camera, builder);
 }
 
+bool is_cut_in_chart(Limit limit, const Sensor& sensor) {
+  switch (limit) {
+    case Limit::min_range:
+    case Limit::incidence:
+    case Limit::sun:
+      return true;
+    case Limit::frame:
+      return sensor.mount.is_fixed();
+    default:
+      return false;
+  }
+}
+
 LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame) {
   LimitsInChart chart;
   SensorRegionBuilder builder(viewed, sensor, frame, chart);
   each_limit(sensor, [&](auto limit, const auto& value) {
     constexpr Limit kLimit = decltype(limit)::value;
+    if (!is_cut_in_chart(kLimit, sensor)) return;
+    chart.done.push_back(kLimit);
     if constexpr (kLimit == Limit::frame) {
-      if (!sensor.mount.is_fixed()) return;
       add_frame_region(*sensor.camera, builder);
-      chart.done.push_back(kLimit);
-    } else if constexpr (kLimit != Limit::pixel) {
+    } else {
       add_regions<kLimit>(value, viewed.parts[0], builder);
-      chart.done.push_back(kLimit);
     }
   });
   return chart;

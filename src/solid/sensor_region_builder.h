@@ -79,7 +79,10 @@ void add_frame_region(const Pinhole& camera, SensorRegionBuilder& builder);
 void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std::span<const Limit> done,
                         const Box& bounds, Regions& regions);
 
-/// Those of the sensor's limits that are convex, of a target that is one polygon.
+/// Whether a limit of the sensor is convex, so that it can be cut in the chart.
+bool is_cut_in_chart(Limit limit, const Sensor& sensor);
+
+/// Those limits of the sensor, of a target that is one polygon.
 LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame);
 
 }  // namespace vantage::internal::solid
