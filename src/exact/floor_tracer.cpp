@@ -255,8 +255,9 @@ void Tracer::trace_range(FloorSkeleton& result) {
     for (std::size_t i = 0; i < polygon_.corners.size() && !arcs.empty(); ++i) {
       if (polygon_.makers[i] >= FacetPolygon::kHorizon) continue;
       const Vec3 &from = polygon_.corners[i], &to = polygon_.corners[(i + 1) % polygon_.corners.size()];
-      const Vec3 inwards = normal.cross(to - from).normalized();
-      arcs.keep(inwards, inwards.dot(from));
+      const Vec3 inwards = normal.cross(to - from);
+      if (inwards.norm() < shortest_) continue;  // its direction is rounding
+      arcs.keep(inwards.normalized(), inwards.normalized().dot(from));
     }
     keep_in_balls(range_, ball, ball, arcs);
     for (std::size_t h = 0; h < hider_count_ && !arcs.empty(); ++h) {

@@ -120,39 +120,10 @@ class BoundaryBuilder {
 
   /// The floor's facets, and the base between both sheets. Why it is of no use, or nothing.
   std::string add_floors() {
-    Mesh& mesh = result_.mesh;
-    const auto points = static_cast<std::uint32_t>(graph_.points().size());
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    std::vector<char> on_rim(points);
-    for (const auto& [a, b] : graph_.rim()) on_rim[a] = on_rim[b] = 1;
-    std::vector<double> gauges(points, std::numeric_limits<double>::infinity());
-    for (const FloorMesh& floor : floors_) {
-      for (std::size_t i = 0; i < floor.graph_vertex.size(); ++i) {
-        double& gauge = gauges[floor.graph_vertex[i]];
-        gauge = std::min(gauge, floor.graph_gauge[i]);
-      }
-    }
-    mesh.vertices.resize(first + points);
-    for (std::uint32_t v = 0; v < points; ++v) {
-      // What is drawn in there, since the rim was snapped across a crease, must not come before the limits.
-      const bool is_before = gauges_[v] > (1 + (Floor::kShrinks - 2) * numerics::kShrink) * gauges[v];
-      if (on_rim[v] != 0 && is_before) return "the rim lies before the floor";
-      const bool is_used = std::isfinite(gauges[v]) && gauges[v] > 0 && on_rim[v] == 0;
-      if (is_used) mesh.vertices[first + v] = to_direction(graph_.points()[v], graph_.on_horizon(v)) / gauges[v];
-    }
-    const auto on_floor = [&](std::uint32_t v) { return on_rim[v] != 0 ? v : first + v; };
+    if (!lift_floor()) return "the rim lies before the floor";
     std::vector<ConstraintGraph::Edge> base;
     for (const FloorMesh& floor : floors_) {
-      const auto shift = static_cast<std::uint32_t>(mesh.vertices.size()) - points;
-      const auto renamed = [&](std::uint32_t v) { return v < points ? on_floor(v) : v + shift; };
-      for (std::size_t i = 0; i < floor.added.size(); ++i) {
-        mesh.vertices.emplace_back(exact::to_direction(floor.added[i]) / floor.added_gauge[i]);
-      }
-      for (std::size_t i = 0; i < floor.triangles.size(); ++i) {
-        const auto& [a, b, c] = floor.triangles[i];
-        mesh.triangles.push_back({renamed(a), renamed(c), renamed(b)});
-        result_.blocker_of.push_back(Boundary::kFloor + floor.plane_of[i]);
-      }
+      add(floor);
       base.insert(base.end(), floor.base.begin(), floor.base.end());
     }
     std::sort(base.begin(), base.end());
@@ -163,6 +134,50 @@ class BoundaryBuilder {
       emit_base(on_floor(to), from, on_floor(from));
     }
     return {};
+  }
+
+  /// False where the rim lies before the limits: it is drawn in where it was snapped across a crease.
+  bool lift_floor() {
+    const std::size_t points = graph_.points().size();
+    is_on_rim_.assign(points, 0);
+    for (const auto& [a, b] : graph_.rim()) is_on_rim_[a] = is_on_rim_[b] = 1;
+    std::vector<double> gauges(points, std::numeric_limits<double>::infinity());
+    for (const FloorMesh& floor : floors_) {
+      for (std::size_t i = 0; i < floor.graph_vertex.size(); ++i) {
+        double& gauge = gauges[floor.graph_vertex[i]];
+        gauge = std::min(gauge, floor.graph_gauge[i]);
+      }
+    }
+    std::vector<Vec3>& vertices = result_.mesh.vertices;
+    first_of_floor_ = static_cast<std::uint32_t>(vertices.size());
+    vertices.resize(first_of_floor_ + points);
+    constexpr double kMost = 1 + (Floor::kShrinks - 2) * numerics::kShrink;
+    for (std::uint32_t v = 0; v < points; ++v) {
+      if (is_on_rim_[v] != 0) {
+        if (gauges_[v] > kMost * gauges[v]) return false;
+      } else if (std::isfinite(gauges[v]) && gauges[v] > 0) {
+        vertices[first_of_floor_ + v] = to_direction(graph_.points()[v], graph_.on_horizon(v)) / gauges[v];
+      }
+    }
+    return true;
+  }
+
+  /// The vertex of the floor at a point of the graph.
+  std::uint32_t on_floor(std::uint32_t v) const { return is_on_rim_[v] != 0 ? v : first_of_floor_ + v; }
+
+  void add(const FloorMesh& floor) {
+    Mesh& mesh = result_.mesh;
+    const auto points = static_cast<std::uint32_t>(graph_.points().size());
+    const auto shift = static_cast<std::uint32_t>(mesh.vertices.size()) - points;
+    const auto renamed = [&](std::uint32_t v) { return v < points ? on_floor(v) : v + shift; };
+    for (std::size_t i = 0; i < floor.added.size(); ++i) {
+      mesh.vertices.emplace_back(exact::to_direction(floor.added[i]) / floor.added_gauge[i]);
+    }
+    for (std::size_t i = 0; i < floor.triangles.size(); ++i) {
+      const auto& [a, b, c] = floor.triangles[i];
+      mesh.triangles.push_back({renamed(a), renamed(c), renamed(b)});
+      result_.blocker_of.push_back(Boundary::kFloor + floor.plane_of[i]);
+    }
   }
 
   void emit_base(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -224,7 +239,9 @@ class BoundaryBuilder {
   ConstraintGraph graph_;
   std::array<QuadrantMesh, 4> quadrants_;
   std::array<FloorMesh, 4> floors_;
-  std::vector<double> gauges_;  // per point of the graph
+  std::vector<double> gauges_;   // per point of the graph
+  std::vector<char> is_on_rim_;  // the same
+  std::uint32_t first_of_floor_ = 0;
   RangeCells cells_;
   std::vector<ConstraintGraph::Edge> base_;  // edges of the mesh on the horizon, as its triangles run them
   Boundary result_;
