@@ -41,10 +41,14 @@ inline PictureAxes picture_axes(const Angle& yaw, const Angle& pitch, const Angl
   return {ahead, level * roll.cosine - above * roll.sine, above * roll.cosine + level * roll.sine};
 }
 
-inline PictureEdges picture_edges(const Pinhole& camera, const Aim& aim, const Angle& roll) {
-  const auto [ahead, right, up] = picture_axes(Angle(aim.yaw), Angle(aim.pitch), roll);
+inline PictureEdges picture_edges(const Pinhole& camera, const Angle& yaw, const Angle& pitch, const Angle& roll) {
+  const auto [ahead, right, up] = picture_axes(yaw, pitch, roll);
   return {camera.half_width * ahead + right, camera.half_width * ahead - right, camera.half_height * ahead + up,
           camera.half_height * ahead - up};
+}
+
+inline PictureEdges picture_edges(const Pinhole& camera, const Aim& aim, const Angle& roll) {
+  return picture_edges(camera, Angle(aim.yaw), Angle(aim.pitch), roll);
 }
 
 /// The aim along a direction. Straight up and down the yaw is 0.

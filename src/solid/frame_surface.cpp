@@ -72,7 +72,7 @@ class FrameSurfaceBuilder {
 
   bool matters(const Triangle& facet) const;
   void settle();
-  bool is_safe(const Triangle& facet) const;
+  bool holds(const Triangle& facet, const Needs& needs) const;
   Needs own_needs(const Triangle& facet) const;
   Needs shared_needs(const Triangle& facet) const;
   bool refine();
@@ -124,24 +124,32 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet)
     turned = std::max(turned, std::abs(sides[i].yaw) + std::abs(sides[i].pitch));
     longest = std::max(longest, sides[i].way.norm());
   }
-  const Aim mean{first_yaw + (yaws[0] + yaws[1] + yaws[2]) / 3, pitch};
-  const sensor::PictureEdges edges = sensor::picture_edges(view_.camera, mean, roll_);
-  const Vec3 level(portable::cos(mean.yaw), -portable::sin(mean.yaw), 0);
+  const sensor::Angle mean_yaw(first_yaw + (yaws[0] + yaws[1] + yaws[2]) / 3);
+  const sensor::PictureEdges edges = sensor::picture_edges(view_.camera, mean_yaw, sensor::Angle(pitch), roll_);
+  const Vec3 level(mean_yaw.cosine, -mean_yaw.sine, 0);
   const auto by_yaw = [](const Vec3& v) { return Vec3(v.y(), -v.x(), 0); };
   const double rest = 4.0 / 27 * turned * turned * (turned * farthest + 3 * longest);
   std::array<double, 4> slack{};
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec3& n = edges[k];
     const Vec3 n_yaw = by_yaw(n), n_pitch = level.cross(n);
-    const Vec3 n_yaw_yaw = by_yaw(n_yaw), n_yaw_pitch = by_yaw(n_pitch), n_pitch_pitch = level.cross(n_pitch);
+    const Vec3 n_yaw_yaw = by_yaw(n_yaw), n_yaw_pitch = 2 * by_yaw(n_pitch), n_pitch_pitch = level.cross(n_pitch);
+    std::array<double, 3> second{-kNever, -kNever, -kNever};
+    for (const Vec3& corner : view_.corners) {
+      const Vec3 from_middle = corner - middle;
+      const double yaw_yaw = n_yaw_yaw.dot(from_middle), yaw_pitch = n_yaw_pitch.dot(from_middle),
+                   pitch_pitch = n_pitch_pitch.dot(from_middle);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Side& side = sides[i];
+        const double of_corner =
+            side.yaw * (side.yaw * yaw_yaw + side.pitch * yaw_pitch) + side.pitch * side.pitch * pitch_pitch;
+        second[i] = std::max(second[i], of_corner);
+      }
+    }
     double most = 0;
-    for (const Side& side : sides) {
-      const Vec3 second = side.yaw * side.yaw * n_yaw_yaw + 2 * side.yaw * side.pitch * n_yaw_pitch +
-                          side.pitch * side.pitch * n_pitch_pitch;
-      double farthest_along = -kNever;
-      for (const Vec3& corner : view_.corners) farthest_along = std::max(farthest_along, second.dot(corner));
-      most = std::max(
-          most, farthest_along - second.dot(middle) - 2 * (side.yaw * n_yaw + side.pitch * n_pitch).dot(side.way));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 first = sides[i].yaw * n_yaw + sides[i].pitch * n_pitch;
+      most = std::max(most, second[i] - 2 * first.dot(sides[i].way));
     }
     slack[k] = most / 6 + normal_length_[k / 2] * rest;
   }
@@ -171,14 +179,11 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::shared_needs(const Triangle& fac
   return best;
 }
 
-bool FrameSurfaceBuilder::is_safe(const Triangle& facet) const {
-  const auto holds = [&](const Needs& needs) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!(nodes_[facet[i]].distance >= needs[i])) return false;
-    }
-    return true;
-  };
-  return holds({cap_, cap_, cap_}) || holds(own_needs(facet)) || holds(shared_needs(facet));
+bool FrameSurfaceBuilder::holds(const Triangle& facet, const Needs& needs) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(nodes_[facet[i]].distance >= needs[i])) return false;
+  }
+  return true;
 }
 
 /// Raises corners until every facet is safe. A facet that one aim makes safe stays so when corners are raised, others
@@ -200,8 +205,11 @@ void FrameSurfaceBuilder::settle() {
       const Triangle& facet = facets_[f];
       const bool is_new =
           std::any_of(facet.begin(), facet.end(), [&](std::uint32_t i) { return raised[i] >= pass - 1; });
-      if (!is_new || !matters(facet) || is_safe(facet)) continue;
-      const Needs own = own_needs(facet), shared = shared_needs(facet);
+      if (!is_new || !matters(facet) || holds(facet, {cap_, cap_, cap_})) continue;
+      const Needs own = own_needs(facet);
+      if (holds(facet, own)) continue;
+      const Needs shared = shared_needs(facet);
+      if (holds(facet, shared)) continue;
       const bool takes_own = own_raises[f] < kOwnRaises && cost(facet, own) <= cost(facet, shared);
       if (takes_own) ++own_raises[f];
       Needs needs = takes_own ? own : shared;
