@@ -72,10 +72,9 @@ struct MovingCorner {
   Vec2 from, by;
 };
 
-/// Corners of the outline with all sides moved outwards alike; where two sides turn by more than an eighth of a full
-/// turn, more sides are put between them, so that no corner sticks out far.
-std::vector<MovingCorner> moving_corners(const std::vector<Vec2>& outline) {
-  constexpr double kMostTurn = std::numbers::pi / 4;
+/// Corners of the outline with all sides moved outwards alike; where two sides turn by more than `most_turn`, more
+/// sides are put between them, so that no corner sticks out far.
+std::vector<MovingCorner> moving_corners(const std::vector<Vec2>& outline, double most_turn) {
   const std::size_t count = outline.size();
   const auto normal_after = [&](std::size_t i) -> Vec2 {
     if (count == 1) return {1, 0};
@@ -89,7 +88,7 @@ std::vector<MovingCorner> moving_corners(const std::vector<Vec2>& outline) {
     if (count == 1) angle = 2 * std::numbers::pi;
     if (count == 2) angle = std::numbers::pi;
     angle = std::max(angle, 0.0);
-    const int steps = std::max(1, static_cast<int>(std::ceil(angle / kMostTurn - 1e-9)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(angle / most_turn - 1e-9)));
     const double half = angle / steps / 2;
     for (int step = 0; step < steps; ++step) {
       // Two sides whose normals turn by 2 h meet at 1 / cos h along the direction between them.
@@ -102,38 +101,45 @@ std::vector<MovingCorner> moving_corners(const std::vector<Vec2>& outline) {
   return corners;
 }
 
-}  // namespace
-
-// Round the polygon as seen along its normal, and round its edge as seen along the edge, the circle is replaced by an
-// octagon about it: four rings of corners, of which the outer two lie at tan(pi / 8) of the radius over and under the
-// polygon, and the others the same part of the radius beside it. Every side of the polytope touches the grown polygon:
-// so it holds it.
-Mesh grow_polygon(std::span<const Vec3> corners, double radius_m) {
-  const Frame frame = frame_of(corners);
-  std::vector<Vec2> plan;
-  double low = std::numeric_limits<double>::infinity(), high = -low, largest = radius_m;
-  for (const Vec3& corner : corners) {
-    const Vec3 from = corner - frame.origin;
-    plan.emplace_back(frame.u.dot(from), frame.v.dot(from));
-    low = std::min(low, frame.normal.dot(from));
-    high = std::max(high, frame.normal.dot(from));
-    largest = std::max({largest, corner.cwiseAbs().maxCoeff(), from.norm()});
+/// A convex polygon in its plane, and how far its corners are under and over it.
+struct FlatPolygon {
+  explicit FlatPolygon(std::span<const Vec3> corners) : frame(frame_of(corners)) {
+    std::vector<Vec2> plan;
+    for (const Vec3& corner : corners) {
+      const Vec3 from = corner - frame.origin;
+      plan.emplace_back(frame.u.dot(from), frame.v.dot(from));
+      low = std::min(low, frame.normal.dot(from));
+      high = std::max(high, frame.normal.dot(from));
+      largest = std::max({largest, corner.cwiseAbs().maxCoeff(), from.norm()});
+    }
+    outline = convex_outline(std::move(plan));
   }
-  // A few roundings in the frame, in the outline, in the corners of the result.
-  const double radius = radius_m + 32 * std::numeric_limits<double>::epsilon() * largest;
-  const double part = portable::tan(std::numbers::pi / 8) * radius;
-  const std::array<double, 4> outwards = {part, radius, radius, part};
-  const std::array<double, 4> heights = {low - radius, low - part, high + part, high + radius};
 
-  const std::vector<MovingCorner> moving = moving_corners(convex_outline(std::move(plan)));
+  /// For a few roundings in the frame, in the outline, in the corners of the result.
+  double rounding(double radius) const {
+    return 32 * std::numeric_limits<double>::epsilon() * std::max(largest, radius);
+  }
+
+  Frame frame;
+  std::vector<Vec2> outline;
+  double low = std::numeric_limits<double>::infinity(), high = -low, largest = 0;
+};
+
+/// Of a polytope: its corners at that height are those of the outline with all sides moved outwards.
+struct Ring {
+  double outwards, height;
+};
+
+Mesh polytope(const FlatPolygon& flat, std::span<const Ring> rings, double most_turn) {
+  const std::vector<MovingCorner> moving = moving_corners(flat.outline, most_turn);
   const auto count = static_cast<std::uint32_t>(moving.size());
   Mesh mesh;
-  for (std::size_t ring = 0; ring < outwards.size(); ++ring) {
+  for (const Ring& ring : rings) {
     for (const auto& [from, by] : moving) {
-      mesh.vertices.push_back(frame.to_scene(from + outwards[ring] * by, heights[ring]));
+      mesh.vertices.push_back(flat.frame.to_scene(from + ring.outwards * by, ring.height));
     }
   }
-  const std::uint32_t top = 3 * count;
+  const std::uint32_t top = static_cast<std::uint32_t>(rings.size() - 1) * count;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t next = (i + 1) % count;
     for (std::uint32_t ring = 0; ring < top; ring += count) {
@@ -145,6 +151,32 @@ Mesh grow_polygon(std::span<const Vec3> corners, double radius_m) {
     mesh.triangles.push_back({top, top + i - 1, top + i});
   }
   return mesh;
+}
+
+}  // namespace
+
+// Round the polygon as seen along its normal, and round its edge as seen along the edge, the circle is replaced by an
+// octagon about it: four rings of corners, of which the outer two lie at tan(pi / 8) of the radius over and under the
+// polygon, and the others the same part of the radius beside it. Every side of the polytope touches the grown polygon:
+// so it holds it.
+Mesh grow_polygon(std::span<const Vec3> corners, double radius_m) {
+  const FlatPolygon flat(corners);
+  const double radius = radius_m + flat.rounding(radius_m), part = portable::tan(std::numbers::pi / 8) * radius;
+  const std::array<Ring, 4> rings = {
+      {{part, flat.low - radius}, {radius, flat.low - part}, {radius, flat.high + part}, {part, flat.high + radius}}};
+  return polytope(flat, rings, std::numbers::pi / 4);
+}
+
+// Its corners lie at sqrt(1 + (aside / cos(turn / 2))^2) of the radius, where two sides turn by that: what is farther
+// out than corners of grow_polygon is cut off by more sides.
+Mesh grow_across(std::span<const Vec3> corners, double radius_m, double aside_m) {
+  constexpr double kMostOut = 0.58;  // sqrt(1 + 0.58^2) < 1 + kMostGrownTooFar
+  constexpr double kSharpest = 0.17;
+  const FlatPolygon flat(corners);
+  const double rounding = flat.rounding(radius_m), radius = radius_m + rounding, aside = aside_m + rounding;
+  const std::array<Ring, 2> rings = {{{aside, flat.low - radius}, {aside, flat.high + radius}}};
+  const double cosine = std::clamp(aside / (kMostOut * radius), kSharpest, 1.0);
+  return polytope(flat, rings, 2 * portable::atan2(std::sqrt(1 - cosine * cosine), cosine));
 }
 
 }  // namespace vantage::internal::core

@@ -17,4 +17,9 @@ constexpr double kMostGrownTooFar = 0.16;
 /// on a line too. The corners of the mesh are rounded outwards. Cost: linear.
 Mesh grow_polygon(std::span<const Vec3> corners, double radius_m);
 
+/// As grow_polygon, of those points alone whose foot in the polygon's plane is in the polygon or no farther aside from
+/// it than `aside_m`, at most kMostAside of the radius: a prism. It reaches no farther out than grow_polygon.
+Mesh grow_across(std::span<const Vec3> corners, double radius_m, double aside_m);
+constexpr double kMostAside = 0.4;
+
 }  // namespace vantage::internal::core

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,6 +15,9 @@
 #include "core/triangle_tree.h"
 #include "core/weld.h"
 #include "solid/convex_hull.h"
+#include "solid/grown_hull.h"
+#include "solid/obstacle_shape.h"
+#include "solid/surface_turn.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -45,8 +48,6 @@ bool is_thin(const std::array<Vec3, 3>& corners, double size) {
   return !(u.cross(v).norm() > std::max(kThinnest * longest, kSmallest * size) * longest);
 }
 
-using Polygon = std::vector<Vec3>;
-
 /// Polygons that share corners, by their numbers.
 std::vector<std::vector<std::uint32_t>> components_of(const std::vector<Polygon>& polygons) {
   Mesh corners;
@@ -62,38 +63,6 @@ std::vector<std::vector<std::uint32_t>> components_of(const std::vector<Polygon>
   for (std::uint32_t i = 0; i < polygons.size(); ++i) members[sets.find(i)].push_back(i);
   std::erase_if(members, [](const auto& component) { return component.empty(); });
   return members;
-}
-
-/// Whether polygons bound a convex solid: all corners lie on one side of each, and each edge is one of two polygons.
-bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members) {
-  constexpr std::size_t kFewest = 4, kMost = 200;
-  if (members.size() < kFewest || members.size() > kMost) return false;
-  Box box;
-  for (const std::uint32_t i : members) box.extend(box_of(polygons[i]));
-  const double slack = 1e-9 * (box.max - box.min).norm();
-  std::map<std::array<double, 6>, int> edges;
-  for (const std::uint32_t i : members) {
-    const Polygon& polygon = polygons[i];
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Vec3 &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
-      normal += (from - polygon[0]).cross(to - polygon[0]);
-      const bool is_low = std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end());
-      const Vec3 &low = is_low ? from : to, &high = is_low ? to : from;
-      ++edges[{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}];
-    }
-    normal.normalize();
-    double least = 0, most = 0;
-    for (const std::uint32_t other : members) {
-      for (const Vec3& corner : polygons[other]) {
-        const double height = normal.dot(corner - polygon[0]);
-        least = std::min(least, height);
-        most = std::max(most, height);
-      }
-    }
-    if (!(std::min(-least, most) <= slack)) return false;  // NaN too
-  }
-  return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 2; });
 }
 
 /// Neighbours are united first: what lies inside of them is gone before the rest is looked at.
@@ -137,6 +106,7 @@ Polygon part_beyond(const Polygon& polygon, Eigen::Index axis, double at, int si
 /// Convex polygons about an origin, and how far rounding may have moved their corners.
 struct NearObstacles {
   std::vector<Polygon> polygons;
+  std::vector<bool> has_normal;  // not of thin ones
   double rounding_m = 0;
 };
 
@@ -177,6 +147,7 @@ NearObstacles obstacles_near(const Mesh& obstacles, const Box& near, const Vec3&
   for (const std::array<Vec3, 3>& corners : triangles) {
     if (is_thin(corners, size)) {
       result.polygons.emplace_back(corners.begin(), corners.end());
+      result.has_normal.push_back(false);
       continue;
     }
     const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
@@ -191,53 +162,111 @@ NearObstacles obstacles_near(const Mesh& obstacles, const Box& near, const Vec3&
   };
   const PreparedScene prepared(scene, progress.is_followed() ? ask : Progress());
   for (std::uint32_t i = 0; i < prepared.statistics().polygons; ++i) result.polygons.push_back(prepared.polygon(i));
+  result.has_normal.resize(result.polygons.size(), true);
   return result;
 }
 
-/// What becomes one solid: a polygon, or all those of a convex solid. That is the same but for what is inside of the
-/// convex solid, which no volume reaches that does not begin there.
+/// What becomes one solid.
 struct ToGrow {
-  std::vector<std::uint32_t> polygons;
+  enum class Shape { polygon, prism, hull };
 
-  /// About so many facets will be grown, and go through the booleans: an octagon's for each ring, and one more for each
-  /// corner. Most of those of a convex solid are inside of its hull.
-  double facets(const std::vector<Polygon>& all) const {
-    constexpr double kOfRings = 8, kOfTurn = 5, kOfHull = 20;
-    if (polygons.size() > 1) return kOfHull * static_cast<double>(polygons.size());
-    return kOfRings * (static_cast<double>(all[polygons[0]].size()) + kOfTurn);
+  Shape shape;
+  std::vector<Vec3> points;  ///< of a polygon its corners in order
+  double aside = 1;          ///< of a prism: see grow_across, in parts of the radius
+
+  /// About so many facets will be grown, and go through the booleans: of a polygon an octagon's for each ring, and one
+  /// more for each corner; of a prism six for each corner, of a hull about twelve.
+  double facets() const {
+    constexpr double kOfRings = 8, kOfTurn = 5, kOfPrism = 6, kOfHull = 12;
+    const auto count = static_cast<double>(points.size());
+    if (shape == Shape::prism) return kOfPrism * count;
+    return shape == Shape::hull ? kOfHull * count : kOfRings * (count + kOfTurn);
   }
 };
 
-/// Adds the parts of one component that must grow. `centre`: where the volume begins.
-template <typename ReachesVolume>
-void add_to_grow(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, const Vec3& centre,
-                 const ReachesVolume& reaches_volume, std::vector<ToGrow>& to_grow) {
-  std::vector<std::uint32_t> near;
-  for (const std::uint32_t i : members) {
-    if (reaches_volume(polygons[i])) near.push_back(i);
-  }
-  if (near.empty()) return;
-  if (bound_a_convex_solid(polygons, members)) {
-    Box box;
-    for (const std::uint32_t i : members) box.extend(box_of(polygons[i]));
-    const bool holds_centre = (centre.array() >= box.min.array()).all() && (centre.array() <= box.max.array()).all();
-    if (!holds_centre) {
-      to_grow.push_back({members});
-      return;
-    }
-  }
-  for (const std::uint32_t i : near) to_grow.push_back({{i}});
+/// Gaps that a vehicle does not fit into anyhow are filled: over their middle what is cut away reaches 4.4 % too far.
+constexpr double kWidestGap = 0.3;  // of the radius, from its middle
+
+/// Makes of the polygons of one component what must grow.
+class ComponentGrower {
+ public:
+  using ReachesVolume = std::function<bool(const Polygon&)>;
+
+  /// `aside`: how far aside of each polygon that lies which is nearest to it, in parts of the radius. `centre`: where
+  /// the volume begins.
+  ComponentGrower(const std::vector<Polygon>& polygons, const std::vector<double>& aside, const Vec3& centre,
+                  double radius, ReachesVolume reaches_volume)
+      : polygons_(polygons),
+        aside_(aside),
+        centre_(centre),
+        radius_(radius),
+        reaches_volume_(std::move(reaches_volume)) {}
+
+  void add(const std::vector<std::uint32_t>& members, std::vector<ToGrow>& to_grow) const;
+
+ private:
+  bool holds_centre(const std::vector<Vec3>& points) const;
+
+  const std::vector<Polygon>& polygons_;
+  const std::vector<double>& aside_;
+  Vec3 centre_;
+  double radius_;
+  ReachesVolume reaches_volume_;
+};
+
+/// Whether it is inside of the points' hull. That of a facade is beside its building, but for rounding.
+bool ComponentGrower::holds_centre(const std::vector<Vec3>& points) const {
+  constexpr double kBeside = 1e-6;  // of the size
+  const Box box = box_of(points);
+  if ((centre_.array() < box.min.array()).any() || (centre_.array() > box.max.array()).any()) return false;
+  const Mesh hull = convex_hull(points);
+  return std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
+    const Vec3& a = hull.vertices[t[0]];
+    const Vec3 normal = (hull.vertices[t[1]] - a).cross(hull.vertices[t[2]] - a).normalized();
+    return normal.dot(centre_ - a) < -kBeside * (box.max - box.min).norm();
+  });
 }
 
-Solid grown_solid(const ToGrow& what, const std::vector<Polygon>& polygons, double radius, std::uint32_t label) {
-  Mesh mesh = core::grow_polygon(polygons[what.polygons[0]], radius);
-  if (what.polygons.size() > 1) {
-    std::vector<Vec3> points;
-    for (const std::uint32_t i : what.polygons) {
-      const Mesh grown = core::grow_polygon(polygons[i], radius);
-      points.insert(points.end(), grown.vertices.begin(), grown.vertices.end());
+/// What is inside of a closed solid no volume reaches that does not begin there; and what lies in a gap that is
+/// narrower than the clearance no vehicle does.
+void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector<ToGrow>& to_grow) const {
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t i : members) {
+    if (reaches_volume_(polygons_[i])) near.push_back(i);
+  }
+  if (near.empty()) return;
+  std::vector<Vec3> corners = corners_of(polygons_, members);
+  if (!holds_centre(corners) && is_nearly_convex(polygons_, members, kWidestGap * radius_)) {
+    to_grow.push_back({ToGrow::Shape::hull, std::move(corners)});
+    return;
+  }
+  Columns found = columns_of(polygons_, members);
+  const auto holds = [&](const std::vector<Vec3>& column) { return holds_centre(column); };
+  if (!found.columns.empty() && std::none_of(found.columns.begin(), found.columns.end(), holds)) {
+    for (std::vector<Vec3>& column : found.columns) {
+      if (reaches_volume_(column)) to_grow.push_back({ToGrow::Shape::hull, std::move(column)});
     }
-    mesh = convex_hull(points);
+    near = std::move(found.others);
+    std::erase_if(near, [&](std::uint32_t i) { return !reaches_volume_(polygons_[i]); });
+  }
+  for (const std::uint32_t i : near) {
+    const bool is_prism = aside_[i] <= core::kMostAside;
+    to_grow.push_back({is_prism ? ToGrow::Shape::prism : ToGrow::Shape::polygon, polygons_[i], aside_[i]});
+  }
+}
+
+Solid grown_solid(const ToGrow& what, double radius, std::uint32_t label) {
+  Mesh mesh;
+  switch (what.shape) {
+    case ToGrow::Shape::polygon:
+      mesh = core::grow_polygon(what.points, radius);
+      break;
+    case ToGrow::Shape::prism:
+      mesh = core::grow_across(what.points, radius, what.aside * radius);
+      break;
+    case ToGrow::Shape::hull:
+      mesh = grow_hull(what.points, radius);
+      break;
   }
   std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
   return Solid({std::move(mesh), std::move(labels)}, "clearance");
@@ -276,20 +305,22 @@ Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3&
     const bool is_near = tree.any_near(box, [](std::uint32_t) { return true; });
     return is_near || tree.winding_number(polygon[0]) != 0;
   };
-  const std::vector<std::vector<std::uint32_t>> components = components_of(polygons);
+  // Beside a surface that turns little each polygon needs to grow aside by a part of the radius only.
+  constexpr double kRounding = 1e-4;  // neighbours overlap by this
+  std::vector<double> aside = sines_of_turns(polygons, near.has_normal);
+  for (double& sine : aside) sine += kRounding;
+  const ComponentGrower grower(polygons, aside, centre, radius, reaches_volume);
   std::vector<ToGrow> to_grow;
-  for (const std::vector<std::uint32_t>& component : components) {
-    add_to_grow(polygons, component, centre, reaches_volume, to_grow);
-  }
+  for (const std::vector<std::uint32_t>& component : components_of(polygons)) grower.add(component, to_grow);
   progress.report(0.2);
   double facets = 0;
-  for (const ToGrow& one : to_grow) facets += one.facets(polygons);
+  for (const ToGrow& one : to_grow) facets += one.facets();
   progress.expect(work_to_unite(facets, to_grow.size()));
   std::vector<Solid> solids;
   const core::ProgressReporter growing = progress.part(0.2, 0.4), uniting = progress.part(0.4, 1);
   for (const ToGrow& one : to_grow) {
     growing.report(solids.size(), to_grow.size());
-    solids.push_back(grown_solid(one, polygons, radius, label));
+    solids.push_back(grown_solid(one, radius, label));
   }
   core::ProgressCounter done(uniting, solids.size());
   return unite_neighbours(std::span(solids), uniting, done);

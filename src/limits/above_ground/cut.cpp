@@ -4,7 +4,7 @@
 namespace vantage::internal::solid {
 namespace {
 
-Emptiness explain_band(const Region& region, const Remainder& left) {
+Emptiness explain_band_above_ground(const Region& region, const Remainder& left) {
   if (region.solid.empty()) {
     return {region.name + " is empty: there is no ground under " + left.text(),
             "enlarge the scene, or give the ground's z: 'navigation.ground: 0'"};
@@ -30,7 +30,7 @@ void add_regions<Limit::above_ground>(const AboveGround& limit, RegionBuilder& b
   builder.keep(
       {name,
        make_ground_band(*ground.surface, low, high, builder.outer(), builder.origin(), labels, builder.progress()),
-       explain_band});
+       explain_band_above_ground});
 }
 
 }  // namespace vantage::internal::solid

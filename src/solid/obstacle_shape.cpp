@@ -1,0 +1,193 @@
+#include "solid/obstacle_shape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/triangle_distance.h"
+#include "solid/convex_hull.h"
+
+namespace vantage::internal::solid {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the size
+
+Vec3 normal_of(const Polygon& polygon) {
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    normal += (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]);
+  }
+  return normal.normalized();
+}
+
+/// Whether each edge belongs to two polygons; `opposite`: and they run it in opposite directions.
+bool are_closed(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, bool opposite) {
+  struct Uses {
+    int forward = 0, backward = 0;
+  };
+  std::map<std::array<double, 6>, Uses> edges;
+  for (const std::uint32_t i : members) {
+    const Polygon& polygon = polygons[i];
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3 &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+      const bool is_low = std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end());
+      const Vec3 &low = is_low ? from : to, &high = is_low ? to : from;
+      Uses& uses = edges[{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}];
+      ++(is_low ? uses.forward : uses.backward);
+    }
+  }
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    const auto& [forward, backward] = edge.second;
+    return forward + backward == 2 && (!opposite || forward == 1);
+  });
+}
+
+double size_of(const std::vector<Vec3>& points) {
+  Box box;
+  for (const Vec3& point : points) box.extend(point);
+  return (box.max - box.min).norm();
+}
+
+/// Whether all corners lie on one side of each polygon, and the polygons are closed.
+bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members,
+                          const std::vector<Vec3>& corners) {
+  constexpr std::size_t kFewestFacets = 4;
+  if (members.size() < kFewestFacets) return false;
+  const double slack = kRounding * size_of(corners);
+  for (const std::uint32_t i : members) {
+    const Vec3 normal = normal_of(polygons[i]);
+    double least = 0, most = 0;
+    for (const Vec3& corner : corners) {
+      const double height = normal.dot(corner - polygons[i][0]);
+      least = std::min(least, height);
+      most = std::max(most, height);
+    }
+    if (!(std::min(-least, most) <= slack)) return false;  // NaN too
+  }
+  return are_closed(polygons, members, false);
+}
+
+/// How near the facets of a hull are to polygons.
+class Gaps {
+ public:
+  Gaps(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double widest)
+      : polygons_(polygons), members_(members), widest_(widest) {}
+
+  /// No where it takes too many looks, too.
+  bool are_narrow(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const bool is_of_one = std::any_of(members_.begin(), members_.end(), [&](std::uint32_t i) {
+      const Polygon& polygon = polygons_[i];
+      const auto has = [&](const Vec3& p) { return std::find(polygon.begin(), polygon.end(), p) != polygon.end(); };
+      return has(a) && has(b) && has(c);
+    });
+    return is_of_one || are_narrow_in(a, b, c);
+  }
+
+ private:
+  bool are_narrow_in(const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double kSmall = 0.05;  // of the widest: what is smaller needs no closer look
+    if (--looks_left_ < 0) return false;
+    const Vec3 middle = (a + b + c) / 3;
+    const double farthest = distance(middle);
+    if (!(farthest <= widest_)) return false;
+    const double radius = std::max({(a - middle).norm(), (b - middle).norm(), (c - middle).norm()});
+    if (farthest + radius <= widest_ || radius <= kSmall * widest_) return true;
+    const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+    return are_narrow_in(ab, bc, ca) && are_narrow_in(a, ab, ca) && are_narrow_in(ab, b, bc) &&
+           are_narrow_in(ca, bc, c);
+  }
+
+  double distance(const Vec3& point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : members_) {
+      const Polygon& polygon = polygons_[i];
+      for (std::size_t k = 2; k < polygon.size(); ++k) {
+        least = std::min(least, core::squared_distance_to_triangle(point, polygon[0], polygon[k - 1], polygon[k]));
+      }
+    }
+    return std::sqrt(least);
+  }
+
+  const std::vector<Polygon>& polygons_;
+  const std::vector<std::uint32_t>& members_;
+  double widest_;
+  int looks_left_ = 2000;
+};
+
+}  // namespace
+
+std::vector<Vec3> corners_of(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members) {
+  std::vector<Vec3> corners;
+  for (const std::uint32_t i : members) corners.insert(corners.end(), polygons[i].begin(), polygons[i].end());
+  std::sort(corners.begin(), corners.end(), [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+bool is_nearly_convex(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members,
+                      double widest_m) {
+  constexpr std::size_t kMost = 200;
+  if (members.size() > kMost) return false;
+  const std::vector<Vec3> corners = corners_of(polygons, members);
+  const Mesh hull = convex_hull(corners);
+  if (hull.empty()) return false;
+  if (bound_a_convex_solid(polygons, members, corners)) return true;
+  Gaps gaps(polygons, members, widest_m);
+  return std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
+    return gaps.are_narrow(hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]]);
+  });
+}
+
+Columns columns_of(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members) {
+  constexpr double kUpright = 1e-12;  // leaning by less is within what is allowed for rounding
+  double low = std::numeric_limits<double>::infinity();
+  const std::vector<Vec3> corners = corners_of(polygons, members);
+  for (const Vec3& corner : corners) low = std::min(low, corner.z());
+  const double slack = kUpright * size_of(corners);
+  std::vector<std::uint32_t> roofs, walls;
+  for (const std::uint32_t i : members) {
+    const double up = normal_of(polygons[i]).z();
+    const auto is_low = [&](const Vec3& corner) { return corner.z() <= low + slack; };
+    if (std::abs(up) <= kUpright) {
+      walls.push_back(i);
+    } else if (up > 0) {
+      roofs.push_back(i);
+    } else if (!std::all_of(polygons[i].begin(), polygons[i].end(), is_low)) {
+      return {};
+    }
+  }
+  if (!are_closed(polygons, members, true)) return {};
+  Columns result;
+  std::map<std::array<double, 2>, std::vector<std::pair<std::uint32_t, double>>> roofs_at;  // with their heights
+  for (const std::uint32_t i : roofs) {
+    std::vector<Vec3>& column = result.columns.emplace_back(polygons[i]);
+    for (const Vec3& corner : polygons[i]) {
+      column.emplace_back(corner.x(), corner.y(), low);
+      roofs_at[{corner.x(), corner.y()}].emplace_back(i, corner.z());
+    }
+  }
+  const auto is_under = [&](const Vec3& corner, std::uint32_t roof) {
+    const auto found = roofs_at.find({corner.x(), corner.y()});
+    return found != roofs_at.end() && std::any_of(found->second.begin(), found->second.end(), [&](const auto& over) {
+             return over.first == roof && over.second >= corner.z();
+           });
+  };
+  for (const std::uint32_t i : walls) {
+    const Polygon& wall = polygons[i];
+    const auto first = roofs_at.find({wall[0].x(), wall[0].y()});
+    const bool is_in_one =
+        first != roofs_at.end() && std::any_of(first->second.begin(), first->second.end(), [&](const auto& over) {
+          return std::all_of(wall.begin(), wall.end(), [&](const Vec3& c) { return is_under(c, over.first); });
+        });
+    if (!is_in_one) result.others.push_back(i);
+  }
+  return result;
+}
+
+}  // namespace vantage::internal::solid
