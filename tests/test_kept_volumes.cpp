@@ -165,11 +165,12 @@ bool edit(Random& random, Drawn& drawn) {
     case 5:
       file.navigation.altitude = Navigation::Altitude{z + scale * 2, z + scale * random.uniform(10, 60)};
       return true;
-    case 6:
+    case 6:  // cut where the view is computed
       file.sensor.incidence_deg = random.uniform(30, 80);
-      return true;
+      return false;
     default:
-      file.sensor.min_range_m = scale * random.uniform(1, 9);
+      file.navigation.keep_out = {
+          Box{drawn.origin - scale * Vec3(9, 9, 9), drawn.origin + scale * Vec3(random.uniform(1, 9), 0, 30)}};
       return true;
   }
 }

@@ -32,11 +32,12 @@ namespace vantage {
 
 // ---- Volumes that are kept from one run to the next
 
-/// What runs of missions have computed of their targets, before the limits of navigation, and of the sensor besides the
-/// range. Give it to each run in RunOptions::kept, with RunOptions::prepared. A target is computed again only where
-/// something has changed that its volume depends on: the scene, the target itself, the range, the share that must be
-/// seen, the tolerance. All must be the same to the bit. So results have the same bits as without it. While a limit is
-/// dragged volumes are only cut again, and while one of several targets is dragged the others stay.
+/// What runs of missions have computed of their targets by compute_view: before the limits of navigation, and those of
+/// the sensor that it does not keep. Give it to each run in RunOptions::kept, with RunOptions::prepared. A target is
+/// computed again only where something has changed that its volume depends on: the scene, the target itself, the range,
+/// the share that must be seen, the tolerance, the sensor where compute_view keeps one of its limits. All must be the
+/// same to the bit. So results have the same bits as without it. While another limit is dragged volumes are only cut
+/// again, and while one of several targets is dragged the others stay.
 ///
 /// For the exact method; nothing is kept of targets with a radio link, nor of those without a volume. It holds what the
 /// last run used and what the present one adds, at 32 bytes a facet, and the scenes of these; a target that is refused

@@ -54,6 +54,8 @@ struct VANTAGE_API Target {
 
   /// A target of that part alone; the second goes by the name of "NAME, part 2".
   Target part(std::size_t index) const;
+
+  bool operator==(const Target&) const = default;
 };
 
 /// A checked target with its frame. Viewpoints have local z > 0, but for a point that is seen from all sides.

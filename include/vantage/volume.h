@@ -115,7 +115,7 @@ struct Volume {
   StageCounts counts;
   Seconds seconds;
 
-  /// Limits of the sensor that it was computed with, besides the range: compute_view.
+  /// Limits that it was computed with, besides the range, of the target and the sensor in `provenance`: compute_view.
   std::vector<Limit> kept_limits = {};
 
   /// Of a volume that was made from one that was read: how far that file's numbers had moved its surface already
@@ -247,11 +247,10 @@ VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesyst
 VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
                                      double work_limit = kWorkLimit);
 
-/// Cuts a volume to the limits of the target's sensor, besides the range and those that it keeps (Volume::kept_limits,
-/// where it was computed for this sensor), and to the navigation limits, at once. Facets
-/// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
-/// "gimbal" and "sun". As cut_to_navigation otherwise. A link is no such limit: compute_visibility takes it into
-/// account.
+/// Cuts a volume to the limits of the target's sensor, besides the range and what it keeps already
+/// (Volume::kept_limits, of this target and this sensor), and to the navigation limits, at once. Facets that a limit of
+/// the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame", "gimbal" and "sun".
+/// As cut_to_navigation otherwise. A link is no such limit: compute_visibility takes it into account.
 ///
 /// Guaranteed from the inside: the surfaces are made of facets, which take away more than the limit does, never less.
 /// How much more is in docs/camera.md. Cost: besides the boolean milliseconds, with a gimbal tens of them.

@@ -148,6 +148,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   }
   if (volumes.size() == 1) return result;
 
+  result.kept_limits.clear();
   const Vec3 origin = result.frame.origin;
   internal::core::CauseList causes;
   FacetSourceList sources;
@@ -180,6 +181,7 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
   check_any(volumes, "unite");
   if (volumes.size() == 1) return volumes.front();
   Volume result = volumes.front();
+  result.kept_limits.clear();
   if (result.provenance && !can_state_all(volumes, *result.provenance)) result.provenance.reset();
   for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
   if (result.provenance) state_any(volumes, result);

@@ -172,13 +172,17 @@ bool has_others(const Sensor& sensor, std::span<const Limit> done) {
   return found;
 }
 
+/// Whether it was computed for that target and that sensor.
+bool is_of(const Volume& volume, const PreparedTarget& target) {
+  const std::optional<VolumeProvenance>& made = volume.provenance;
+  return made && made->views.empty() && made->target == target.target() && made->sensor == target.sensor();
+}
+
 /// `target`: with the sensor; may be null.
 Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigation& navigation,
               const Progress& callback, double work_limit) {
-  // What it keeps is the limit of the sensor that it was computed for.
-  const bool is_of_sensor = target && volume.provenance && volume.provenance->sensor == target->sensor();
   const std::span<const Limit> done =
-      is_of_sensor ? std::span<const Limit>(volume.kept_limits) : std::span<const Limit>();
+      target && is_of(volume, *target) ? std::span<const Limit>(volume.kept_limits) : std::span<const Limit>();
   if (navigation.empty() && !(target && has_others(target->sensor(), done))) return volume;
   const core::Stopwatch stopwatch;
   const core::ProgressReporter progress = core::ProgressReporter(callback).limited(
