@@ -5,7 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/mend_welded.h"
 #include "core/parallel.h"
 #include "exact/floor_mesh.h"
 #include "exact/gauge.h"
@@ -72,6 +75,7 @@ class BoundaryBuilder {
     for (const QuadrantMesh& quadrant : quadrants_) add(quadrant);
     if (envelope_.floor) {
       attempt.failure = add_floors();
+      if (attempt.failure.empty() && !part_sheets()) attempt.failure = "sheets that touch cannot be told apart";
       if (!attempt.failure.empty()) return attempt;
     } else {
       emit_base();
@@ -135,6 +139,28 @@ class BoundaryBuilder {
     }
     return {};
   }
+
+  /// Where both sheets have an edge across from one vertex of the rim to another they touch there: each gets its own.
+  /// False where that cannot be.
+  bool part_sheets() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> across;
+    for (const Triangle& t : result_.mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+        if (is_on_rim(from) && is_on_rim(to)) across.emplace_back(from, to);
+      }
+    }
+    std::sort(across.begin(), across.end());
+    if (std::adjacent_find(across.begin(), across.end()) == across.end()) return true;
+    core::LabelledMesh labelled{std::move(result_.mesh), std::move(result_.blocker_of)};
+    core::take_out_facing_facets(labelled);
+    const bool is_done = core::split_shared_edges(labelled);
+    result_.mesh = std::move(labelled.mesh);
+    result_.blocker_of = std::move(labelled.labels);
+    return is_done;
+  }
+
+  bool is_on_rim(std::uint32_t v) const { return v < is_on_rim_.size() && is_on_rim_[v] != 0; }
 
   /// False where the rim lies before the limits: it is drawn in where it was snapped across a crease.
   bool lift_floor() {
