@@ -227,7 +227,8 @@ void add_house(const std::vector<Vec3>& footprint, double height, Mesh& mesh) {
 Mesh make_village(Random& random) {
   Mesh mesh;
   for (int house = 0; house < 9; ++house) {
-    const Vec3 at(16.0 * (house % 3) - 22, 16.0 * (house / 3) - 22, 0);
+    const int column = house % 3, row = house / 3;
+    const Vec3 at(16.0 * column - 22, 16.0 * row - 22, 0);
     const double w = random.uniform(2, 8), d = random.uniform(2, 8), height = random.uniform(4, 20);
     const double angle = random.chance(0.5) ? 0 : random.uniform(0, 1);
     const auto place = [&](double x, double y, double z) {

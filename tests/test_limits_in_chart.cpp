@@ -22,7 +22,7 @@ using testing::Random;
 
 Vec3 direction_of(Random& random, double least_z) {
   for (;;) {
-    const Vec3 direction = random.direction();
+    Vec3 direction = random.direction();
     if (direction.z() >= least_z) return direction;
   }
 }
