@@ -289,6 +289,10 @@ TEST(ObstacleColumns, LeaveOutWallsThatAreUnderNoOneRoof) {
   std::swap(polygons[0][0], polygons[0][2]);  // a bottom that faces up
   EXPECT_TRUE(internal::solid::columns_of(polygons, all).columns.empty());
   EXPECT_TRUE(internal::solid::columns_of(polygons, {1, 2, 3, 4, 5, 6}).columns.empty());  // none
+  std::swap(polygons[0][0], polygons[0][2]);
+  const Vec3 far(-9, 0, 0);  // a floor beside it without height
+  polygons.insert(polygons.end(), {{a, far, fin}, {fin, far, a}});
+  EXPECT_TRUE(internal::solid::columns_of(polygons, {0, 1, 2, 3, 4, 5, 6, 9, 10}).columns.empty());
 }
 
 TEST(ClearanceLimit, TheCutKeepsTheDistanceFromHousesAndTrees) {

@@ -18,6 +18,7 @@
 #include "solid/grown_hull.h"
 #include "solid/obstacle_shape.h"
 #include "solid/surface_turn.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -268,6 +269,7 @@ Solid grown_solid(const ToGrow& what, double radius, std::uint32_t label) {
       mesh = grow_hull(what.points, radius);
       break;
   }
+  if (mesh.empty()) throw Error(ErrorCode::internal_defect, "an obstacle did not grow", "clearance", "");
   std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
   return Solid({std::move(mesh), std::move(labels)}, "clearance");
 }

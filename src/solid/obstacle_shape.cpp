@@ -153,13 +153,14 @@ Columns columns_of(const std::vector<Polygon>& polygons, const std::vector<std::
   std::vector<std::uint32_t> roofs, walls;
   for (const std::uint32_t i : members) {
     const double up = normal_of(polygons[i]).z();
-    const auto is_low = [&](const Vec3& corner) { return corner.z() <= low + slack; };
+    const bool is_low = std::all_of(polygons[i].begin(), polygons[i].end(),
+                                    [&](const Vec3& corner) { return corner.z() <= low + slack; });
     if (std::abs(up) <= kUpright) {
       walls.push_back(i);
-    } else if (up > 0) {
+    } else if (is_low == (up > 0)) {
+      return {};  // a roof without height, or what overhangs
+    } else if (!is_low) {
       roofs.push_back(i);
-    } else if (!std::all_of(polygons[i].begin(), polygons[i].end(), is_low)) {
-      return {};
     }
   }
   if (!are_closed(polygons, members, true)) return {};
