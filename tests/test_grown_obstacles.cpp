@@ -47,6 +47,15 @@ std::vector<Vec3> polygon(Random& random, double size, double flatness, const Ve
   return corners;
 }
 
+/// A point of the convex hull: a corner as often as not.
+Vec3 corner_or_inside(Random& random, const std::vector<Vec3>& corners) {
+  if (random.chance(0.5))
+    return corners[static_cast<std::size_t>(random.integer(0, static_cast<int>(corners.size()) - 1))];
+  Vec3 inside = corners[0];
+  for (const Vec3& corner : corners) inside += random.uniform(0, 1) * (corner - inside);
+  return inside;
+}
+
 TEST(GrownPolygons, HoldTheGrownPolygonAndLittleMore) {
   Random random(41);
   for (int round = 0; round < 3000; ++round) {
@@ -59,9 +68,7 @@ TEST(GrownPolygons, HoldTheGrownPolygonAndLittleMore) {
     const double rounding = 1e-14 * (centre.norm() + size + radius);
     if (radius < 1e4 * rounding) continue;
     for (int i = 0; i < 40; ++i) {
-      Vec3 on_polygon = corners[0];
-      for (const Vec3& corner : corners) on_polygon += random.uniform(0, 1) * (corner - on_polygon);
-      const Vec3& from = random.chance(0.5) ? corners[static_cast<std::size_t>(i) % corners.size()] : on_polygon;
+      const Vec3 from = corner_or_inside(random, corners);
       const Vec3 p = from + (radius * (1 - 1e-9) - rounding) * random.direction();
       EXPECT_TRUE(holds(grown, p)) << round;
     }
@@ -86,9 +93,7 @@ TEST(GrownPolygons, PrismsHoldWhatIsAcrossAndReachNoFarther) {
     if (radius < 1e4 * rounding) continue;
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
     for (int i = 0; i < 40; ++i) {
-      Vec3 on_polygon = corners[0];
-      for (const Vec3& corner : corners) on_polygon += random.uniform(0, 1) * (corner - on_polygon);
-      const Vec3& from = random.chance(0.5) ? corners[static_cast<std::size_t>(i) % corners.size()] : on_polygon;
+      const Vec3 from = corner_or_inside(random, corners);
       const Vec3 across = aside * random.direction().cross(normal);
       EXPECT_TRUE(holds(prism, from + (1 - 1e-7) * (across + random.uniform(-1, 1) * radius * normal))) << round;
     }
@@ -116,9 +121,7 @@ TEST(GrownHulls, HoldTheGrownHullAndLittleMore) {
     const double rounding = 1e-14 * (centre.norm() + size + radius);
     if (radius < 1e4 * rounding) continue;
     for (int i = 0; i < 40; ++i) {
-      Vec3 in_hull = points[0];
-      for (const Vec3& point : points) in_hull += random.uniform(0, 1) * (point - in_hull);
-      const Vec3& from = random.chance(0.5) ? points[static_cast<std::size_t>(i) % points.size()] : in_hull;
+      const Vec3 from = corner_or_inside(random, points);
       EXPECT_TRUE(holds(grown, from + (radius * (1 - 1e-9) - rounding) * random.direction())) << round;
     }
     for (const Vec3& vertex : grown.vertices) {
