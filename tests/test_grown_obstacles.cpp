@@ -298,6 +298,26 @@ TEST(ObstacleColumns, LeaveOutWallsThatAreUnderNoOneRoof) {
   EXPECT_TRUE(internal::solid::columns_of(polygons, {0, 1, 2, 3, 4, 5, 6, 9, 10}).columns.empty());
 }
 
+// What is between two walls without thickness that meet in a corner is no solid, and in a house with a gable there is
+// room, also where the volume begins right under its ridge.
+TEST(ObstacleShape, IsNoSolidWhereThereIsRoom) {
+  const Vec3 o(0, 0, 0), y(0, 10, 0), yz(0, 10, 10), z(0, 0, 10), x(10, 0, 0), xz(10, 0, -10), low(0, 0, -10);
+  const std::vector<std::vector<Vec3>> walls = {{o, y, yz, z}, {z, yz, y, o}, {o, x, xz, low}, {low, xz, x, o}};
+  EXPECT_FALSE(internal::solid::is_nearly_convex(walls, {0, 1, 2, 3}, 0.3));
+  Scene house;
+  house.mesh.vertices = {{-5, -8, 0}, {5, -8, 0}, {5, 8, 0},  {-5, 8, 0}, {-5, -8, 4},
+                         {5, -8, 4},  {5, 8, 4},  {-5, 8, 4}, {0, -8, 7}, {0, 8, 7}};
+  house.mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 8}, {0, 8, 4}, {2, 3, 7}, {2, 7, 9}, {2, 9, 6},
+                          {1, 2, 6}, {1, 6, 5}, {3, 0, 4}, {3, 4, 7}, {5, 6, 9}, {5, 9, 8}, {4, 8, 9}, {4, 9, 7}};
+  house.object_of.assign(house.mesh.triangles.size(), 0);
+  house.objects = {{"house", "", ObjectKind::other}};
+  for (const double aside : {0.0, 0.5}) {
+    Volume room = make_hemisphere({aside, 0, 2}, 1.5);
+    room.frame.origin = Vec3(aside, 0, 2);
+    EXPECT_EQ(cut_to_navigation(room, keeping(house, 0.5)).outcome, Outcome::computed) << aside;
+  }
+}
+
 TEST(ClearanceLimit, TheCutKeepsTheDistanceFromHousesAndTrees) {
   Random random(47);
   for (int round = 0; round < 8; ++round) {

@@ -206,7 +206,8 @@ class ComponentGrower {
   void add(const std::vector<std::uint32_t>& members, std::vector<ToGrow>& to_grow) const;
 
  private:
-  bool holds_centre(const std::vector<Vec3>& points) const;
+  bool hull_holds_centre(const std::vector<Vec3>& points) const;
+  bool solid_holds_centre(const std::vector<std::uint32_t>& members) const;
 
   const std::vector<Polygon>& polygons_;
   const std::vector<double>& aside_;
@@ -216,7 +217,7 @@ class ComponentGrower {
 };
 
 /// Whether it is inside of the points' hull. That of a facade is beside its building, but for rounding.
-bool ComponentGrower::holds_centre(const std::vector<Vec3>& points) const {
+bool ComponentGrower::hull_holds_centre(const std::vector<Vec3>& points) const {
   constexpr double kBeside = 1e-6;  // of the size
   const Box box = box_of(points);
   if ((centre_.array() < box.min.array()).any() || (centre_.array() > box.max.array()).any()) return false;
@@ -228,6 +229,18 @@ bool ComponentGrower::holds_centre(const std::vector<Vec3>& points) const {
   });
 }
 
+/// Whether it is inside of what closed members bound.
+bool ComponentGrower::solid_holds_centre(const std::vector<std::uint32_t>& members) const {
+  Mesh surface;
+  for (const std::uint32_t i : members) {
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    const Polygon& polygon = polygons_[i];
+    surface.vertices.insert(surface.vertices.end(), polygon.begin(), polygon.end());
+    for (std::uint32_t k = 2; k < polygon.size(); ++k) surface.triangles.push_back({first, first + k - 1, first + k});
+  }
+  return core::TriangleTree(surface).winding_number(centre_) != 0;
+}
+
 /// What is inside of a closed solid no volume reaches that does not begin there; and what lies in a gap that is
 /// narrower than the clearance no vehicle does.
 void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector<ToGrow>& to_grow) const {
@@ -237,13 +250,12 @@ void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector
   }
   if (near.empty()) return;
   std::vector<Vec3> corners = corners_of(polygons_, members);
-  if (!holds_centre(corners) && is_nearly_convex(polygons_, members, kWidestGap * radius_)) {
+  if (!hull_holds_centre(corners) && is_nearly_convex(polygons_, members, kWidestGap * radius_)) {
     to_grow.push_back({ToGrow::Shape::hull, std::move(corners)});
     return;
   }
   Columns found = columns_of(polygons_, members);
-  const auto holds = [&](const std::vector<Vec3>& column) { return holds_centre(column); };
-  if (!found.columns.empty() && std::none_of(found.columns.begin(), found.columns.end(), holds)) {
+  if (!found.columns.empty() && !solid_holds_centre(members)) {
     for (std::vector<Vec3>& column : found.columns) {
       if (reaches_volume_(column)) to_grow.push_back({ToGrow::Shape::hull, std::move(column)});
     }

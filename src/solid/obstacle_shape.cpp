@@ -16,13 +16,16 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of the size
 
-Vec3 normal_of(const Polygon& polygon) {
-  Vec3 normal = Vec3::Zero();
+/// Along the normal.
+Vec3 doubled_area(const Polygon& polygon) {
+  Vec3 area = Vec3::Zero();
   for (std::size_t k = 2; k < polygon.size(); ++k) {
-    normal += (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]);
+    area += (polygon[k - 1] - polygon[0]).cross(polygon[k] - polygon[0]);
   }
-  return normal.normalized();
+  return area;
 }
+
+Vec3 normal_of(const Polygon& polygon) { return doubled_area(polygon).normalized(); }
 
 /// Whether each edge belongs to two polygons; `opposite`: and they run it in opposite directions.
 bool are_closed(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, bool opposite) {
@@ -52,9 +55,10 @@ double size_of(const std::vector<Vec3>& points) {
   return (box.max - box.min).norm();
 }
 
-/// Whether all corners lie on one side of each polygon, and the polygons are closed.
+/// Whether all corners lie on one side of each polygon, and the polygons are closed and cover the hull. (Walls without
+/// thickness, drawn twice, that meet in a corner do not.)
 bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members,
-                          const std::vector<Vec3>& corners) {
+                          const std::vector<Vec3>& corners, const Mesh& hull) {
   constexpr std::size_t kFewestFacets = 4;
   if (members.size() < kFewestFacets) return false;
   const double slack = kRounding * size_of(corners);
@@ -68,7 +72,13 @@ bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vecto
     }
     if (!(std::min(-least, most) <= slack)) return false;  // NaN too
   }
-  return are_closed(polygons, members, false);
+  constexpr double kSame = 1e-6;
+  double area = 0, of_hull = 0;
+  for (const std::uint32_t i : members) area += doubled_area(polygons[i]).norm();
+  for (const auto& [a, b, c] : hull.triangles) {
+    of_hull += doubled_area({hull.vertices[a], hull.vertices[b], hull.vertices[c]}).norm();
+  }
+  return std::abs(area - of_hull) <= kSame * of_hull && are_closed(polygons, members, false);
 }
 
 /// How near the facets of a hull are to polygons.
@@ -137,7 +147,7 @@ bool is_nearly_convex(const std::vector<Polygon>& polygons, const std::vector<st
   const std::vector<Vec3> corners = corners_of(polygons, members);
   const Mesh hull = convex_hull(corners);
   if (hull.empty()) return false;
-  if (bound_a_convex_solid(polygons, members, corners)) return true;
+  if (bound_a_convex_solid(polygons, members, corners, hull)) return true;
   Gaps gaps(polygons, members, widest_m);
   return std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
     return gaps.are_narrow(hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]]);
