@@ -212,6 +212,36 @@ TEST(ClearanceLimit, TheCutKeepsTheDistanceFromHills) {
   }
 }
 
+/// A surface as lidar sees it: roofs, walls between two posts, trees. It turns too much for prisms.
+Scene make_raster(Random& random, const Vec3& origin) {
+  constexpr std::uint32_t kPosts = 76;
+  Scene scene;
+  scene.objects = {{"surface", "", ObjectKind::other}};
+  for (std::uint32_t j = 0; j < kPosts; ++j) {
+    for (std::uint32_t i = 0; i < kPosts; ++i) {
+      const bool is_house = (i / 12) % 2 == 1 && (j / 9) % 2 == 1, is_tree = i % 24 > 17 && j % 18 < 7;
+      double z = random.uniform(0, 0.2);
+      if (is_house) z += 9;
+      if (is_tree) z += random.uniform(2, 6);
+      scene.mesh.vertices.push_back(origin + Vec3(0.8 * i - 30, 0.8 * j - 30, z));
+    }
+  }
+  for (std::uint32_t j = 0; j + 1 < kPosts; ++j) {
+    for (std::uint32_t i = 0; i + 1 < kPosts; ++i) {
+      const std::uint32_t a = j * kPosts + i, b = a + 1, c = b + kPosts, d = a + kPosts;
+      scene.mesh.triangles.insert(scene.mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+  }
+  scene.object_of.resize(scene.mesh.triangles.size(), 0);
+  return scene;
+}
+
+TEST(ClearanceLimit, TheCutKeepsTheDistanceFromARoughRaster) {
+  Random random(48);
+  const Case at{1, Vec3(580000.1, 4785000.2, 1000.3)};
+  expect_clearance(random, at, make_raster(random, at.origin), 4);
+}
+
 /// Adds a closed solid over a footprint that all of its first corner sees, from z = 0 to `height`.
 void add_house(const std::vector<Vec3>& footprint, double height, Mesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size()),

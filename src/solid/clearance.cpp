@@ -169,19 +169,30 @@ NearObstacles obstacles_near(const Mesh& obstacles, const Box& near, const Vec3&
 
 /// What becomes one solid.
 struct ToGrow {
-  enum class Shape { polygon, prism, hull };
+  /// A patch is the hull of some polygons of a surface.
+  enum class Shape { polygon, prism, hull, patch };
 
   Shape shape;
   std::vector<Vec3> points;  ///< of a polygon its corners in order
   double aside = 1;          ///< of a prism: see grow_across, in parts of the radius
 
   /// About so many facets will be grown, and go through the booleans: of a polygon an octagon's for each ring, and one
-  /// more for each corner; of a prism six for each corner, of a hull about twelve.
+  /// more for each corner; of a prism six for each corner, of a hull about twelve. Patches cover most of each other:
+  /// less than half of that is left for the rounds that follow.
   double facets() const {
-    constexpr double kOfRings = 8, kOfTurn = 5, kOfPrism = 6, kOfHull = 12;
+    constexpr double kOfRings = 8, kOfTurn = 5, kOfPrism = 6, kOfHull = 12, kOfPatch = 5;
     const auto count = static_cast<double>(points.size());
-    if (shape == Shape::prism) return kOfPrism * count;
-    return shape == Shape::hull ? kOfHull * count : kOfRings * (count + kOfTurn);
+    switch (shape) {
+      case Shape::polygon:
+        return kOfRings * (count + kOfTurn);
+      case Shape::prism:
+        return kOfPrism * count;
+      case Shape::hull:
+        return kOfHull * count;
+      case Shape::patch:
+        return kOfPatch * count;
+    }
+    return 0;
   }
 };
 
@@ -206,6 +217,7 @@ class ComponentGrower {
   void add(const std::vector<std::uint32_t>& members, std::vector<ToGrow>& to_grow) const;
 
  private:
+  void add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const;
   bool hull_holds_centre(const std::vector<Vec3>& points) const;
   bool solid_holds_centre(const std::vector<std::uint32_t>& members) const;
 
@@ -262,10 +274,39 @@ void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector
     near = std::move(found.others);
     std::erase_if(near, [&](std::uint32_t i) { return !reaches_volume_(polygons_[i]); });
   }
-  for (const std::uint32_t i : near) {
+  add_patches(near, to_grow);
+}
+
+/// Of a surface: halves along its longest side, until what is left is nearly convex or one polygon.
+void ComponentGrower::add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const {
+  if (members.empty()) return;
+  if (members.size() == 1) {
+    const std::uint32_t i = members[0];
     const bool is_prism = aside_[i] <= core::kMostAside;
     to_grow.push_back({is_prism ? ToGrow::Shape::prism : ToGrow::Shape::polygon, polygons_[i], aside_[i]});
+    return;
   }
+  const std::vector<std::uint32_t> patch(members.begin(), members.end());
+  if (is_nearly_convex(polygons_, patch, kWidestGap * radius_)) {
+    std::vector<Vec3> corners = corners_of(polygons_, patch);
+    if (!hull_holds_centre(corners)) {
+      to_grow.push_back({ToGrow::Shape::patch, std::move(corners)});
+      return;
+    }
+  }
+  const auto centre = [&](std::uint32_t i) -> Vec3 {
+    const Box box = box_of(polygons_[i]);
+    return box.min + box.max;
+  };
+  Box centres;
+  for (const std::uint32_t i : members) centres.extend(centre(i));
+  Eigen::Index axis = 0;
+  (centres.max - centres.min).maxCoeff(&axis);
+  std::stable_sort(members.begin(), members.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return centre(a)[axis] < centre(b)[axis]; });
+  const std::size_t half = members.size() / 2;
+  add_patches(members.first(half), to_grow);
+  add_patches(members.subspan(half), to_grow);
 }
 
 Solid grown_solid(const ToGrow& what, double radius, std::uint32_t label) {
@@ -278,6 +319,7 @@ Solid grown_solid(const ToGrow& what, double radius, std::uint32_t label) {
       mesh = core::grow_across(what.points, radius, what.aside * radius);
       break;
     case ToGrow::Shape::hull:
+    case ToGrow::Shape::patch:
       mesh = grow_hull(what.points, radius);
       break;
   }

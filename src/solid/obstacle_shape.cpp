@@ -102,21 +102,28 @@ class Gaps {
     constexpr double kSmall = 0.05;  // of the widest: what is smaller needs no closer look
     if (--looks_left_ < 0) return false;
     const Vec3 middle = (a + b + c) / 3;
-    const double farthest = distance(middle);
-    if (!(farthest <= widest_)) return false;
     const double radius = std::max({(a - middle).norm(), (b - middle).norm(), (c - middle).norm()});
+    const double farthest = distance(middle, widest_ - radius);
+    if (!(farthest <= widest_)) return false;
     if (farthest + radius <= widest_ || radius <= kSmall * widest_) return true;
     const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
     return are_narrow_in(ab, bc, ca) && are_narrow_in(a, ab, ca) && are_narrow_in(ab, b, bc) &&
            are_narrow_in(ca, bc, c);
   }
 
-  double distance(const Vec3& point) const {
+  /// To the nearest polygon, or to one that is no farther than `enough`. The last such one is asked first.
+  double distance(const Vec3& point, double enough) {
     double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t i : members_) {
-      const Polygon& polygon = polygons_[i];
+    const double enough_squared = enough > 0 ? enough * enough : -1;
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      const std::size_t at = (last_ + m) % members_.size();
+      const Polygon& polygon = polygons_[members_[at]];
       for (std::size_t k = 2; k < polygon.size(); ++k) {
         least = std::min(least, core::squared_distance_to_triangle(point, polygon[0], polygon[k - 1], polygon[k]));
+      }
+      if (least <= enough_squared) {
+        last_ = at;
+        break;
       }
     }
     return std::sqrt(least);
@@ -126,6 +133,7 @@ class Gaps {
   const std::vector<std::uint32_t>& members_;
   double widest_;
   int looks_left_ = 2000;
+  std::size_t last_ = 0;
 };
 
 }  // namespace

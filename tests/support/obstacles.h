@@ -34,8 +34,10 @@ inline double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& 
 
 inline double distance(const Vec3& p, const Mesh& mesh) {
   double nearest = INFINITY;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    nearest = std::min(nearest, distance(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+    if ((p - a).norm() - std::max((b - a).norm(), (c - a).norm()) > nearest) continue;
+    nearest = std::min(nearest, distance(p, a, b, c));
   }
   return nearest;
 }
