@@ -118,6 +118,35 @@ Answer PairTest::meets(std::uint32_t a, std::uint32_t b) {
   return begins_ == 1 ? Answer::yes : Answer::no;
 }
 
+/// What may meet a facet.
+class NearFacet {
+ public:
+  NearFacet(const Soup& soup, const Facet& facet) : facet_(facet), corner_(soup.points()[facet.corners[0]]) {
+    constexpr double kRounding = 0x1p-49;  // of the middle of a box, too
+    for (const std::uint32_t corner : facet.corners) box_.extend(soup.points()[corner]);
+    rounding_ = kRounding * soup.largest() * facet.normal.cwiseAbs().sum();
+  }
+
+  /// Thin facets that lead outwards from one place have boxes that overlap all others.
+  bool may_meet(const core::Bounds& bounds) const {
+    const Vec3 least(bounds.min[0], bounds.min[1], bounds.min[2]), most(bounds.max[0], bounds.max[1], bounds.max[2]);
+    if (!overlaps(least, most)) return false;
+    if (facet_.is_flat) return true;
+    const Vec3 half = (most - least) / 2, way = (most + least) / 2 - corner_;
+    const double reach = facet_.normal.cwiseAbs().dot(half) + facet_.off_by * (way.cwiseAbs() + half).sum();
+    return std::abs(facet_.normal.dot(way)) <= (1 + 0x1p-40) * (reach + rounding_);
+  }
+  bool overlaps(const Vec3& least, const Vec3& most) const {
+    return (least.array() <= box_.max.array()).all() && (most.array() >= box_.min.array()).all();
+  }
+
+ private:
+  const Facet& facet_;
+  Vec3 corner_;
+  Box box_;
+  double rounding_ = 0;
+};
+
 /// All pairs, by the first facet. False where one is unknown; the others are found, and counted, all the same: so what
 /// is counted does not depend on threads.
 bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::vector<Found>& all) {
@@ -132,23 +161,15 @@ bool find_pairs(const Soup& soup, const core::ProgressReporter& progress, std::v
       for (std::size_t f = part * kGrain; f < std::min(count, (part + 1) * kGrain); ++f) {
         progress.check();
         const auto a = static_cast<std::uint32_t>(f);
-        Box box;
-        for (const std::uint32_t corner : soup.facets()[a].corners) box.extend(soup.points()[corner]);
-        const auto overlaps = [&](const core::BvhNode& node) {
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<Eigen::Index>(axis);
-            if (box.min[i] > node.bounds.max[axis] || box.max[i] < node.bounds.min[axis]) return false;
-          }
-          return true;
-        };
+        const NearFacet near(soup, soup.facets()[a]);
         const auto overlaps_facet = [&](std::uint32_t b) {
           const auto& [p, q, r] = soup.facets()[b].corners;
           const Vec3 &x = soup.points()[p], &y = soup.points()[q], &z = soup.points()[r];
-          return (x.cwiseMin(y).cwiseMin(z).array() <= box.max.array()).all() &&
-                 (x.cwiseMax(y).cwiseMax(z).array() >= box.min.array()).all();
+          return near.overlaps(x.cwiseMin(y).cwiseMin(z), x.cwiseMax(y).cwiseMax(z));
         };
+        const auto may_meet = [&](const core::BvhNode& node) { return near.may_meet(node.bounds); };
         const auto first = static_cast<std::ptrdiff_t>(found.size());
-        core::walk_bvh(soup.bvh(), overlaps, [&](std::uint32_t item) {
+        core::walk_bvh(soup.bvh(), may_meet, [&](std::uint32_t item) {
           const std::uint32_t b = soup.order()[item];
           if (b <= a || soup.facets()[b].mesh == soup.facets()[a].mesh || !overlaps_facet(b)) return;
           const Answer answer = test.meets(a, b);
