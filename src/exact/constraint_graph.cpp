@@ -82,9 +82,46 @@ void ConstraintGraph::add_floor(const FloorSkeleton& floor) {
   }
 }
 
+// Of surfaces that end at one line some may end before the others do: so a piece of the rim may lie on a longer one.
+// What passes a vertex within the snapping distance goes through it in the triangulation, too.
+void ConstraintGraph::split_rim() {
+  std::vector<std::uint32_t> ends;  // from left to right
+  for (const auto& [a, b] : rim_) ends.insert(ends.end(), {a, b});
+  const auto is_left = [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(points()[a].x(), a) < std::pair(points()[b].x(), b);
+  };
+  std::sort(ends.begin(), ends.end(), is_left);
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<Edge> pieces;
+  std::vector<std::pair<double, std::uint32_t>> between;
+  for (const auto& [from, to] : rim_) {
+    const OctahedralPoint &a = points()[from], &b = points()[to], way = b - a;
+    const double length = way.squaredNorm(), left = std::min(a.x(), b.x()) - snap_,
+                 right = std::max(a.x(), b.x()) + snap_;
+    auto at = std::partition_point(ends.begin(), ends.end(), [&](std::uint32_t v) { return points()[v].x() < left; });
+    between.clear();
+    for (; at != ends.end() && points()[*at].x() <= right; ++at) {
+      const OctahedralPoint to_it = points()[*at] - a;
+      const double along = to_it.dot(way), beside = way.x() * to_it.y() - way.y() * to_it.x();
+      const bool is_end = *at == from || *at == to;
+      if (is_end || along <= 0 || along >= length || beside * beside > snap_ * snap_ * length) continue;
+      between.emplace_back(along, *at);
+    }
+    std::sort(between.begin(), between.end());
+    std::uint32_t last = from;
+    for (const auto& [along, vertex] : between) {
+      pieces.emplace_back(last, vertex);
+      last = vertex;
+    }
+    pieces.emplace_back(last, to);
+  }
+  rim_ = std::move(pieces);
+}
+
 // Of surfaces that end at one line there may be several. Where some end at it from the one side and some from the other
 // there is nothing between them.
 void ConstraintGraph::keep_one_sided_rim() {
+  split_rim();
   const auto is_before = [](const Edge& x, const Edge& y) {
     return std::minmax(x.first, x.second) < std::minmax(y.first, y.second);
   };

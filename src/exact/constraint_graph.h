@@ -75,6 +75,7 @@ class ConstraintGraph {
   void add_fill(const IsRange& is_range);
   void add_axes(Sheet sheet);
   void add_horizon();
+  void split_rim();
   void keep_one_sided_rim();
 
   OctahedralGrid& grid_;
