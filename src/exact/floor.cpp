@@ -19,6 +19,8 @@ using core::FacetPolygon;
 constexpr double kNearest = 1e-7;
 /// Normals of facets that are larger than this, in parts of the square of their distance, are right to 1e-9.
 constexpr double kNarrow = 1e-6;
+/// In parts of the size: about what coordinates on a map of the world are rounded by.
+constexpr double kFlat = 1e-9;
 /// Of coordinates on the map.
 constexpr double kRounding = 1e-9;
 /// Cells along the side of a quadrant in which the planes that matter are listed.
@@ -102,16 +104,19 @@ bool Floor::add_removed(const ChartLimits::Body& body) {
       corners[i] = mesh.vertices[mesh.triangles[t][i]] * away;
       highest = std::max(highest, corners[i].z());
     }
-    if (highest <= 0) continue;
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    double size = 0;
+    for (const Vec3& corner : corners) size = std::max(size, corner.norm());
+    // What faces down and lies in the target's plane, but for rounding, as the target itself does, bounds nothing.
+    const bool is_bottom =
+        highest <= kFlat * size && normal.z() < 0 && normal.head<2>().norm() <= kFlat * normal.norm();
+    if (highest <= 0 || is_bottom) continue;
     // The plane must hold what is next to the facet and, where that is so narrow that rounding turns it, all of the
     // body.
     double at = std::max({normal.dot(corners[0]), normal.dot(corners[1]), normal.dot(corners[2])});
     for (const std::uint32_t other : beside[t]) {
       for (const std::uint32_t v : mesh.triangles[other]) at = std::max(at, away * normal.dot(mesh.vertices[v]));
     }
-    double size = 0;
-    for (const Vec3& corner : corners) size = std::max(size, corner.norm());
     if (normal.norm() < kNarrow * size * size) {
       for (const Vec3& vertex : mesh.vertices) at = std::max(at, away * normal.dot(vertex));
     }

@@ -53,6 +53,11 @@ class Floor {
     return {planes_.data() + body.first, body.end - body.first};
   }
   Value at(const OctahedralPoint& point) const;
+  /// Of a body those that may be the greatest, or the least, near a point.
+  std::span<const std::uint32_t> planes_at(const OctahedralPoint& point, std::uint32_t body) const {
+    const Listed& listed = listed_at(point);
+    return {listed.planes.data() + listed.first[body], listed.first[body + 1] - listed.first[body]};
+  }
 
  private:
   /// Planes that may be a body's least, or greatest, in a cell of the map.

@@ -10,6 +10,7 @@
 
 #include "core/mend_welded.h"
 #include "core/parallel.h"
+#include "exact/beyond_floor.h"
 #include "exact/floor_mesh.h"
 #include "exact/gauge.h"
 #include "exact/quadrant_mesh.h"
@@ -75,6 +76,7 @@ class BoundaryBuilder {
     for (const QuadrantMesh& quadrant : quadrants_) add(quadrant);
     if (envelope_.floor) {
       attempt.failure = add_floors();
+      if (attempt.failure.empty() && !lies_beyond_floor()) attempt.failure = "a facet lies before the floor";
       if (attempt.failure.empty() && !part_sheets()) attempt.failure = "sheets that touch cannot be told apart";
       if (!attempt.failure.empty()) return attempt;
     } else {
@@ -138,6 +140,14 @@ class BoundaryBuilder {
       emit_base(on_floor(to), from, on_floor(from));
     }
     return {};
+  }
+
+  /// Sheets are compared in the middle of their facets while they are made. What they claim is between their corners:
+  /// less than what is kept, but where a body that is taken away has an edge, or where corners were drawn in.
+  bool lies_beyond_floor() const {
+    return BeyondFloor(*envelope_.floor).holds(result_.mesh, [&](std::size_t i) {
+      return result_.blocker_of[i] != Boundary::kTargetPlane;
+    });
   }
 
   /// Where both sheets have an edge across from one vertex of the rim to another they touch there: each gets its own.
