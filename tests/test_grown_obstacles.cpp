@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "support/internals.h"
 #include "support/obstacles.h"
 #include "support/random.h"
+#include "support/scenes.h"
 #include "support/solids.h"
 #include "vantage/volume.h"
 
@@ -333,7 +336,7 @@ TEST(ObstacleColumns, LeaveOutWallsThatAreUnderNoOneRoof) {
 TEST(ObstacleShape, IsNoSolidWhereThereIsRoom) {
   const Vec3 o(0, 0, 0), y(0, 10, 0), yz(0, 10, 10), z(0, 0, 10), x(10, 0, 0), xz(10, 0, -10), low(0, 0, -10);
   const std::vector<std::vector<Vec3>> walls = {{o, y, yz, z}, {z, yz, y, o}, {o, x, xz, low}, {low, xz, x, o}};
-  EXPECT_FALSE(internal::solid::is_nearly_convex(walls, {0, 1, 2, 3}, 0.3));
+  EXPECT_FALSE(internal::solid::is_nearly_convex(walls, {0, 1, 2, 3}, 1));
   Scene house;
   house.mesh.vertices = {{-5, -8, 0}, {5, -8, 0}, {5, 8, 0},  {-5, 8, 0}, {-5, -8, 4},
                          {5, -8, 4},  {5, 8, 4},  {-5, 8, 4}, {0, -8, 7}, {0, 8, 7}};
@@ -346,6 +349,106 @@ TEST(ObstacleShape, IsNoSolidWhereThereIsRoom) {
     room.frame.origin = Vec3(aside, 0, 2);
     EXPECT_EQ(cut_to_navigation(room, keeping(house, 0.5)).outcome, Outcome::computed) << aside;
   }
+}
+
+// Every other face of an octahedron, twice: as large as all of it, and open.
+TEST(ObstacleShape, FacesThatAreDrawnTwiceCoverNothingElse) {
+  const Vec3 x(20, 0, 0), y(0, 20, 0), z(0, 0, 20);
+  std::vector<std::vector<Vec3>> faces;
+  std::vector<std::uint32_t> all;
+  for (const auto& [a, b, c] : {std::array{x, y, z}, {-x, -y, z}, {-x, y, -z}, {x, -y, -z}}) {
+    const Vec3 middle = (a + b + c) / 3;
+    for (const auto& face : {std::vector<Vec3>{a, b, c}, {b, a, middle}, {c, b, middle}, {a, c, middle}}) {
+      all.push_back(static_cast<std::uint32_t>(faces.size()));
+      faces.push_back(face);
+    }
+  }
+  EXPECT_FALSE(internal::solid::is_nearly_convex(faces, all, 0.5));
+}
+
+/// Of the facets that are due to the clearance.
+double farthest_of_cut(const Volume& cut, const Mesh& obstacles) {
+  double farthest = 0;
+  for (std::size_t t = 0; t < cut.mesh.triangles.size(); ++t) {
+    if (cut.causes[cut.cause_of[t]].name != "clearance") continue;
+    const auto& [a, b, c] = cut.mesh.triangles[t];
+    const Vec3 &p = cut.mesh.vertices[a], &q = cut.mesh.vertices[b], &r = cut.mesh.vertices[c];
+    for (const Vec3& at : {p, q, r, Vec3((p + q) / 2), Vec3((p + q + r) / 3)}) {
+      farthest = std::max(farthest, distance(at, obstacles));
+    }
+  }
+  return farthest;
+}
+
+double farthest_of_cut(const Mesh& obstacles, double clearance_m, double half) {
+  Volume all = volume_of_mesh(testing::make_box_mesh(Vec3::Constant(-half), Vec3::Constant(half)), "all");
+  all.frame.origin = Vec3::Constant(-0.95 * half);
+  Navigation navigation;
+  navigation.clearance = {clearance_m, std::make_shared<const Mesh>(obstacles)};
+  const Volume cut = cut_to_navigation(all, navigation);
+  EXPECT_EQ(cut.outcome, Outcome::computed);
+  return farthest_of_cut(cut, obstacles);
+}
+
+// A rectangle that lies askew is flat but for rounding: the normals of its hull's rim are rounding alone.
+TEST(ClearanceLimit, ReachesNoFartherAboutARectangleThatLiesAskew) {
+  Random random(49);
+  for (int round = 0; round < 60; ++round) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(0, 3), random.direction()).toRotationMatrix();
+    Mesh rectangle{{{-10, -5, 0}, {10, -5, 0}, {10, 5, 0}, {-10, 5, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    for (Vec3& corner : rectangle.vertices) corner = turn * corner + Vec3(3, 5, 7);
+    if (random.chance(0.3)) std::swap(rectangle.triangles[0][0], rectangle.triangles[0][1]);
+    const double clearance = random.chance(0.5) ? 0.5 : 0.02;
+    EXPECT_LE(farthest_of_cut(rectangle, clearance, 30), (1 + kRoundCorners) * clearance) << round;
+  }
+}
+
+TEST(ClearanceLimit, ReachesLittleTooFarOverDents) {
+  for (const double depth : {0.05, 0.1, 0.12, 0.14, 0.29}) {
+    const Mesh valley{{{-1, -1, 0}, {0, -1, -depth}, {1, -1, 0}, {1, 1, 0}, {0, 1, -depth}, {-1, 1, 0}},
+                      {{0, 1, 4}, {0, 4, 5}, {1, 2, 3}, {1, 3, 4}}};
+    EXPECT_LE(farthest_of_cut(valley, 1, 9), 1 + kRoundCorners) << depth;
+  }
+  const double w = 1000;  // nearly flat: sides are not one
+  const Mesh pyramid{{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}, {-w, w, 0}, {0, 0, 4.9e-4 * w}},
+                     {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}}};
+  EXPECT_LE(farthest_of_cut(pyramid, 1, 20), 1.02);
+}
+
+// A target on the wall of a room: what is between the walls is what is asked for.
+TEST(ClearanceLimit, LeavesARoomThatIsSeenFromItsWall) {
+  Scene box;
+  box.mesh = testing::make_box_mesh({0, 0, 0}, {10, 8, 4});
+  box.objects = {{"room", "", ObjectKind::other}};
+  box.object_of.assign(box.mesh.triangles.size(), 0);
+  Scene angle;  // its floor plan is an L
+  for (const double z : {0.0, 4.0}) {
+    angle.mesh.vertices.insert(angle.mesh.vertices.end(),
+                               {{0, 0, z}, {12, 0, z}, {12, 5, z}, {5, 5, z}, {5, 12, z}, {0, 12, z}});
+  }
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t a = i, b = (i + 1) % 6;
+    angle.mesh.triangles.insert(angle.mesh.triangles.end(), {{a, b, b + 6}, {a, b + 6, a + 6}});
+    if (i < 4) angle.mesh.triangles.insert(angle.mesh.triangles.end(), {{0, i + 2, i + 1}, {6, i + 7, i + 8}});
+  }
+  angle.mesh.triangles.resize(20);
+  angle.objects = {{"room", "", ObjectKind::other}};
+  angle.object_of.assign(20, 0);
+  const auto left = [](const Scene& room, const Target& target) {
+    return enclosed_volume(
+        compute_volume(PreparedTarget(PreparedScene(room), target, {.max_range_m = 30}), keeping(room, 0.5)).mesh);
+  };
+  Target on_wall = testing::target_of({{4.5, 0, 1.5}, {5.5, 0, 1.5}, {5.5, 0, 2.5}, {4.5, 0, 2.5}});
+  on_wall.front = Vec3(0, 1, 0);
+  const Target on_floor = testing::target_of({{4, 4, 0}, {6, 4, 0}, {6, 5, 0}, {4, 5, 0}});
+  EXPECT_NEAR(left(box, on_wall), 9 * 7 * 3, 0.1);
+  EXPECT_NEAR(left(box, on_floor), 9 * 7 * 3, 0.1);
+  Target on_long_wall = testing::target_of({{2, 0, 1.5}, {3, 0, 1.5}, {3, 0, 2.5}, {2, 0, 2.5}});
+  on_long_wall.front = Vec3(0, 1, 0);
+  EXPECT_GT(left(angle, on_long_wall), 200);
+  Target outside = on_long_wall;
+  outside.front = Vec3(0, -1, 0);  // the same wall from the street: the house is solid
+  EXPECT_GT(left(angle, outside), 1000);
 }
 
 TEST(ClearanceLimit, TheCutKeepsTheDistanceFromHousesAndTrees) {

@@ -14,6 +14,7 @@
 #include "core/grown_polygon.h"
 #include "core/triangle_tree.h"
 #include "core/weld.h"
+#include "solid/convex_body.h"
 #include "solid/convex_hull.h"
 #include "solid/grown_hull.h"
 #include "solid/obstacle_shape.h"
@@ -196,20 +197,18 @@ struct ToGrow {
   }
 };
 
-/// Gaps that a vehicle does not fit into anyhow are filled: over their middle what is cut away reaches 4.4 % too far.
-constexpr double kWidestGap = 0.3;  // of the radius, from its middle
-
 /// Makes of the polygons of one component what must grow.
 class ComponentGrower {
  public:
   using ReachesVolume = std::function<bool(const Polygon&)>;
 
-  /// `aside`: how far aside of each polygon that lies which is nearest to it, in parts of the radius. `centre`: where
-  /// the volume begins.
-  ComponentGrower(const std::vector<Polygon>& polygons, const std::vector<double>& aside, const Vec3& centre,
-                  double radius, ReachesVolume reaches_volume)
+  /// `aside`: how far aside of each polygon that lies which is nearest to it, in parts of the radius. `volume`: its
+  /// vertices. `centre`: where it begins.
+  ComponentGrower(const std::vector<Polygon>& polygons, const std::vector<double>& aside,
+                  const std::vector<Vec3>& volume, const Vec3& centre, double radius, ReachesVolume reaches_volume)
       : polygons_(polygons),
         aside_(aside),
+        volume_(volume),
         centre_(centre),
         radius_(radius),
         reaches_volume_(std::move(reaches_volume)) {}
@@ -218,31 +217,41 @@ class ComponentGrower {
 
  private:
   void add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const;
-  bool hull_holds_centre(const std::vector<Vec3>& points) const;
-  bool solid_holds_centre(const std::vector<std::uint32_t>& members) const;
+  bool begins_in_hull(const std::vector<Vec3>& points) const;
+  bool begins_in_solid(const std::vector<std::uint32_t>& members) const;
 
   const std::vector<Polygon>& polygons_;
   const std::vector<double>& aside_;
+  const std::vector<Vec3>& volume_;
   Vec3 centre_;
   double radius_;
   ReachesVolume reaches_volume_;
 };
 
-/// Whether it is inside of the points' hull. That of a facade is beside its building, but for rounding.
-bool ComponentGrower::hull_holds_centre(const std::vector<Vec3>& points) const {
-  constexpr double kBeside = 1e-6;  // of the size
+constexpr double kBeside = 1e-6;  // of the size: a target on a wall is within rounding of it
+
+/// Whether the volume begins inside of the points' hull. Where it begins on a facet, on a wall, that is so unless all
+/// of it lies before the facet.
+bool ComponentGrower::begins_in_hull(const std::vector<Vec3>& points) const {
   const Box box = box_of(points);
-  if ((centre_.array() < box.min.array()).any() || (centre_.array() > box.max.array()).any()) return false;
+  const double slack = kBeside * (box.max - box.min).norm();
+  const Box near = grown(box, slack);
+  if ((centre_.array() < near.min.array()).any() || (centre_.array() > near.max.array()).any()) return false;
   const Mesh hull = convex_hull(points);
-  return std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
+  return std::none_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
     const Vec3& a = hull.vertices[t[0]];
-    const Vec3 normal = (hull.vertices[t[1]] - a).cross(hull.vertices[t[2]] - a).normalized();
-    return normal.dot(centre_ - a) < -kBeside * (box.max - box.min).norm();
+    const Vec3 normal = sure_normal(a, hull.vertices[t[1]], hull.vertices[t[2]]).normalized();
+    const double height = normal.dot(centre_ - a);
+    if (height > slack) return true;
+    return height >= -slack && std::all_of(volume_.begin(), volume_.end(),
+                                           [&](const Vec3& vertex) { return normal.dot(vertex - a) >= -slack; });
   });
 }
 
-/// Whether it is inside of what closed members bound.
-bool ComponentGrower::solid_holds_centre(const std::vector<std::uint32_t>& members) const {
+/// Whether the volume begins inside of what closed members bound. Where it begins on them, that is so where a place on
+/// the way to one of its vertices is: nothing stands in that way.
+bool ComponentGrower::begins_in_solid(const std::vector<std::uint32_t>& members) const {
+  constexpr std::size_t kEnough = 500;  // of the vertices
   Mesh surface;
   for (const std::uint32_t i : members) {
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
@@ -250,7 +259,17 @@ bool ComponentGrower::solid_holds_centre(const std::vector<std::uint32_t>& membe
     surface.vertices.insert(surface.vertices.end(), polygon.begin(), polygon.end());
     for (std::uint32_t k = 2; k < polygon.size(); ++k) surface.triangles.push_back({first, first + k - 1, first + k});
   }
-  return core::TriangleTree(surface).winding_number(centre_) != 0;
+  const core::TriangleTree tree(surface);
+  const Box box = box_of(surface.vertices);
+  const double slack = kBeside * (box.max - box.min).norm();
+  const auto is_inside = [&](const Vec3& point) {
+    return tree.winding_number(point) != 0 && tree.distance(point) > slack;
+  };
+  if (tree.distance(centre_) > slack) return is_inside(centre_);
+  for (std::size_t v = 0; v < volume_.size(); v += 1 + volume_.size() / kEnough) {
+    if (is_inside((centre_ + volume_[v]) / 2)) return true;
+  }
+  return false;
 }
 
 /// What is inside of a closed solid no volume reaches that does not begin there; and what lies in a gap that is
@@ -262,12 +281,12 @@ void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector
   }
   if (near.empty()) return;
   std::vector<Vec3> corners = corners_of(polygons_, members);
-  if (!hull_holds_centre(corners) && is_nearly_convex(polygons_, members, kWidestGap * radius_)) {
+  if (!begins_in_hull(corners) && is_nearly_convex(polygons_, members, radius_)) {
     to_grow.push_back({ToGrow::Shape::hull, std::move(corners)});
     return;
   }
   Columns found = columns_of(polygons_, members);
-  if (!found.columns.empty() && !solid_holds_centre(members)) {
+  if (!found.columns.empty() && !begins_in_solid(members)) {
     for (std::vector<Vec3>& column : found.columns) {
       if (reaches_volume_(column)) to_grow.push_back({ToGrow::Shape::hull, std::move(column)});
     }
@@ -287,9 +306,9 @@ void ComponentGrower::add_patches(std::span<std::uint32_t> members, std::vector<
     return;
   }
   const std::vector<std::uint32_t> patch(members.begin(), members.end());
-  if (is_nearly_convex(polygons_, patch, kWidestGap * radius_)) {
+  if (is_nearly_convex(polygons_, patch, radius_)) {
     std::vector<Vec3> corners = corners_of(polygons_, patch);
-    if (!hull_holds_centre(corners)) {
+    if (!begins_in_hull(corners)) {
       to_grow.push_back({ToGrow::Shape::patch, std::move(corners)});
       return;
     }
@@ -365,7 +384,7 @@ Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3&
   constexpr double kRounding = 1e-4;  // neighbours overlap by this
   std::vector<double> aside = sines_of_turns(polygons, near.has_normal);
   for (double& sine : aside) sine += kRounding;
-  const ComponentGrower grower(polygons, aside, centre, radius, reaches_volume);
+  const ComponentGrower grower(polygons, aside, volume.vertices, centre, radius, reaches_volume);
   std::vector<ToGrow> to_grow;
   for (const std::vector<std::uint32_t>& component : components_of(polygons)) grower.add(component, to_grow);
   progress.report(0.2);

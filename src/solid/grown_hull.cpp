@@ -50,9 +50,9 @@ Sides::Sides(const Mesh& hull) : hull_(hull) {
   add_over_corners();
 }
 
-/// Planes that nearly coincide have no sure corners.
+/// Planes that nearly coincide have no sure corners. What stands for the other one costs a part of the size.
 void Sides::add(const Vec3& direction) {
-  constexpr double kSame = 1 - 5e-7;  // the cosine of 0.001 radians
+  constexpr double kSame = 1 - 5e-11;  // the cosine of 0.00001 radians
   const bool is_known = std::any_of(directions_.begin(), directions_.end(),
                                     [&](const Vec3& known) { return known.dot(direction) > kSame; });
   if (!is_known) directions_.push_back(direction);
@@ -65,8 +65,9 @@ void Sides::add_over_edges(const std::vector<Vec3>& normals) {
   core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
     const Vec3 &from = normals[edge[0].triangle], &to = normals[edge[1].triangle];
     const Vec3 along = (hull_.vertices[edge[0].high] - hull_.vertices[edge[0].low]).normalized();
-    const Vec3 across = along.cross(from) * (along.cross(from).dot(to) < 0 ? -1 : 1);
-    const double turn = portable::atan2(std::abs(across.dot(to)), from.dot(to));
+    // Out of the first facet, which lies to the left of its sides: of a hull as good as flat the normals do not tell.
+    const Vec3 across = along.cross(from) * (edge[0].forward ? 1 : -1);
+    const double turn = portable::atan2(std::max(across.dot(to), 0.0), from.dot(to));
     const int steps = static_cast<int>(std::ceil(turn / kMostTurn - 1e-9));
     for (int step = 1; step < steps; ++step) {
       const portable::SineCosine part = portable::sine_cosine(turn * step / steps);

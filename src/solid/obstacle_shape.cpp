@@ -55,22 +55,36 @@ double size_of(const std::vector<Vec3>& points) {
   return (box.max - box.min).norm();
 }
 
-/// Whether all corners lie on one side of each polygon, and the polygons are closed and cover the hull. (Walls without
-/// thickness, drawn twice, that meet in a corner do not.)
+/// Whether the hull is as good as flat: then its normals are rounding.
+bool is_flat(const Mesh& hull) {
+  Vec3 normal = Vec3::Zero();  // of the largest facet
+  Vec3 on_it = Vec3::Zero();
+  for (const auto& [a, b, c] : hull.triangles) {
+    const Vec3 area = doubled_area({hull.vertices[a], hull.vertices[b], hull.vertices[c]});
+    if (area.squaredNorm() > normal.squaredNorm()) normal = area, on_it = hull.vertices[a];
+  }
+  normal.normalize();
+  const double slack = kRounding * size_of(hull.vertices);
+  return std::all_of(hull.vertices.begin(), hull.vertices.end(),
+                     [&](const Vec3& vertex) { return normal.dot(on_it - vertex) <= slack; });
+}
+
+/// Whether all corners lie behind each polygon (or all before), and the polygons are closed and cover the hull once.
+/// All of them face outwards, and edges run both ways: so they cover each place of the hull as often as each other.
 bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members,
                           const std::vector<Vec3>& corners, const Mesh& hull) {
   constexpr std::size_t kFewestFacets = 4;
   if (members.size() < kFewestFacets) return false;
   const double slack = kRounding * size_of(corners);
+  bool may_face_out = true, may_face_in = true;
   for (const std::uint32_t i : members) {
     const Vec3 normal = normal_of(polygons[i]);
-    double least = 0, most = 0;
     for (const Vec3& corner : corners) {
       const double height = normal.dot(corner - polygons[i][0]);
-      least = std::min(least, height);
-      most = std::max(most, height);
+      may_face_out = may_face_out && height <= slack;  // NaN too
+      may_face_in = may_face_in && height >= -slack;
     }
-    if (!(std::min(-least, most) <= slack)) return false;  // NaN too
+    if (!may_face_out && !may_face_in) return false;
   }
   constexpr double kSame = 1e-6;
   double area = 0, of_hull = 0;
@@ -78,14 +92,14 @@ bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vecto
   for (const auto& [a, b, c] : hull.triangles) {
     of_hull += doubled_area({hull.vertices[a], hull.vertices[b], hull.vertices[c]}).norm();
   }
-  return std::abs(area - of_hull) <= kSame * of_hull && are_closed(polygons, members, false);
+  return std::abs(area - of_hull) <= kSame * of_hull && are_closed(polygons, members, true);
 }
 
 /// How near the facets of a hull are to polygons.
 class Gaps {
  public:
-  Gaps(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double widest)
-      : polygons_(polygons), members_(members), widest_(widest) {}
+  Gaps(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double radius)
+      : polygons_(polygons), members_(members), radius_(radius) {}
 
   /// No where it takes too many looks, too.
   bool are_narrow(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -94,18 +108,23 @@ class Gaps {
       const auto has = [&](const Vec3& p) { return std::find(polygon.begin(), polygon.end(), p) != polygon.end(); };
       return has(a) && has(b) && has(c);
     });
+    over_ = radius_ * (b - a).cross(c - a).normalized();
     return is_of_one || are_narrow_in(a, b, c);
   }
 
  private:
   bool are_narrow_in(const Vec3& a, const Vec3& b, const Vec3& c) {
-    constexpr double kSmall = 0.05;  // of the widest: what is smaller needs no closer look
+    // What is smaller needs no closer look. It is as much too far at the most.
+    constexpr double kSmall = 0.015, kWidest = kWidestGap - kSmall, kHighest = 1 + kOverGaps - kSmall;  // of the radius
     if (--looks_left_ < 0) return false;
     const Vec3 middle = (a + b + c) / 3;
-    const double radius = std::max({(a - middle).norm(), (b - middle).norm(), (c - middle).norm()});
-    const double farthest = distance(middle, widest_ - radius);
-    if (!(farthest <= widest_)) return false;
-    if (farthest + radius <= widest_ || radius <= kSmall * widest_) return true;
+    const double size = std::max({(a - middle).norm(), (b - middle).norm(), (c - middle).norm()});
+    const double widest = kWidest * radius_, highest = kHighest * radius_;
+    const double wide = distance(middle, widest - size);
+    if (!(wide <= widest)) return false;
+    const double high = distance(middle + over_, highest - size);
+    if (!(high <= highest)) return false;
+    if ((wide + size <= widest && high + size <= highest) || size <= kSmall * radius_) return true;
     const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
     return are_narrow_in(ab, bc, ca) && are_narrow_in(a, ab, ca) && are_narrow_in(ab, b, bc) &&
            are_narrow_in(ca, bc, c);
@@ -131,7 +150,8 @@ class Gaps {
 
   const std::vector<Polygon>& polygons_;
   const std::vector<std::uint32_t>& members_;
-  double widest_;
+  double radius_;
+  Vec3 over_ = Vec3::Zero();  ///< the facet, to where what is grown over it ends
   int looks_left_ = 2000;
   std::size_t last_ = 0;
 };
@@ -149,14 +169,14 @@ std::vector<Vec3> corners_of(const std::vector<Polygon>& polygons, const std::ve
 }
 
 bool is_nearly_convex(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members,
-                      double widest_m) {
+                      double radius_m) {
   constexpr std::size_t kMost = 200;
   if (members.size() > kMost) return false;
   const std::vector<Vec3> corners = corners_of(polygons, members);
   const Mesh hull = convex_hull(corners);
-  if (hull.empty()) return false;
+  if (hull.empty() || is_flat(hull)) return false;
   if (bound_a_convex_solid(polygons, members, corners, hull)) return true;
-  Gaps gaps(polygons, members, widest_m);
+  Gaps gaps(polygons, members, radius_m);
   return std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
     return gaps.are_narrow(hull.vertices[t[0]], hull.vertices[t[1]], hull.vertices[t[2]]);
   });

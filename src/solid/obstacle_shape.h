@@ -13,10 +13,15 @@ using Polygon = std::vector<Vec3>;
 /// Each once.
 std::vector<Vec3> corners_of(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members);
 
-/// Whether the members are so near to their convex hull: every point of a facet of it lies no farther than `widest_m`
-/// from one of the polygons. Members that bound a convex solid are, whatever the distance. No where there are many.
-/// Cost: O(n^2) in the members' corners.
-bool is_nearly_convex(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double widest_m);
+/// Gaps between polygons that a vehicle does not fit into anyhow, in parts of the clearance: how far from their middle
+/// to the nearest polygon, and how much farther than the clearance may be cut away over them.
+constexpr double kWidestGap = 0.3, kOverGaps = 0.13;
+
+/// Whether the convex hull of the members, grown by `radius_m`, may stand for them: every point of a facet of it lies
+/// no farther than kWidestGap from one of the polygons, and what lies the radius over it no farther than 1 + kOverGaps,
+/// in parts of the radius. Members that bound a convex solid are, whatever the radius. No where there are many, or
+/// where the hull is flat but for rounding. Cost: O(n^2) in the members' corners.
+bool is_nearly_convex(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double radius_m);
 
 /// What holds all of a component's polygons: convex columns, by their corners, and polygons beside them.
 struct Columns {
