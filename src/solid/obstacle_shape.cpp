@@ -61,7 +61,9 @@ bool is_flat(const Mesh& hull) {
   Vec3 on_it = Vec3::Zero();
   for (const auto& [a, b, c] : hull.triangles) {
     const Vec3 area = doubled_area({hull.vertices[a], hull.vertices[b], hull.vertices[c]});
-    if (area.squaredNorm() > normal.squaredNorm()) normal = area, on_it = hull.vertices[a];
+    if (area.squaredNorm() <= normal.squaredNorm()) continue;
+    normal = area;
+    on_it = hull.vertices[a];
   }
   normal.normalize();
   const double slack = kRounding * size_of(hull.vertices);
