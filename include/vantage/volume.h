@@ -240,9 +240,7 @@ VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesyst
 ///
 /// Cost: one boolean operation, O(n log n) in the facets of the volume and the limits, and the check of each mesh for
 /// self-intersections, O(m log m) in its triangles. The clearance takes as many booleans as there are obstacles near
-/// what the other limits leave: more than `work_limit` allows is refused before they begin. What is inside of closed
-/// obstacles may be cut away where the volume's frame does not begin there: of several volumes cut each before they are
-/// united.
+/// what the other limits leave: more than `work_limit` allows is refused before they begin.
 ///
 /// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together, unless it is empty;
 /// Error(work_too_large); Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
