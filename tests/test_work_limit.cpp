@@ -136,7 +136,7 @@ TEST(WorkLimit, OfTheClearanceIsToldBeforeTheFirstBoolean) {
   };
   {
     const ProgressReporter::AskAlways always;
-    expect_code([&] { cut_to_navigation(dome, navigation, note); }, ErrorCode::work_too_large);
+    expect_code([&] { cut_to_navigation(dome, navigation, note, 0.02 * kWorkLimit); }, ErrorCode::work_too_large);
   }
   EXPECT_LT(farthest, 0.55) << "solids were made already";
   // What the other limits cut off needs no clearance from what lies there.
