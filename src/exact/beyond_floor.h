@@ -18,9 +18,9 @@ class BeyondFloor {
   /// The floor must outlive it.
   explicit BeyondFloor(const Floor& floor);
 
-  /// Whether no point of any triangle, about the centre, keeps less than the limits, which the floor lies farther out
-  /// than. `is_asked` of each triangle: not of those in the target's plane. Cost: a
-  /// few planes for most vertices and triangles, all of a body's for those that no single plane tells from it.
+  /// Whether all points of all triangles keep the limits; the floor lies a little farther out than these. The mesh is
+  /// about the centre. Only triangles that `is_asked` says yes to are looked at: those in the target's plane begin
+  /// before the floor. Cost: a few planes for most vertices and triangles, all of a body's planes for the others.
   bool holds(const Mesh& mesh, const std::function<bool(std::size_t)>& is_asked) const;
 
  private:

@@ -216,6 +216,7 @@ class ComponentGrower {
   void add(const std::vector<std::uint32_t>& members, std::vector<ToGrow>& to_grow) const;
 
  private:
+  bool add_hull(const std::vector<std::uint32_t>& members, ToGrow::Shape shape, std::vector<ToGrow>& to_grow) const;
   void add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const;
   bool begins_in_hull(const std::vector<Vec3>& points) const;
   bool begins_in_solid(const std::vector<std::uint32_t>& members) const;
@@ -228,7 +229,7 @@ class ComponentGrower {
   ReachesVolume reaches_volume_;
 };
 
-constexpr double kBeside = 1e-6;  // of the size: a target on a wall is within rounding of it
+constexpr double kBeside = 1e-6;  // of the size: on a wall, but for rounding
 
 /// Whether the volume begins inside of the points' hull. Where it begins on a facet, on a wall, that is so unless all
 /// of it lies before the facet.
@@ -280,11 +281,7 @@ void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector
     if (reaches_volume_(polygons_[i])) near.push_back(i);
   }
   if (near.empty()) return;
-  std::vector<Vec3> corners = corners_of(polygons_, members);
-  if (!begins_in_hull(corners) && is_nearly_convex(polygons_, members, radius_)) {
-    to_grow.push_back({ToGrow::Shape::hull, std::move(corners)});
-    return;
-  }
+  if (add_hull(members, ToGrow::Shape::hull, to_grow)) return;
   Columns found = columns_of(polygons_, members);
   if (!found.columns.empty() && !begins_in_solid(members)) {
     for (std::vector<Vec3>& column : found.columns) {
@@ -296,7 +293,17 @@ void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector
   add_patches(near, to_grow);
 }
 
-/// Of a surface: halves along its longest side, until what is left is nearly convex or one polygon.
+/// False where their hull may not stand for the members.
+bool ComponentGrower::add_hull(const std::vector<std::uint32_t>& members, ToGrow::Shape shape,
+                               std::vector<ToGrow>& to_grow) const {
+  if (!is_nearly_convex(polygons_, members, radius_)) return false;
+  std::vector<Vec3> corners = corners_of(polygons_, members);
+  if (begins_in_hull(corners)) return false;
+  to_grow.push_back({shape, std::move(corners)});
+  return true;
+}
+
+/// Of a surface that is not nearly convex as a whole: of each half, along the longest side, its hull or its halves.
 void ComponentGrower::add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const {
   if (members.empty()) return;
   if (members.size() == 1) {
@@ -304,14 +311,6 @@ void ComponentGrower::add_patches(std::span<std::uint32_t> members, std::vector<
     const bool is_prism = aside_[i] <= core::kMostAside;
     to_grow.push_back({is_prism ? ToGrow::Shape::prism : ToGrow::Shape::polygon, polygons_[i], aside_[i]});
     return;
-  }
-  const std::vector<std::uint32_t> patch(members.begin(), members.end());
-  if (is_nearly_convex(polygons_, patch, radius_)) {
-    std::vector<Vec3> corners = corners_of(polygons_, patch);
-    if (!begins_in_hull(corners)) {
-      to_grow.push_back({ToGrow::Shape::patch, std::move(corners)});
-      return;
-    }
   }
   const auto centre = [&](std::uint32_t i) -> Vec3 {
     const Box box = box_of(polygons_[i]);
@@ -324,8 +323,9 @@ void ComponentGrower::add_patches(std::span<std::uint32_t> members, std::vector<
   std::stable_sort(members.begin(), members.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return centre(a)[axis] < centre(b)[axis]; });
   const std::size_t half = members.size() / 2;
-  add_patches(members.first(half), to_grow);
-  add_patches(members.subspan(half), to_grow);
+  for (const std::span<std::uint32_t> part : {members.first(half), members.subspan(half)}) {
+    if (!add_hull({part.begin(), part.end()}, ToGrow::Shape::patch, to_grow)) add_patches(part, to_grow);
+  }
 }
 
 Solid grown_solid(const ToGrow& what, double radius, std::uint32_t label) {

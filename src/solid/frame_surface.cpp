@@ -17,7 +17,6 @@
 namespace vantage::internal::solid {
 namespace {
 
-using sensor::Aim;
 using sensor::AimedView;
 using sensor::AimFinder;
 

@@ -50,7 +50,7 @@ Sides::Sides(const Mesh& hull) : hull_(hull) {
   add_over_corners();
 }
 
-/// Planes that nearly coincide have no sure corners. What stands for the other one costs a part of the size.
+/// Planes that nearly coincide have no sure corners: one is enough. It reaches too far by their angle times the size.
 void Sides::add(const Vec3& direction) {
   constexpr double kSame = 1 - 5e-11;  // the cosine of 0.00001 radians
   const bool is_known = std::any_of(directions_.begin(), directions_.end(),
