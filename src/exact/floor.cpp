@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/edges.h"
+#include "exact/quadrant_parts.h"
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
 
@@ -190,12 +191,8 @@ void Floor::list_kept(std::uint32_t body, Found& found) const {
 
 // Where the facet is: another plane of its body is nowhere greater there.
 void Floor::list_facet(const Facet& facet, Found& found) const {
-  FacetPolygon scratch;
-  for (int quadrant = 0; quadrant < 4; ++quadrant) {
-    FacetPolygon part = facet.polygon;
-    core::clip_facet(part, {quadrant & 1 ? -1.0 : 1.0, 0, 0}, 0, 0, FacetPolygon::kFar, scratch);
-    if (!part.empty()) core::clip_facet(part, {0, quadrant & 2 ? -1.0 : 1.0, 0}, 0, 0, FacetPolygon::kFar, scratch);
-    if (part.empty()) continue;
+  FacetPolygon scratch_part, scratch;
+  for_each_quadrant(facet.polygon, scratch_part, scratch, [&](int quadrant, const FacetPolygon& part) {
     OctahedralPoint low(1, 1), high(0, 0);
     for (const Vec3& corner : part.corners) {
       const OctahedralPoint at = to_octahedral(corner).cwiseAbs();
@@ -209,7 +206,7 @@ void Floor::list_facet(const Facet& facet, Found& found) const {
         found[cell_index(quadrant, i, j)].emplace_back(facet.body, facet.plane);
       }
     }
-  }
+  });
 }
 
 const Floor::Listed& Floor::listed_at(const OctahedralPoint& point) const {

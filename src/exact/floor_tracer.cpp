@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "exact/quadrant_parts.h"
 #include "exact/range_arcs.h"
 #include "exact/segment_cover.h"
 
@@ -81,7 +82,7 @@ class Tracer {
 
   std::uint32_t number_ = 0;
   const Floor::Facet* facet_ = nullptr;
-  FacetPolygon polygon_, scratch_;
+  FacetPolygon polygon_, part_, scratch_;
   std::vector<std::uint32_t> seen_;  // per blocker: the facet that it was last gathered for
   std::vector<std::uint32_t> found_;
   std::vector<const DirectionTree::Leaf*> leaves_;
@@ -127,11 +128,7 @@ bool Tracer::clip_to_kept() {
 
 void Tracer::gather_blockers() {
   found_.clear();
-  for (int quadrant = 0; quadrant < 4; ++quadrant) {
-    FacetPolygon part = polygon_;
-    const double x = quadrant & 1 ? -1 : 1, y = quadrant & 2 ? -1 : 1;
-    core::clip_facet(part, {x, 0, 0}, 0, 0, FacetPolygon::kFar, scratch_);
-    if (!part.empty()) core::clip_facet(part, {0, y, 0}, 0, 0, FacetPolygon::kFar, scratch_);
+  for_each_quadrant(polygon_, part_, scratch_, [&](int quadrant, const FacetPolygon& part) {
     leaves_.clear();
     for (std::size_t i = 1; i + 1 < part.corners.size(); ++i) {
       tree_.leaves_over(
@@ -146,7 +143,7 @@ void Tracer::gather_blockers() {
         found_.push_back(blocker);
       }
     }
-  }
+  });
   std::sort(found_.begin(), found_.end());
 }
 

@@ -19,17 +19,23 @@ Mesh intersect_half_spaces(std::span<const HalfSpace> half_spaces, const Vec3& i
 Vec3 sure_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// A convex mesh that holds `inside` is scaled about that point until the convex set with the support function `most`
-/// (the largest product of a direction with one of its points) is in it.
-template <typename Support>
-void grow_to_hold(Mesh& convex, const Vec3& inside, const Support& most) {
+/// (the largest product of a direction with one of its points) is in it, but for what sticks out of facets that are not
+/// `asked`.
+template <typename Support, typename Asked>
+void grow_to_hold(Mesh& convex, const Vec3& inside, const Support& most, const Asked& asked) {
   double scale = 1;
   for (const Triangle& t : convex.triangles) {
+    if (!asked(t)) continue;
     const Vec3& a = convex.vertices[t[0]];
     const Vec3 normal = sure_normal(a, convex.vertices[t[1]], convex.vertices[t[2]]);
     const double distance = normal.dot(a - inside);
     if (distance > 0) scale = std::max(scale, (most(normal) - normal.dot(inside)) / distance);
   }
   for (Vec3& vertex : convex.vertices) vertex = inside + scale * (1 + 1e-12) * (vertex - inside);
+}
+template <typename Support>
+void grow_to_hold(Mesh& convex, const Vec3& inside, const Support& most) {
+  grow_to_hold(convex, inside, most, [](const Triangle&) { return true; });
 }
 
 /// Directions spread evenly over the sphere.
