@@ -358,5 +358,38 @@ TEST(ClearanceMap, AVolumeAmongHousesKeepsItsDistance) {
   EXPECT_EQ(report.under_claimed, 0u);
 }
 
+/// Upright walls over an L, with its floor and ceiling.
+Mesh make_l_room(double in, double low, double high) {
+  const std::vector<Vec3> corners = {{2 - in, 2 - in, 0},   {2 - in, 10 - in, 0}, {in, 10 - in, 0},
+                                     {in, in, 0},           {10 - in, in, 0},     {10 - in, 2 - in, 0}};
+  Mesh mesh;
+  for (const double z : {low, high}) {
+    for (const Vec3& corner : corners) mesh.vertices.push_back(corner + z * Vec3::UnitZ());
+  }
+  for (std::uint32_t k = 1; k < 5; ++k) {
+    mesh.triangles.push_back({0, k + 1, k});
+    mesh.triangles.push_back({6, 6 + k, 7 + k});
+  }
+  for (std::uint32_t a = 0; a < 6; ++a) {
+    const std::uint32_t b = (a + 1) % 6;
+    mesh.triangles.push_back({a, b, b + 6});
+    mesh.triangles.push_back({a, b + 6, a + 6});
+  }
+  return mesh;
+}
+
+/// The middle of its box lies outside of the room.
+TEST(ClearanceLimit, LeavesTheRoomThatAMeshIsIn) {
+  const auto room = std::make_shared<const Mesh>(make_l_room(0, 0, 3));
+  Navigation navigation;
+  navigation.clearance = Clearance{0.3, room};
+  const Volume cut = cut_to_navigation(volume_of_mesh(make_l_room(0.1, 0.1, 2.9), "a room"), navigation);
+  ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+  EXPECT_EQ(testing::first_open_edge(cut.mesh), "");
+  const double area = 1.4 * 9.4 + 1.4 * 8;  // 0.3 m from all walls
+  EXPECT_GT(enclosed_volume(cut.mesh), 0.999 * 2.4 * area);
+  EXPECT_LT(enclosed_volume(cut.mesh), 2.4 * (area + 0.3 * 0.3));  // round the corner
+}
+
 }  // namespace
 }  // namespace vantage

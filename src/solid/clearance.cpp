@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -203,9 +204,10 @@ class ComponentGrower {
   using ReachesVolume = std::function<bool(const Polygon&)>;
 
   /// `aside`: how far aside of each polygon that lies which is nearest to it, in parts of the radius. `volume`: its
-  /// vertices. `centre`: where it begins.
+  /// vertices. `centre`: where it begins; none where it may begin anywhere.
   ComponentGrower(const std::vector<Polygon>& polygons, const std::vector<double>& aside,
-                  const std::vector<Vec3>& volume, const Vec3& centre, double radius, ReachesVolume reaches_volume)
+                  const std::vector<Vec3>& volume, const std::optional<Vec3>& centre, double radius,
+                  ReachesVolume reaches_volume)
       : polygons_(polygons),
         aside_(aside),
         volume_(volume),
@@ -224,7 +226,7 @@ class ComponentGrower {
   const std::vector<Polygon>& polygons_;
   const std::vector<double>& aside_;
   const std::vector<Vec3>& volume_;
-  Vec3 centre_;
+  std::optional<Vec3> centre_;
   double radius_;
   ReachesVolume reaches_volume_;
 };
@@ -234,15 +236,16 @@ constexpr double kBeside = 1e-6;  // of the size: on a wall, but for rounding
 /// Whether the volume begins inside of the points' hull. Where it begins on a facet, on a wall, that is so unless all
 /// of it lies before the facet.
 bool ComponentGrower::begins_in_hull(const std::vector<Vec3>& points) const {
+  if (!centre_) return true;
   const Box box = box_of(points);
   const double slack = kBeside * (box.max - box.min).norm();
   const Box near = grown(box, slack);
-  if ((centre_.array() < near.min.array()).any() || (centre_.array() > near.max.array()).any()) return false;
+  if ((centre_->array() < near.min.array()).any() || (centre_->array() > near.max.array()).any()) return false;
   const Mesh hull = convex_hull(points);
   return std::none_of(hull.triangles.begin(), hull.triangles.end(), [&](const Triangle& t) {
     const Vec3& a = hull.vertices[t[0]];
     const Vec3 normal = sure_normal(a, hull.vertices[t[1]], hull.vertices[t[2]]).normalized();
-    const double height = normal.dot(centre_ - a);
+    const double height = normal.dot(*centre_ - a);
     if (height > slack) return true;
     return height >= -slack && std::all_of(volume_.begin(), volume_.end(),
                                            [&](const Vec3& vertex) { return normal.dot(vertex - a) >= -slack; });
@@ -252,6 +255,7 @@ bool ComponentGrower::begins_in_hull(const std::vector<Vec3>& points) const {
 /// Whether the volume begins inside of what closed members bound. Where it begins on them, that is so where a place on
 /// the way to one of its vertices is: nothing stands in that way.
 bool ComponentGrower::begins_in_solid(const std::vector<std::uint32_t>& members) const {
+  if (!centre_) return true;
   constexpr std::size_t kEnough = 500;  // of the vertices
   Mesh surface;
   for (const std::uint32_t i : members) {
@@ -266,9 +270,9 @@ bool ComponentGrower::begins_in_solid(const std::vector<std::uint32_t>& members)
   const auto is_inside = [&](const Vec3& point) {
     return tree.winding_number(point) != 0 && tree.distance(point) > slack;
   };
-  if (tree.distance(centre_) > slack) return is_inside(centre_);
+  if (tree.distance(*centre_) > slack) return is_inside(*centre_);
   for (std::size_t v = 0; v < volume_.size(); v += 1 + volume_.size() / kEnough) {
-    if (is_inside((centre_ + volume_[v]) / 2)) return true;
+    if (is_inside((*centre_ + volume_[v]) / 2)) return true;
   }
   return false;
 }
@@ -358,8 +362,8 @@ double work_to_unite(double facets, std::size_t solids) {
 
 }  // namespace
 
-Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3& from, const Vec3& origin,
-                     std::uint32_t label, const core::ProgressReporter& progress) {
+Solid make_clearance(const Clearance& clearance, const Mesh& volume, const std::optional<Vec3>& from,
+                     const Vec3& origin, std::uint32_t label, const core::ProgressReporter& progress) {
   const Box bounds = bounding_box(volume);
   const double reach = (1 + core::kMostGrownTooFar) * clearance.distance_m;
   // Merging moves what is in one plane but for rounding by as much, a few roundings of the largest coordinate; and
@@ -372,7 +376,8 @@ Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3&
       clearance.distance_m + kBooleans * largest + kMerging * origin.cwiseAbs().maxCoeff() + near.rounding_m;
   progress.report(0.1);
   const core::TriangleTree tree(volume);
-  const Vec3 centre = from - origin;
+  std::optional<Vec3> centre;
+  if (from) centre = *from - origin;
   const auto reaches_volume = [&](const Polygon& polygon) {
     progress.tick();
     const Box box = grown(box_of(polygon), reach);

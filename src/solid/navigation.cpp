@@ -72,7 +72,7 @@ class Cutting {
 /// The clearance comes last, from what the other limits leave: only obstacles near to that matter.
 struct LateClearance {
   const Clearance* clearance;  ///< may be null
-  Vec3 from;                   ///< a point from which the whole volume can be reached, scene frame
+  std::optional<Vec3> from;    ///< a point from which the whole volume can be reached, scene frame; where one is known
 };
 
 /// What is kept comes first, the smallest first of all: it leaves the less. Nothing where nothing had to be cut. The
@@ -203,7 +203,8 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   std::vector<std::uint32_t> labels = sources.add(volume, causes);
   Regions regions = make_regions(volume.causes, sources.sources(), bounds, navigation, meshes, progress.part(0.3, 0.4));
   if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), done, bounds, regions);
-  const LateClearance late{navigation.clearance ? &*navigation.clearance : nullptr, volume.frame.origin};
+  LateClearance late{navigation.clearance ? &*navigation.clearance : nullptr, {}};
+  if (!volume.frame.polygon.empty()) late.from = volume.frame.origin;  // of a mesh the origin may lie outside
   cut_volume(std::move(regions), late, std::move(labels), progress.part(0.4, 1), result);
   progress.finish();
   const double seconds = stopwatch.seconds();

@@ -81,8 +81,8 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<
 
 /// Forbids what is nearer to obstacles than the clearance, where there is any of it near. `volume`: what is to be cut,
 /// about Regions::origin; `from`: see make_clearance, scene frame.
-void add_clearance_region(const Clearance& clearance, const Mesh& volume, const Vec3& from, Regions& regions,
-                          const core::ProgressReporter& progress);
+void add_clearance_region(const Clearance& clearance, const Mesh& volume, const std::optional<Vec3>& from,
+                          Regions& regions, const core::ProgressReporter& progress);
 
 /// The mesh with its vertices relative to `origin`.
 LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels, const Vec3& origin);

@@ -1,3 +1,4 @@
+#include <optional>
 #include <utility>
 
 #include "core/text.h"
@@ -6,8 +7,8 @@
 
 namespace vantage::internal::solid {
 
-void add_clearance_region(const Clearance& clearance, const Mesh& volume, const Vec3& from, Regions& regions,
-                          const core::ProgressReporter& progress) {
+void add_clearance_region(const Clearance& clearance, const Mesh& volume, const std::optional<Vec3>& from,
+                          Regions& regions, const core::ProgressReporter& progress) {
   regions.causes.push_back({CauseKind::navigation, "clearance"});
   regions.sources.push_back({static_cast<std::uint32_t>(regions.causes.size() - 1)});
   const auto label = static_cast<std::uint32_t>(regions.sources.size() - 1);
