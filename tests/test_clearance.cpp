@@ -360,8 +360,8 @@ TEST(ClearanceMap, AVolumeAmongHousesKeepsItsDistance) {
 
 /// Upright walls over an L, with its floor and ceiling.
 Mesh make_l_room(double in, double low, double high) {
-  const std::vector<Vec3> corners = {{2 - in, 2 - in, 0},   {2 - in, 10 - in, 0}, {in, 10 - in, 0},
-                                     {in, in, 0},           {10 - in, in, 0},     {10 - in, 2 - in, 0}};
+  const std::vector<Vec3> corners = {{2 - in, 2 - in, 0}, {2 - in, 10 - in, 0}, {in, 10 - in, 0},
+                                     {in, in, 0},         {10 - in, in, 0},     {10 - in, 2 - in, 0}};
   Mesh mesh;
   for (const double z : {low, high}) {
     for (const Vec3& corner : corners) mesh.vertices.push_back(corner + z * Vec3::UnitZ());
