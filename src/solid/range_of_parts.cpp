@@ -12,12 +12,12 @@
 #include "core/mend_welded.h"
 #include "core/portable_math.h"
 #include "solid/convex_hull.h"
+#include "target/numerics.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::solid {
 namespace {
 
-constexpr double kInside = 1e-9;            // of the distance: places lie so far inside of the spheres
 constexpr int kMostRounds = 8;              // of adding places
 constexpr std::size_t kMostPlaces = 60000;  // a tolerance that asks for more is too fine
 
@@ -60,7 +60,7 @@ double RangeOfParts::reach(const Vec3& direction) const {
     const double root = std::sqrt(along * along + power);
     least = std::min(least, along > 0 ? power / (along + root) : root - along);
   }
-  return (1 - kInside) * least;
+  return (1 - internal::numerics::kShrink) * least;
 }
 
 /// In rows of one height above the plane, of which the first one lies in it.
@@ -106,7 +106,7 @@ bool RangeOfParts::add_places(const Mesh& hull, std::vector<Vec3>& places) const
 
 std::optional<Mesh> RangeOfParts::mesh() const {
   for (const Vec3& corner : corners_) {
-    if (!((middle_ - corner).norm() < range_ * (1 - kInside))) return std::nullopt;
+    if (!((middle_ - corner).norm() < range_ * (1 - 1e-9))) return std::nullopt;
   }
   std::vector<Vec3> places = first_places();
   if (places.empty()) return std::nullopt;
