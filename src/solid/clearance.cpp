@@ -219,6 +219,7 @@ class ComponentGrower {
 
  private:
   bool add_hull(const std::vector<std::uint32_t>& members, ToGrow::Shape shape, std::vector<ToGrow>& to_grow) const;
+  void add_polygon(std::uint32_t i, std::vector<ToGrow>& to_grow) const;
   void add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const;
   bool begins_in_hull(const std::vector<Vec3>& points) const;
   bool begins_in_solid(const std::vector<std::uint32_t>& members) const;
@@ -236,7 +237,6 @@ constexpr double kBeside = 1e-6;  // of the size: on a wall, but for rounding
 /// Whether the volume begins inside of the points' hull. Where it begins on a facet, on a wall, that is so unless all
 /// of it lies before the facet.
 bool ComponentGrower::begins_in_hull(const std::vector<Vec3>& points) const {
-  if (!centre_) return true;
   const Box box = box_of(points);
   const double slack = kBeside * (box.max - box.min).norm();
   const Box near = grown(box, slack);
@@ -255,7 +255,6 @@ bool ComponentGrower::begins_in_hull(const std::vector<Vec3>& points) const {
 /// Whether the volume begins inside of what closed members bound. Where it begins on them, that is so where a place on
 /// the way to one of its vertices is: nothing stands in that way.
 bool ComponentGrower::begins_in_solid(const std::vector<std::uint32_t>& members) const {
-  if (!centre_) return true;
   constexpr std::size_t kEnough = 500;  // of the vertices
   Mesh surface;
   for (const std::uint32_t i : members) {
@@ -285,6 +284,10 @@ void ComponentGrower::add(const std::vector<std::uint32_t>& members, std::vector
     if (reaches_volume_(polygons_[i])) near.push_back(i);
   }
   if (near.empty()) return;
+  if (!centre_) {
+    for (const std::uint32_t i : near) add_polygon(i, to_grow);
+    return;
+  }
   if (add_hull(members, ToGrow::Shape::hull, to_grow)) return;
   Columns found = columns_of(polygons_, members);
   if (!found.columns.empty() && !begins_in_solid(members)) {
@@ -307,15 +310,16 @@ bool ComponentGrower::add_hull(const std::vector<std::uint32_t>& members, ToGrow
   return true;
 }
 
+/// By itself.
+void ComponentGrower::add_polygon(std::uint32_t i, std::vector<ToGrow>& to_grow) const {
+  const bool is_prism = aside_[i] <= core::kMostAside;
+  to_grow.push_back({is_prism ? ToGrow::Shape::prism : ToGrow::Shape::polygon, polygons_[i], aside_[i]});
+}
+
 /// Of a surface that is not nearly convex as a whole: of each half, along the longest side, its hull or its halves.
 void ComponentGrower::add_patches(std::span<std::uint32_t> members, std::vector<ToGrow>& to_grow) const {
   if (members.empty()) return;
-  if (members.size() == 1) {
-    const std::uint32_t i = members[0];
-    const bool is_prism = aside_[i] <= core::kMostAside;
-    to_grow.push_back({is_prism ? ToGrow::Shape::prism : ToGrow::Shape::polygon, polygons_[i], aside_[i]});
-    return;
-  }
+  if (members.size() == 1) return add_polygon(members[0], to_grow);
   const auto centre = [&](std::uint32_t i) -> Vec3 {
     const Box box = box_of(polygons_[i]);
     return box.min + box.max;
