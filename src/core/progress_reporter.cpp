@@ -94,16 +94,17 @@ ProgressReporter ProgressReporter::part(double from, double to) const {
   return part;
 }
 
-ProgressReporter ProgressReporter::limited(double most_work, std::string advice) const {
+ProgressReporter ProgressReporter::limited(double most_work, std::string advice, double per_unit) const {
   ProgressReporter limited = *this;
   limited.limit_ = std::make_shared<Limit>();
   limited.limit_->most = most_work;
+  limited.limit_->per_unit = per_unit;
   limited.limit_->advice = std::move(advice);
   return limited;
 }
 
 void ProgressReporter::check_work(double more) const {
-  if (limit_->done.load() + more <= limit_->most) return;
+  if (limit_->done.load() + more <= limit_->most * limit_->per_unit) return;
   constexpr double kMillion = 1e6;
   const std::string most =
       limit_->most < kMillion ? number_text(limit_->most) : number_text(limit_->most / kMillion) + " million";

@@ -61,8 +61,9 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   ProgressReporter part(double from, double to) const;
 
   /// The same with a limit to the work that is counted from now on, by spend() of it, its copies and its parts. The
-  /// unit is what the callers count. `advice`: what makes less work, for the error.
-  ProgressReporter limited(double most_work, std::string advice) const;
+  /// unit is what the callers count. `advice`: what makes less work, for the error. `per_unit`: where callers count so
+  /// much for what elsewhere is one unit of the limit.
+  ProgressReporter limited(double most_work, std::string advice, double per_unit = 1) const;
   /// Counts work that is about to be done. Throws Error(work_too_large) where it is more than the limit leaves; the
   /// same every time, on any machine, if the callers count the same. Without a limit it does nothing.
   void spend(double work) const {
@@ -93,6 +94,7 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   struct State;
   struct Limit {
     double most;
+    double per_unit;
     std::string advice;
     std::atomic<double> done = 0;
   };

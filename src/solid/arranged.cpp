@@ -33,6 +33,21 @@ std::vector<Triangle> triangles_of(const Surface& surface, const Part& part) {
   return triangulate(rings, surface.epsilon_m);
 }
 
+/// So many meshes are in one arrangement: what it costs grows with the square of their number, where all of them meet.
+constexpr std::size_t kMostAtOnce = 8;
+
+Arranged intersection_at_once(std::span<const LabelledMesh> meshes, std::size_t& fallbacks,
+                              const core::ProgressReporter& progress) {
+  std::vector<Weighted> operands;
+  for (const LabelledMesh& mesh : meshes) operands.push_back({&mesh});
+  if (auto arranged = weighing_at_least(operands, operands.size(), progress)) return *arranged;
+  ++fallbacks;
+  std::vector<Solid> solids;
+  for (const LabelledMesh& mesh : meshes) solids.push_back(mesh.mesh.empty() ? Solid() : Solid(mesh, "the volume"));
+  const Solid solid = intersect(solids, progress);
+  return {solid, solid.epsilon()};
+}
+
 }  // namespace
 
 std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, std::uint64_t least,
@@ -64,6 +79,31 @@ std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, st
   } catch (const Error& error) {
     if (error.code() != ErrorCode::mesh_not_closed) throw;
     return std::nullopt;
+  }
+}
+
+Arranged intersection_of(std::vector<LabelledMesh> meshes, std::size_t& fallbacks,
+                         const core::ProgressReporter& progress) {
+  const auto all = static_cast<double>(meshes.size());
+  double epsilon_m = 0;
+  while (true) {
+    const std::size_t count = meshes.size(), groups = (count + kMostAtOnce - 1) / kMostAtOnce;
+    // The last round takes about as long for each mesh as the first one.
+    const auto done = [&](std::size_t meshes_done) {
+      return 1 - (static_cast<double>(count) - 0.5 * static_cast<double>(meshes_done)) / all;
+    };
+    double farthest_m = 0;
+    std::vector<LabelledMesh> next;
+    for (std::size_t g = 0; g < groups; ++g) {
+      const std::size_t begin = count * g / groups, end = count * (g + 1) / groups;
+      const Arranged group = intersection_at_once(std::span(meshes).subspan(begin, end - begin), fallbacks,
+                                                  progress.part(done(begin), done(end)));
+      farthest_m = std::max(farthest_m, group.epsilon_m);
+      if (groups == 1 || group.solid.empty()) return {group.solid, epsilon_m + farthest_m};
+      next.push_back(group.solid.to_mesh());
+    }
+    epsilon_m += farthest_m;
+    meshes = std::move(next);
   }
 }
 

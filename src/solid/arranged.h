@@ -1,9 +1,11 @@
 // Solids out of one arrangement of many, without a tree of booleans.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/progress_reporter.h"
 #include "solid/csg.h"
@@ -26,5 +28,10 @@ struct Arranged {
 /// where an arrangement cannot be made: then booleans have to. See arrangement/arrangement.h.
 std::optional<Arranged> weighing_at_least(std::span<const Weighted> operands, std::uint64_t least,
                                           const core::ProgressReporter& progress);
+
+/// What all of the meshes hold: by arrangements of a few at a time, the first one first, and where one cannot be made
+/// by booleans, which `fallbacks` counts. There must be one mesh.
+Arranged intersection_of(std::vector<LabelledMesh> meshes, std::size_t& fallbacks,
+                         const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::solid

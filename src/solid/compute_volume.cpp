@@ -6,9 +6,10 @@
 
 #include "core/parallel.h"
 #include "exact/limited_visibility.h"
+#include "solid/cell_volumes.h"
 #include "solid/kernel_point.h"
 #include "solid/sensor_region_builder.h"
-#include "solid/visible_share.h"
+#include "solid/share_plan.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
 
@@ -57,9 +58,12 @@ Volume without_common_front(const PreparedTarget& target, const ExactOptions& op
   return volume;
 }
 
-Volume volume_of_parts(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
+Volume volume_of_all(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   if (target.part_count() > 1 && !may_have_common_front(target)) return without_common_front(target, options);
   if (internal::solid::has_share(target)) return internal::solid::share_volume(target, options, progress);
+  if (target.part_count() > 1) {
+    if (auto volume = internal::solid::volume_of_parts(target, options, progress)) return *std::move(volume);
+  }
   std::vector<Volume> volumes;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
     volumes.push_back(compute_visibility(target.part(i), options, progress));
@@ -113,7 +117,7 @@ Volume compute_view(const PreparedTarget& target, const ExactOptions& options, c
 
 Volume compute_parts(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   Volume volume;
-  internal::parallel::with_threads(options.threads, [&] { volume = volume_of_parts(target, options, progress); });
+  internal::parallel::with_threads(options.threads, [&] { volume = volume_of_all(target, options, progress); });
   return volume;
 }
 

@@ -32,8 +32,9 @@ class TargetView {
   /// Whether the point, dropped along the normal, falls on the target grown by `margin` metres on every side.
   bool over(const Vec3& point, double margin) const;
 
-  /// Whether what is seen from the point need lie on no side of the target's plane, or lies in front of it.
-  bool in_front(const Vec3& point) const { return all_sides_ || height(point) > 0; }
+  /// Whether what is seen from the point need lie on no side of the target's plane, or lies in front of it, farther
+  /// than the margin.
+  bool in_front(const Vec3& point, double margin = 0) const { return all_sides_ || height(point) > margin; }
 
   /// A point of the polygon; uniform when u and v are uniform in [0, 1), and continuous but for the polygon's fan.
   Vec3 interior(double u, double v) const;

@@ -105,7 +105,8 @@ class Check {
   Vec3 in_frame_of(std::size_t part, const Vec3& position) const {
     return position + (view_.origin() - parts_[part].origin());  // nothing is rounded where the frames are the same
   }
-  bool in_front(const Vec3& position) const;
+  bool in_front(const Vec3& position, double margin_m = 0) const;
+  double allowed_m(const Vec3& position) const;
   void set_share(const VisibleShare& visible);
   void look_at_share(const Vec3& position, Verdict& verdict) const;
   bool sees(const TargetView& part, const Vec3& position, Verdict& verdict) const;
@@ -150,12 +151,17 @@ void Check::set_share(const VisibleShare& visible) {
   asked_m2_ = (visible.share - internal::verify::kShareSlack) * area - rounding;
 }
 
-/// Whether a position is in front of all parts, but for a point that is seen from all sides.
-bool Check::in_front(const Vec3& position) const {
+/// Whether a position is in front of all parts by more than the margin, but for a point that is seen from all sides.
+bool Check::in_front(const Vec3& position, double margin_m) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (!parts_[i].in_front(in_frame_of(i, position))) return false;
+    if (!parts_[i].in_front(in_frame_of(i, position), margin_m)) return false;
   }
   return true;
+}
+
+/// How deep on the wrong side of the surface a position may lie.
+double Check::allowed_m(const Vec3& position) const {
+  return options_.depth_tolerance * (position - view_.centre()).norm() + options_.rounding_m;
 }
 
 /// `position` in the frame of the part that was turned to.
@@ -226,7 +232,9 @@ void Check::judge(Verdict& verdict) const {
   verdict.is_whole = true;
   verdict.seen_m2 = 0;
   verdict.blocked.reset();
-  if (!in_front(verdict.position) || limits_.broken_by(verdict.position)) return;
+  // Nearer to the plane than that the volume may end, and rays pass beneath what stands on it.
+  const double margin_m = verdict.claimed ? 0 : allowed_m(verdict.position);
+  if (!in_front(verdict.position, margin_m) || limits_.broken_by(verdict.position)) return;
   if (!verdict.claimed && limits_.may_leave_out(verdict.position)) return;
   const SensorJudgement judgement =
       verdict.claimed ? sensor_.of_claimed(verdict.position) : sensor_.of_unclaimed(verdict.position);
@@ -277,8 +285,7 @@ void Check::settle(Verdict& verdict) const {
   if (verdict.on_surface || verdict.undecided) return;
   if (verdict.good == verdict.claimed && !verdict.is_enough) return;
   verdict.depth = volume_.distance_to_surface(verdict.position);
-  const double allowed = options_.depth_tolerance * (verdict.position - view_.centre()).norm() + options_.rounding_m;
-  const bool counts = verdict.depth > allowed;
+  const bool counts = verdict.depth > allowed_m(verdict.position);
   verdict.over = counts && verdict.claimed;
   verdict.under = counts && !verdict.claimed && verdict.good;
   verdict.is_enough = counts && verdict.is_enough;
