@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -206,6 +207,35 @@ TEST_F(LimitsInChart, OfATownNeedNoBooleans) {
     const Volume view = compute_view(PreparedTarget(PreparedScene(scene.scene()), target, sensor));
     EXPECT_EQ(view.kept_limits.size(), 1U) << round;
     EXPECT_EQ(view.counts.boolean_fallbacks, 0U) << round;
+  }
+}
+
+// A crease between two facets of one blocker that are all but in one plane crosses the rim of the floor, which runs
+// straight on there.
+TEST_F(LimitsInChart, AreCutWhereACreaseHasNoBend) {
+  Random random(4108);
+  constexpr std::array<double, 5> kBends{0, 1e-10, 1e-8, 1e-6, 1e-4};
+  for (int round = 0; round < 20; ++round) {
+    const double bend = kBends[static_cast<std::size_t>(round) % kBends.size()];
+    testing::SceneBuilder scene;
+    for (int wall = 0; wall < 6; ++wall) {
+      const double turn = random.uniform(0, 6), x = random.uniform(6, 20), y = random.uniform(-20, -5);
+      const double width = random.uniform(5, 30), height = random.uniform(2, 25);
+      std::vector<Vec3> corners{{x, y, 0}, {x, y + width, 0}};
+      for (int i = 10; i >= 0; --i) corners.emplace_back(x, y + i * width / 10, height + random.uniform(0, bend));
+      for (Vec3& corner : corners) corner = Eigen::AngleAxisd(turn, Vec3::UnitZ()) * corner;
+      scene.polygon("wall", corners);
+    }
+    Sensor sensor{.max_range_m = 60, .min_range_m = random.uniform(8, 30)};
+    if (round % 2 == 1) sensor.incidence_deg = random.uniform(20, 75);
+    const Target target = testing::target_of({{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}});
+    const PreparedTarget prepared(PreparedScene(scene.scene()), target, sensor);
+    const Volume view = compute_view(prepared);
+    EXPECT_FALSE(view.kept_limits.empty()) << round;
+    EXPECT_EQ(view.counts.boolean_fallbacks, 0U) << round;
+    const MeshMeasures one = measure(view.mesh), other = measure(by_booleans(prepared, {}).mesh);
+    EXPECT_TRUE(one.closed && one.oriented) << round;
+    EXPECT_NEAR((one.volume_m3 - other.volume_m3) / other.area_m2, 0, 1e-3) << round;
   }
 }
 

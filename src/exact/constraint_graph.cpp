@@ -17,7 +17,8 @@ double turn_of(const OctahedralPoint& p) {
 
 }  // namespace
 
-ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, const FloorSkeleton* floor, OctahedralGrid& grid,
+ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, const FloorSkeleton* floor,
+                                 std::span<const OctahedralPoint> rim_splits, OctahedralGrid& grid,
                                  const IsRange& is_range, double snap)
     : grid_(grid),
       snap_(snap),
@@ -30,6 +31,7 @@ ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, const FloorSkeleton* 
   nodes_.assign(static_cast<std::size_t>(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
   node(0, 0) = 0;
   if (floor) add_floor(*floor);
+  add_rim_splits(rim_splits);
   add_creases(skeleton);
   grid_.settle(is_range);
   add_border();
@@ -82,10 +84,17 @@ void ConstraintGraph::add_floor(const FloorSkeleton& floor) {
   }
 }
 
+void ConstraintGraph::add_rim_splits(std::span<const OctahedralPoint> splits) {
+  for (const OctahedralPoint& point : splits) {
+    rim_splits_.push_back(snapper_.add(point));
+    note(rim_splits_.back(), kBoth);
+  }
+}
+
 // Of surfaces that end at one line some may end before the others do: so a piece of the rim may lie on a longer one.
 // What passes a vertex within the snapping distance goes through it in the triangulation, too.
 void ConstraintGraph::split_rim() {
-  std::vector<std::uint32_t> ends;  // from left to right
+  std::vector<std::uint32_t> ends = rim_splits_;  // from left to right
   for (const auto& [a, b] : rim_) ends.insert(ends.end(), {a, b});
   const auto is_left = [&](std::uint32_t a, std::uint32_t b) {
     return std::pair(points()[a].x(), a) < std::pair(points()[b].x(), b);

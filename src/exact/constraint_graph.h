@@ -29,8 +29,9 @@ class ConstraintGraph {
   static constexpr std::uint32_t kNone = ~0u;
 
   /// Marks and settles the cells of `grid`. Points closer than `snap` become one. `floor`: null where there is none.
-  ConstraintGraph(const Skeleton& skeleton, const FloorSkeleton* floor, OctahedralGrid& grid, const IsRange& is_range,
-                  double snap);
+  /// `rim_splits`: where pieces of the rim are to have vertices, too.
+  ConstraintGraph(const Skeleton& skeleton, const FloorSkeleton* floor, std::span<const OctahedralPoint> rim_splits,
+                  OctahedralGrid& grid, const IsRange& is_range, double snap);
 
   const std::vector<OctahedralPoint>& points() const { return snapper_.points(); }
   bool on_horizon(std::uint32_t vertex) const { return snapper_.on_horizon(vertex); }
@@ -75,6 +76,7 @@ class ConstraintGraph {
   void add_fill(const IsRange& is_range);
   void add_axes(Sheet sheet);
   void add_horizon();
+  void add_rim_splits(std::span<const OctahedralPoint> splits);
   void split_rim();
   void keep_one_sided_rim();
 
@@ -84,6 +86,7 @@ class ConstraintGraph {
   VertexSnapper snapper_;
   std::array<std::vector<Edge>, 2> edges_;
   std::vector<Edge> rim_;
+  std::vector<std::uint32_t> rim_splits_;
   std::vector<Sheets> sheets_;
   std::vector<std::uint32_t> nodes_;
   std::vector<bool> at_node_;

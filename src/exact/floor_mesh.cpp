@@ -20,7 +20,7 @@ constexpr double kMostRise = 1e-5;
 class FloorMesher {
  public:
   FloorMesher(int quadrant, const ConstraintGraph& graph, const Envelope& envelope, double snap)
-      : quadrant_(quadrant), graph_(graph), envelope_(envelope), delaunay_(snap) {}
+      : quadrant_(quadrant), graph_(graph), envelope_(envelope), snap_(snap), delaunay_(snap) {}
 
   FloorMesh run() {
     triangulate();
@@ -29,6 +29,7 @@ class FloorMesher {
     if (!result_.failure.empty()) {
       FloorMesh nothing;
       nothing.failure = result_.failure;
+      nothing.rim_splits = std::move(result_.rim_splits);
       return nothing;
     }
     for (std::uint32_t v = 0; v < own_count(); ++v) result_.graph_gauge.push_back(gauges_[v + kSuper]);
@@ -77,10 +78,11 @@ class FloorMesher {
     delaunay_.add_vertices(points);
     for (const auto& [from, to] : in_quadrant(graph_.edges(Sheet::floor))) delaunay_.add_constraint(from, to);
     if (!delaunay_.failure().empty()) return;
-    result_.failure = RimSides(in_quadrant(graph_.rim()))
-                          .find(
-                              delaunay_, [&](const Triangle& t) { return is_outside_quadrant(t); },
-                              [&](const OctahedralPoint& p) { return is_below_floor(p, 0); }, is_beyond_);
+    RimSides rim(in_quadrant(graph_.rim()));
+    result_.failure = rim.find(
+        delaunay_, [&](const Triangle& t) { return is_outside_quadrant(t); },
+        [&](const OctahedralPoint& p) { return is_below_floor(p, 0); }, is_beyond_);
+    if (!result_.failure.empty()) result_.rim_splits = rim.splits(delaunay_, snap_);
     gauges_.resize(delaunay_.vertices().size());
     for (std::uint32_t v = kSuper; v < gauges_.size(); ++v) {
       gauges_[v] = envelope_.floor->at(point(v)).gauge;
@@ -142,6 +144,7 @@ class FloorMesher {
   int quadrant_;
   const ConstraintGraph& graph_;
   const Envelope& envelope_;
+  double snap_;
   ConstrainedDelaunay delaunay_;
   std::vector<double> gauges_;   // per vertex of the triangulation
   std::vector<char> is_beyond_;  // per facet of it

@@ -20,6 +20,7 @@ struct FloorMesh {
   std::vector<double> graph_gauge;          ///< neighbouring quadrants may know a lower one
   std::vector<ConstraintGraph::Edge> base;  ///< edges on the horizon, as the triangles run them
   std::string failure;                      ///< as in QuadrantMesh
+  std::vector<OctahedralPoint> rim_splits;  ///< the same
 };
 
 /// As mesh_quadrant, but for the floor, which `envelope` must have. Its facets lie beyond it, if anything.

@@ -30,7 +30,7 @@ class QuadrantMesher {
  public:
   QuadrantMesher(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid, const Envelope& envelope,
                  double snap)
-      : quadrant_(quadrant), graph_(graph), grid_(grid), envelope_(envelope), delaunay_(snap) {}
+      : quadrant_(quadrant), graph_(graph), grid_(grid), envelope_(envelope), snap_(snap), delaunay_(snap) {}
 
   QuadrantMesh run() {
     triangulate();
@@ -114,6 +114,7 @@ class QuadrantMesher {
   QuadrantMesh failed() const {
     QuadrantMesh nothing;
     nothing.failure = result_.failure;
+    nothing.rim_splits = result_.rim_splits;
     return nothing;
   }
 
@@ -153,6 +154,7 @@ class QuadrantMesher {
     result_.failure = rim_->find(
         delaunay_, [&](const Triangle& t) { return is_outside_quadrant(t); },
         [&](const OctahedralPoint& p) { return gauge_at(p).value <= envelope_.floor->at(p).gauge; }, is_beyond_);
+    if (!result_.failure.empty()) result_.rim_splits = rim_->splits(delaunay_, snap_);
     return result_.failure.empty();
   }
 
@@ -300,6 +302,7 @@ class QuadrantMesher {
   const ConstraintGraph& graph_;
   const OctahedralGrid& grid_;
   const Envelope& envelope_;
+  double snap_;
   ConstrainedDelaunay delaunay_;
   std::size_t most_triangles_ = 0;
   std::vector<double> gauges_;        // per vertex of the triangulation, drawn in where need be

@@ -23,6 +23,7 @@ struct QuadrantMesh {
   std::vector<ConstraintGraph::Edge> base;  ///< edges on the horizon, as the triangles run them
   std::vector<OctahedralPoint> border_splits;  ///< where an edge of a range cell had to be split
   std::string failure;  ///< if not empty, creases meet in a way that the triangulation has no place for: the reason
+  std::vector<OctahedralPoint> rim_splits;  ///< then: where a crease has split the rim
 };
 
 /// The envelope that is meshed, and how finely.

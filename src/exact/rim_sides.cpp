@@ -64,6 +64,31 @@ const char* RimSides::find(const ConstrainedDelaunay& delaunay, const std::funct
   return "";
 }
 
+std::vector<OctahedralPoint> RimSides::splits(const ConstrainedDelaunay& delaunay, double snap) const {
+  std::vector<ConstraintGraph::Edge> sides;
+  for (const ConstrainedDelaunay::Facet& facet : delaunay.facets()) {
+    for (unsigned side = 0; side < 3; ++side) {
+      const std::uint32_t a = facet.vertices[side], b = facet.vertices[(side + 1) % 3];
+      if (is_piece(a, b)) sides.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  const auto& points = delaunay.vertices();
+  std::vector<OctahedralPoint> found;
+  for (const auto& [from, to] : rim_) {
+    if (std::binary_search(sides.begin(), sides.end(), ConstraintGraph::Edge(from, to))) continue;
+    const OctahedralPoint way = points[to] - points[from];
+    const double length = way.squaredNorm();
+    for (std::uint32_t v = ConstrainedDelaunay::kOwn; v < points.size(); ++v) {
+      const OctahedralPoint to_it = points[v] - points[from];
+      const double along = to_it.dot(way), beside = way.x() * to_it.y() - way.y() * to_it.x();
+      if (v == from || v == to || along <= 0 || along >= length || beside * beside > snap * snap * length) continue;
+      found.push_back(points[v]);
+    }
+  }
+  return found;
+}
+
 bool RimSides::is_piece(std::uint32_t a, std::uint32_t b) const {
   return std::binary_search(rim_.begin(), rim_.end(), ConstraintGraph::Edge(std::min(a, b), std::max(a, b)));
 }

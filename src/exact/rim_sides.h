@@ -29,6 +29,9 @@ class RimSides {
   const char* find(const ConstrainedDelaunay& delaunay, const std::function<bool(const Triangle&)>& is_outside,
                    const std::function<bool(const OctahedralPoint&)>& is_beyond, std::vector<char>& found);
 
+  /// Where the triangulation has split pieces of the rim: at vertices that lie on them, but for `snap`.
+  std::vector<OctahedralPoint> splits(const ConstrainedDelaunay& delaunay, double snap) const;
+
  private:
   bool is_piece(std::uint32_t a, std::uint32_t b) const;
 

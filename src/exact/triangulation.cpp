@@ -21,10 +21,15 @@
 namespace vantage::internal::exact {
 namespace {
 
+// A crease that crosses the rim away from its vertices, as one between two facets in one plane, is known to one sheet
+// alone. So often both sheets get a vertex there.
+constexpr int kMostRimSplits = 4;
+
 /// A boundary, or what to change before the next attempt.
 struct Attempt {
   Boundary boundary;
   std::string failure;                         ///< if not empty, creases meet in a way that needs wider snapping
+  std::vector<OctahedralPoint> rim_splits;     ///< then: or the rim needs vertices where creases have split it
   std::vector<OctahedralPoint> border_splits;  ///< where the triangulation has split edges of range cells
 };
 
@@ -49,11 +54,12 @@ bool is_closed(const Mesh& mesh) {
 
 class BoundaryBuilder {
  public:
-  BoundaryBuilder(const Creases& creases, const Envelope& envelope, OctahedralGrid& grid, double snap)
+  BoundaryBuilder(const Creases& creases, const Envelope& envelope, std::span<const OctahedralPoint> rim_splits,
+                  OctahedralGrid& grid, double snap)
       : envelope_(envelope),
         grid_(grid),
         snap_(snap),
-        graph_(creases.envelope, creases.floor, grid, is_range(), snap) {}
+        graph_(creases.envelope, creases.floor, rim_splits, grid, is_range(), snap) {}
 
   Attempt run() {
     result_.constraint_edges = graph_.edges(Sheet::envelope).size();
@@ -61,11 +67,13 @@ class BoundaryBuilder {
     Attempt attempt;
     for (const QuadrantMesh& quadrant : quadrants_) {
       if (attempt.failure.empty()) attempt.failure = quadrant.failure;
+      attempt.rim_splits.insert(attempt.rim_splits.end(), quadrant.rim_splits.begin(), quadrant.rim_splits.end());
       attempt.border_splits.insert(attempt.border_splits.end(), quadrant.border_splits.begin(),
                                    quadrant.border_splits.end());
     }
     for (const FloorMesh& floor : floors_) {
       if (attempt.failure.empty()) attempt.failure = floor.failure;
+      attempt.rim_splits.insert(attempt.rim_splits.end(), floor.rim_splits.begin(), floor.rim_splits.end());
     }
     if (!attempt.failure.empty() || !attempt.border_splits.empty()) return attempt;
     result_.mesh.vertices = std::move(cells_.vertices);
@@ -289,13 +297,16 @@ std::optional<Boundary> triangulate_boundary(const Creases& creases, const Envel
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
   double snap = numerics::kSnap, width = 1.0 / grid.size();
-  for (;;) {
-    Attempt attempt = BoundaryBuilder(creases, envelope, grid, snap).run();
+  std::vector<OctahedralPoint> rim_splits;
+  for (int more_splits = kMostRimSplits;;) {
+    Attempt attempt = BoundaryBuilder(creases, envelope, rim_splits, grid, snap).run();
     if (attempt.failure.empty() && attempt.border_splits.empty()) return std::move(attempt.boundary);
     if (attempt.failure.empty()) {
       // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
       for (const OctahedralPoint& p : attempt.border_splits) grid.mark_square(p, width);
       width *= 2;
+    } else if (!attempt.rim_splits.empty() && more_splits-- > 0) {
+      rim_splits.insert(rim_splits.end(), attempt.rim_splits.begin(), attempt.rim_splits.end());
     } else if (snap < numerics::kWidestSnap) {
       snap *= 10;
     } else if (creases.floor) {
