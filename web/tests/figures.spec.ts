@@ -129,25 +129,36 @@ test.describe("in the page", () => {
   }
 });
 
+/** A camera that turns, a band of heights above the ground, and a zone that the target lies beside. */
+function limits(corner: readonly number[]): string {
+  const [x, y] = [corner[0]! + 20, corner[1]!];
+  const zone = [[x, y - 60], [x + 130, y - 60], [x + 130, y + 60], [x, y + 60]];
+  return ", camera: {width: 4000, height: 3000}, fov: [70, 55], gimbal: {pitch: [-90, 20]}}\n" +
+    `navigation: {altitude: {agl: [20, 120]}, ground: 0, keep_out: [{polygon: ${JSON.stringify(zone)}, z: [0, 200]}]}\n`;
+}
+
 plain.describe("served", () => {
   plain.skip(!hasShared, "set VANTAGE_SHARED to the folder that holds data/");
   for (const { name, file, up, vertices } of cities) {
-    plain(name, async ({ page }) => {
-      const mission = join(mkdtempSync(join(tmpdir(), "vantage-")), "mission.yaml");
-      writeFileSync(mission, `scene: {mesh: ${mesh(file)}, up: ${up}}\ntarget:\n  vertices: ${JSON.stringify(vertices)}\nsensor: {max_range: 300}\n`);
-      const server = spawn(program, ["view", mission, "--no-browser", "--page", join(root, "web/dist/index.html")]);
-      try {
-        const address = await new Promise<string>((resolve) => server.stdout.once("data", (text: Buffer) => resolve(text.toString().trim())));
-        await page.goto(address);
-        await hasVolume(page);
-        await page.waitForTimeout(500);
-        const times = await dragged(page, vertices[0]);
-        print(`${name} served`, times);
-        print(`${name} served, not drawn`, await dragged(page, vertices[0], false));
-        expect(times.answer!.length).toBeGreaterThan(0);
-      } finally {
-        server.kill("SIGINT");
-      }
-    });
+    for (const [kind, more] of [["", "}\n"], [" with a camera, heights and a zone", limits(vertices[0])]] as const) {
+      plain(name + kind, async ({ page }) => {
+        const mission = join(mkdtempSync(join(tmpdir(), "vantage-")), "mission.yaml");
+        writeFileSync(mission, `scene: {mesh: ${mesh(file)}, up: ${up}}\ntarget:\n  vertices: ${JSON.stringify(vertices)}\n` +
+          `sensor: {max_range: 300${more}`);
+        const server = spawn(program, ["view", mission, "--no-browser", "--page", join(root, "web/dist/index.html")]);
+        try {
+          const address = await new Promise<string>((resolve) => server.stdout.once("data", (text: Buffer) => resolve(text.toString().trim())));
+          await page.goto(address);
+          await hasVolume(page);
+          await page.waitForTimeout(500);
+          const times = await dragged(page, vertices[0]);
+          print(`${name}${kind} served`, times);
+          print(`${name}${kind} served, not drawn`, await dragged(page, vertices[0], false));
+          expect(times.answer!.length).toBeGreaterThan(0);
+        } finally {
+          server.kill("SIGINT");
+        }
+      });
+    }
   }
 });
