@@ -22,6 +22,7 @@ struct Options {
   int prove_every = 1;
   std::uint64_t seed = 1;
   double tolerance_m = 0.05;
+  std::vector<std::string> limits;  // empty: all
   std::vector<std::string> cities = {"charlotte", "munich", "florence", "openfoam"};
 };
 
@@ -57,7 +58,7 @@ Judged judged(const PreparedCity& city, const PreparedTarget& target, const Volu
 
 void run_mission(const char* name, const PreparedCity& city, const Options& options, Draw& draw, Tally& tally) {
   std::string names;
-  const Sensor sensor = draw_sensor(draw, names);
+  const Sensor sensor = draw_sensor(draw, options.limits, names);
   const PreparedTarget target = draw_prepared(city, sensor, draw);
   const ExactOptions exact{.tolerance_m = options.tolerance_m};
   const Volume view = compute_view(target, exact);
@@ -142,6 +143,7 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--tolerance", options.tolerance_m, "metres")->capture_default_str();
+  app.add_option("--limits", options.limits, "that may be drawn; all if not given")->delimiter(',');
   app.add_option("--cities", options.cities)->capture_default_str()->delimiter(',');
   CLI11_PARSE(app, argc, argv);
   return vantage::bench::run(options);

@@ -77,15 +77,17 @@ const std::vector<Limit>& limits() {
   return kLimits;
 }
 
-Sensor draw_sensor(Draw& draw, std::string& names) {
+Sensor draw_sensor(Draw& draw, const std::vector<std::string>& among, std::string& names) {
   for (;;) {
     Sensor sensor{.max_range_m = std::exp(draw.uniform(std::log(40), std::log(250)))};
     names.clear();
     for (const Limit& limit : limits()) {
       const bool is_second_camera = sensor.camera && std::string(limit.name) == "fixed";
-      if (is_second_camera || !draw.chance(0.4)) continue;
+      const bool is_wanted = among.empty() || std::find(among.begin(), among.end(), limit.name) != among.end();
+      if (!is_wanted || is_second_camera || !draw.chance(0.4)) continue;
       limit.add(sensor, draw);
-      names += (names.empty() ? "" : "+") + std::string(limit.name);
+      if (!names.empty()) names += "+";
+      names += limit.name;
     }
     try {
       check_sensor(sensor);

@@ -37,8 +37,8 @@ struct Limit {
 };
 const std::vector<Limit>& limits();
 
-/// Some of the limits together, as allowed. `names`: of those.
-Sensor draw_sensor(Draw& draw, std::string& names);
+/// Some of the limits together, as allowed. `among`: which may be drawn; empty: all. `names`: of those drawn.
+Sensor draw_sensor(Draw& draw, const std::vector<std::string>& among, std::string& names);
 
 /// A target that can be seen as it lies; draws until there is one.
 PreparedTarget draw_prepared(const PreparedCity& city, const Sensor& sensor, Draw& draw);

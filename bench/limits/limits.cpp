@@ -72,7 +72,7 @@ void print_row(const char* city, int number, const std::string& names, const Vol
 void run_together(const char* name, const PreparedCity& city, const Options& options, Draw& draw, Tally& tally) {
   for (int i = 0; i < options.targets; ++i) {
     std::string names;
-    const Sensor sensor = draw_sensor(draw, names);
+    const Sensor sensor = draw_sensor(draw, {}, names);
     const PreparedTarget target = draw_prepared(city, sensor, draw);
     const Volume volume = compute_volume(target);
     if (volume.outcome != Outcome::computed) {
