@@ -16,7 +16,7 @@ function(vantage_part name)
       list(APPEND sources ${found})
     endforeach()
     # Of these there is one for each choice: SOURCES names the one that is taken.
-    list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/kml_zones_|/tour/linear_program_")
+    list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/io/(draco|meshopt)_|/src/app/kml_zones_|/tour/linear_program_")
     if(kind STREQUAL "MODULES")
       list(APPEND sources ${part_SOURCES})
       foreach(layer IN LISTS part_OF_LIMITS)
@@ -92,11 +92,12 @@ endfunction()
 # PROJ is loaded when it is needed, not linked, but with VANTAGE_LINK_PROJ: src/geo/proj_library.h.
 set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS "${VANTAGE_PROJ_DEFINITIONS}")
 vantage_part(core
-  MODULES core request options geo io scene target query camera sensor prove simplify
+  MODULES core request options geo io tiles scene target query camera sensor prove simplify
   HOT exact
   OF_LIMITS prove ask leg
-  SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
-  LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${CMAKE_DL_LIBS}
+  SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp ${source}/io/draco_${VANTAGE_DRACO}.cpp
+          ${source}/io/meshopt_${VANTAGE_MESHOPT}.cpp
+  LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${VANTAGE_CODEC_TARGETS} ${CMAKE_DL_LIBS}
   BUILD nlohmann_json::nlohmann_json vantage::cdt)
 target_include_directories(vantage_core_objects SYSTEM PRIVATE ${VANTAGE_PROJ_INCLUDE_DIRS})
 set(parts core)

@@ -82,6 +82,28 @@ else()
   set(VANTAGE_PROJ_DEFINITIONS "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
 endif()
 
+# Draco and meshoptimizer: compressed meshes in glTF (src/io/draco_library.cpp and meshopt_library.cpp only). Where one is
+# not installed vantage is built without it, and says so of a file that needs it.
+option(VANTAGE_WITH_DRACO "Read glTF that is compressed with Draco, where it is installed" ON)
+option(VANTAGE_WITH_MESHOPT "Read glTF that is compressed with meshoptimizer, where it is installed" ON)
+set(VANTAGE_DRACO none)
+set(VANTAGE_MESHOPT none)
+set(VANTAGE_CODEC_TARGETS)
+if(VANTAGE_WITH_DRACO AND NOT EMSCRIPTEN)
+  find_package(draco QUIET)
+  if(draco_FOUND)
+    set(VANTAGE_DRACO library)
+    list(APPEND VANTAGE_CODEC_TARGETS draco::draco)
+  endif()
+endif()
+if(VANTAGE_WITH_MESHOPT AND NOT EMSCRIPTEN)
+  find_package(meshoptimizer QUIET)
+  if(meshoptimizer_FOUND)
+    set(VANTAGE_MESHOPT library)
+    list(APPEND VANTAGE_CODEC_TARGETS meshoptimizer::meshoptimizer)
+  endif()
+endif()
+
 if(VANTAGE_WITH_VANTAGE)
   find_package(EXPAT REQUIRED)  # KML and GPX too
 endif()

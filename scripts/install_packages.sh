@@ -22,6 +22,8 @@ packages=(
   libcairo2-dev libfreetype-dev fonts-dejavu-core
   # maps and terrain; GDAL is loaded when there is one
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
+  # compressed meshes in glTF and 3D Tiles; vantage can be built without
+  libdraco-dev libmeshoptimizer-dev
   # the server of `vantage view`: headers only
   libboost-dev
 )

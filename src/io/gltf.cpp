@@ -2,12 +2,15 @@
 // nodes, each moved by its node. Materials, skins, morph targets and animations are passed over.
 #include <Eigen/Geometry>
 #include <array>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "io/georeference_text.h"
 #include "io/gltf_document.h"
+#include "io/gltf_features.h"
+#include "io/gltf_tile.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
 #include "io/object_text.h"
@@ -18,17 +21,23 @@ namespace {
 
 using gltf::Accessor;
 using gltf::Document;
+using gltf::FeatureIds;
 using gltf::Json;
 
 enum PrimitiveMode { kTriangleList = 4, kTriangleStrip, kTriangleFan };
 
 class GltfReader {
  public:
-  GltfReader(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits)
+  /// `tile`: of 3D Tiles, or nothing for a file of its own.
+  GltfReader(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
+             const TileContext* tile = nullptr)
       : progress_(progress),
         limits_(limits),
-        document_(source, progress, limits),
-        builder_(source, MeshFormat::gltf, MeshBuilder::PlaceUnit::byte, limits) {}
+        tile_(tile),
+        document_(source, progress, limits, tile ? gltf::TileUse{true, tile->read_file} : gltf::TileUse{}),
+        builder_(source, MeshFormat::gltf, MeshBuilder::PlaceUnit::byte, limits) {
+    if (tile) features_.emplace(document_, tile->batch, tile->name);
+  }
 
   RawMesh read() {
     struct Visit {
@@ -50,7 +59,7 @@ class GltfReader {
       progress_.report(visited_++, nodes_);
 
       const Eigen::Affine3d world = visit.parent * local_transform(node);
-      if (const auto mesh = document_.whole(node, "mesh")) add_mesh(node, document_.item("meshes", *mesh), world);
+      if (const auto mesh = document_.whole(node, "mesh")) add_node(node, document_.item("meshes", *mesh), world);
       const Json& children = document_.array(node, "children");
       for (auto child = children.rbegin(); child != children.rend(); ++child) {
         waiting.push_back({document_.as_whole(*child, "children"), world});
@@ -60,6 +69,14 @@ class GltfReader {
     mesh.georeference = georeference();
     mesh.rounding_m = rounding();
     return mesh;
+  }
+
+  /// CESIUM_RTC (Cesium): what all positions are about.
+  Vec3 center() const {
+    const Json* const about = document_.extension(document_.root(), "CESIUM_RTC");
+    if (!about) return Vec3::Zero();
+    const std::vector<double> center = numbers(*about, "center", {0, 0, 0});
+    return {center[0], center[1], center[2]};
   }
 
  private:
@@ -148,32 +165,109 @@ class GltfReader {
            Eigen::Scaling(s[0], s[1], s[2]);
   }
 
-  void add_mesh(const Json& node, const Json& mesh, const Eigen::Affine3d& world) {
-    const std::string name = document_.text(node, "name");
-    const std::uint32_t object = builder_.add_object(name.empty() ? document_.text(mesh, "name") : name);
+  void add_node(const Json& node, const Json& mesh, const Eigen::Affine3d& world) {
+    const Json* const instances = document_.extension(node, "EXT_mesh_gpu_instancing");
+    if (!instances) {
+      add_object(node, mesh);
+      add_mesh(mesh, world);
+      return;
+    }
+    const auto ids = features_ ? features_->of_node(node) : std::nullopt;
+    const auto attributes = instances->find("attributes");
+    if (attributes == instances->end() || !attributes->is_object()) document_.fail("instances have no \"attributes\"");
+    const auto positions = instance_values(*attributes, "TRANSLATION", 3);
+    const auto rotations = instance_values(*attributes, "ROTATION", 4);
+    const auto scales = instance_values(*attributes, "SCALE", 3);
+    std::uint64_t count = 0;
+    for (const auto* values : {&positions, &rotations, &scales}) {
+      if (!*values) continue;
+      if (count > 0 && (*values)->count() != count) document_.fail("the attributes of instances differ in length");
+      count = (*values)->count();
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const auto value = [i](const std::optional<Accessor>& values, int component, double otherwise) {
+        return values ? values->number(i, component) : otherwise;
+      };
+      const Eigen::Affine3d placed =
+          Eigen::Translation3d(value(positions, 0, 0), value(positions, 1, 0), value(positions, 2, 0)) *
+          Eigen::Quaterniond(value(rotations, 3, 1), value(rotations, 0, 0), value(rotations, 1, 0),
+                             value(rotations, 2, 0))
+              .normalized() *
+          Eigen::Scaling(value(scales, 0, 1), value(scales, 1, 1), value(scales, 2, 1));
+      const auto id = ids ? ids->of(i) : std::nullopt;
+      if (id) {
+        set_feature(ids->table, *id);
+      } else {
+        add_object(node, mesh);
+      }
+      add_mesh(mesh, world * placed);
+      progress_.tick(visited_, nodes_);
+    }
+  }
+
+  std::optional<Accessor> instance_values(const Json& attributes, const char* name, int components) {
+    const auto index = document_.whole(attributes, name);
+    if (!index) return std::nullopt;
+    Accessor values = document_.accessor(*index);
+    if (values.components() != components) document_.fail(std::string(name) + " of instances has a wrong type");
+    return values;
+  }
+
+  /// The object of a node, for all that belongs to no feature.
+  void add_object(const Json& node, const Json& mesh) {
+    std::string name = document_.text(node, "name");
+    if (name.empty()) name = document_.text(mesh, "name");
+    object_ = builder_.add_object(name);
+    if (tile_) builder_.identify_object(object_, {name, tile_->name, object_named(name).kind});
     if (const auto extras = node.find("extras"); extras != node.end()) {
       const auto stated = object_in(*extras);
-      if (stated && display_name(*stated) == name) builder_.identify_object(object, *stated);
+      if (stated && display_name(*stated) == name) builder_.identify_object(object_, *stated);
     }
+  }
+
+  /// Goes on with the object of a feature, which all primitives and nodes share.
+  void set_feature(std::uint64_t table, std::uint64_t id) {
+    const auto [entry, is_new] = object_of_feature_.try_emplace({table, id}, 0);
+    if (is_new) {
+      entry->second = builder_.add_object("");
+      builder_.identify_object(entry->second, features_->identity(table, id));
+    }
+    object_ = entry->second;
+    builder_.set_object(object_);
+  }
+
+  void add_mesh(const Json& mesh, const Eigen::Affine3d& world) {
+    const std::uint32_t own = object_;
     for (const Json& primitive : document_.array(mesh, "primitives")) {
       if (!primitive.is_object()) document_.fail("a primitive is not an object");
       const std::uint64_t mode = document_.whole(primitive, "mode").value_or(kTriangleList);
-      if (mode >= kTriangleList && mode <= kTriangleFan) add_primitive(primitive, static_cast<int>(mode), world);
+      if (mode < kTriangleList || mode > kTriangleFan) continue;
+      object_ = own;
+      builder_.set_object(own);
+      add_primitive(primitive, static_cast<int>(mode), world);
     }
   }
 
   void add_primitive(const Json& primitive, int mode, const Eigen::Affine3d& world) {
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object()) document_.fail("a primitive has no \"attributes\"");
+    const auto packed = document_.draco(primitive);
     const auto position_index = document_.whole(*attributes, "POSITION");
     if (!position_index) return;  // the specification allows it; there is nothing to draw
-    const Accessor positions = document_.accessor(*position_index);
+    if (packed && !packed->attributes.contains("POSITION")) document_.fail("its Draco data has no positions");
+    const Accessor positions = packed ? packed->attributes.at("POSITION") : document_.accessor(*position_index);
     if (positions.components() != 3) document_.fail("a primitive's positions are not of type VEC3");
     std::optional<Accessor> indices;
-    if (const auto index = document_.whole(primitive, "indices")) {
+    if (packed) {
+      indices = packed->indices;
+    } else if (const auto index = document_.whole(primitive, "indices")) {
       indices = document_.accessor(*index);
       if (!indices->is_index()) document_.fail("a primitive's indices are not unsigned whole numbers");
     }
+    const auto features =
+        features_ ? features_->of_primitive(primitive, packed ? packed->attributes : std::map<std::string, Accessor>{})
+                  : std::nullopt;
+    const std::uint32_t own = object_;
 
     const std::uint64_t corners = indices ? indices->count() : positions.count();
     const std::uint64_t triangles = mode == kTriangleList ? corners / 3 : corners < 3 ? 0 : corners - 2;
@@ -192,7 +286,18 @@ class GltfReader {
         triangle[k] = vertex(indices ? indices->index(corner[k]) : corner[k], positions, world);
       }
       if (mirrored != odd) std::swap(triangle[1], triangle[2]);
+      if (features) set_object(*features, indices ? indices->index(first) : first, own);
       builder_.add_triangle(triangle);
+    }
+  }
+
+  /// The object of a triangle: that of the feature of its first corner, or else `own`, of the node.
+  void set_object(const FeatureIds& features, std::uint64_t corner, std::uint32_t own) {
+    const auto id = features.of(corner);
+    if (!id) {
+      builder_.set_object(own);
+    } else {
+      set_feature(features.table, *id);
     }
   }
 
@@ -237,8 +342,12 @@ class GltfReader {
 
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
+  const TileContext* tile_;
   Document document_;
   MeshBuilder builder_;
+  std::optional<gltf::Features> features_;
+  std::uint32_t object_ = 0;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t> object_of_feature_;  // table, id
   std::uint64_t visited_ = 0, nodes_ = 0;
   std::vector<Known> vertex_of_;
   std::uint64_t primitive_ = 0;
@@ -249,6 +358,16 @@ class GltfReader {
 RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
   progress.begin("parse glTF");
   return GltfReader(source, progress, limits).read();
+}
+
+TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& progress,
+                        const core::ReadLimits& limits, const TileContext& tile) {
+  progress.begin("parse glTF");
+  GltfReader reader(source, progress, limits, &tile);
+  TileMesh result;
+  result.mesh = reader.read();
+  result.center = reader.center();
+  return result;
 }
 
 }  // namespace vantage::internal::io

@@ -16,20 +16,27 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are read as little-endian");
 
-enum ComponentType : std::uint64_t { kInt8 = 5120, kUint8, kInt16, kUint16, kUint32 = 5125, kFloat };
+/// kDouble is not glTF's: unpacked values.
+enum ComponentType : std::uint64_t { kInt8 = 5120, kUint8, kInt16, kUint16, kUint32 = 5125, kFloat, kDouble = 5130 };
 
-// Extensions that change what triangles there are, or where, even if the file does not require them.
-constexpr std::array<std::string_view, 2> kRefused = {"EXT_mesh_gpu_instancing", "CESIUM_RTC"};
-// Extensions that a file may require: they change how surfaces look, or are understood. (Compression is not among them.
-// A file that does not require it has its positions uncompressed as well.)
-constexpr std::array<std::string_view, 8> kHarmlessPrefixes = {"KHR_materials_",
-                                                               "KHR_texture_",
-                                                               "EXT_texture_",
-                                                               "KHR_lights_",
-                                                               "MSFT_texture_",
-                                                               "EXT_mesh_features",
-                                                               "EXT_structural_metadata",
-                                                               "KHR_mesh_quantization"};
+// It changes where triangles are, even if the file does not require it: about a place on the earth, which is a tile's.
+constexpr const char* kTileOnly = "CESIUM_RTC";
+// Extensions that a file may require: they change how surfaces look, or are understood, or are read here.
+constexpr std::array<std::string_view, 14> kHarmlessPrefixes = {"KHR_materials_",
+                                                                "KHR_texture_",
+                                                                "EXT_texture_",
+                                                                "KHR_lights_",
+                                                                "MSFT_texture_",
+                                                                "EXT_mesh_features",
+                                                                "EXT_instance_features",
+                                                                "EXT_structural_metadata",
+                                                                "KHR_mesh_quantization",
+                                                                "EXT_mesh_gpu_instancing",
+                                                                "KHR_draco_mesh_compression",
+                                                                "EXT_meshopt_compression",
+                                                                "CESIUM_primitive_outline",
+                                                                "KHR_xmp"};
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 constexpr const char* kGarbled = "export the mesh again; the file is cut off or garbled";
 
@@ -130,7 +137,8 @@ std::uint64_t Accessor::Elements::whole(std::uint64_t element) const {
 }
 
 double Accessor::Elements::number(std::uint64_t element, int component, bool normalized) const {
-  const char* at = data + element * stride + static_cast<std::uint64_t>(component) * size_of(component_type);
+  const std::uint64_t size = component_type == kDouble ? sizeof(double) : size_of(component_type);
+  const char* at = data + element * stride + static_cast<std::uint64_t>(component) * size;
   switch (component_type) {
     case kInt8:
       return load_number<std::int8_t>(at, normalized);
@@ -142,6 +150,8 @@ double Accessor::Elements::number(std::uint64_t element, int component, bool nor
       return load_number<std::uint16_t>(at, normalized);
     case kUint32:
       return load_number<std::uint32_t>(at, normalized);
+    case kDouble:
+      return load<double>(at);
     default:
       return load<float>(at);
   }
@@ -168,8 +178,9 @@ std::uint64_t Accessor::index(std::uint64_t element) const {
   return base_.whole(element);
 }
 
-Document::Document(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits)
-    : source_(source), progress_(progress), limits_(limits), json_(source.bytes()) {
+Document::Document(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
+                   TileUse use)
+    : source_(source), progress_(progress), limits_(limits), use_(std::move(use)), json_(source.bytes()) {
   if (source.bytes().starts_with("glTF")) split_glb();
   parse_json();
   check_version_and_extensions();
@@ -234,14 +245,13 @@ void Document::check_version_and_extensions() const {
                  "export the mesh without it, or as OBJ or PLY");
   };
   for (const Json& used : array(root_, "extensionsUsed")) {
-    if (used.is_string() && std::find(kRefused.begin(), kRefused.end(), used.get<std::string>()) != kRefused.end()) {
-      refuse(used.get<std::string>());
-    }
+    if (!use_.in_tile && used == kTileOnly) refuse(kTileOnly);
   }
   for (const Json& required : array(root_, "extensionsRequired")) {
     const std::string name = required.is_string() ? required.get<std::string>() : "";
-    const bool harmless = std::any_of(kHarmlessPrefixes.begin(), kHarmlessPrefixes.end(),
-                                      [&](std::string_view prefix) { return name.starts_with(prefix); });
+    const bool harmless =
+        name == kTileOnly || std::any_of(kHarmlessPrefixes.begin(), kHarmlessPrefixes.end(),
+                                         [&](std::string_view prefix) { return name.starts_with(prefix); });
     if (!harmless) refuse(name);
   }
 }
@@ -330,18 +340,26 @@ Accessor::Elements Document::elements(const Json& view, std::uint64_t component_
   const std::uint64_t stride = whole(buffer_view, "byteStride").value_or(size);
   if (stride < size || stride > 252) fail(name + " has a wrong byte stride");
 
-  const std::string_view bytes = buffer(required_whole(buffer_view, "buffer"));
-  const std::uint64_t view_start = whole(buffer_view, "byteOffset").value_or(0);
-  const std::uint64_t view_length = required_whole(buffer_view, "byteLength");
-  if (view_start + view_length > bytes.size()) {
-    fail("buffer view " + std::to_string(*view_index) + " goes beyond the end of its buffer");
-  }
+  const std::string_view bytes = this->view(*view_index);
   const std::uint64_t start = whole(view, "byteOffset").value_or(0);
   // In this order nothing overflows: every number is at most 2^53.
-  if (count > 0 && (count > view_length || start + (count - 1) * stride + size > view_length)) {
+  if (count > 0 && (count > bytes.size() || start + (count - 1) * stride + size > bytes.size())) {
     fail(name + " goes beyond the end of its buffer view");
   }
-  return {count == 0 ? bytes.data() : bytes.data() + view_start + start, stride, count, component_type, components};
+  return {count == 0 ? bytes.data() : bytes.data() + start, stride, count, component_type, components};
+}
+
+std::string_view Document::view(std::uint64_t index) {
+  const Json& object = item("bufferViews", index);
+  const Json* const packed = extension(object, kMeshopt);
+  if (packed && is_required(kMeshopt)) return unpacked_view(index, *packed);
+  const std::string_view bytes = buffer(required_whole(object, "buffer"));
+  const std::uint64_t start = whole(object, "byteOffset").value_or(0);
+  const std::uint64_t length = required_whole(object, "byteLength");
+  if (start + length > bytes.size()) {
+    fail("buffer view " + std::to_string(index) + " goes beyond the end of its buffer");
+  }
+  return bytes.substr(start, length);
 }
 
 std::string_view Document::buffer(std::uint64_t index) {
@@ -373,12 +391,17 @@ std::string_view Document::buffer(std::uint64_t index) {
 }
 
 std::string_view Document::external_file(const std::string& uri) {
-  if (uri.find("://") != std::string::npos) {
+  if (!use_.read_file && uri.find("://") != std::string::npos) {
     source_.fail(ErrorCode::mesh_unsupported, "the glTF file has its data at " + shown_word(uri),
                  "download it and refer to the file");
   }
   const std::string relative = decode_percent(uri);
   if (relative.find('\0') != std::string::npos) fail("a buffer's \"uri\" holds a zero byte");
+  if (use_.read_file) {
+    const auto known = contents_.find("file " + uri);
+    if (known != contents_.end()) return known->second;
+    return contents_.emplace("file " + uri, use_.read_file(uri)).first->second;
+  }
   const std::filesystem::path path = file_below(relative, uri);
   const std::string key = "file " + path.string();
   auto known = contents_.find(key);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/mesh_codecs.h"
 #include "io/mesh_source.h"
 
 namespace vantage::internal::io::gltf {
@@ -50,10 +52,24 @@ class Accessor {
   bool normalized_ = false;
 };
 
+/// What a tile of 3D Tiles may use besides what a file of its own may.
+struct TileUse {
+  bool in_tile = false;
+  /// The content of a file that the tile refers to. A file of its own reads it from its own folder.
+  std::function<std::string(const std::string& uri)> read_file;
+};
+
+/// The accessors of a primitive that is compressed with Draco.
+struct DracoAccessors {
+  Accessor indices;
+  std::map<std::string, Accessor> attributes;  ///< by name: POSITION, and those that begin with "_"
+};
+
 class Document {
  public:
   /// Parses the JSON part and checks the version and the extensions.
-  Document(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits);
+  Document(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
+           TileUse use = {});
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
@@ -77,6 +93,12 @@ class Document {
   std::uint64_t as_whole(const Json& value, const char* what) const;
 
   Accessor accessor(std::uint64_t index);
+  /// The bytes of a buffer view, unpacked where they are compressed with meshoptimizer.
+  std::string_view view(std::uint64_t index);
+  /// Nothing if the primitive is not compressed with Draco, or also there without.
+  std::optional<DracoAccessors> draco(const Json& primitive);
+  /// An extension of an object, which is an object itself; nothing if it has none.
+  const Json* extension(const Json& object, const char* name) const;
 
  private:
   void split_glb();
@@ -85,6 +107,11 @@ class Document {
 
   Accessor::Elements elements(const Json& view, std::uint64_t component_type, int components, std::uint64_t count,
                               const std::string& name);
+  bool is_required(std::string_view extension) const;
+  std::string_view unpacked_view(std::uint64_t index, const Json& packed);
+  const DracoMesh& unpacked_mesh(std::uint64_t view, const std::vector<std::uint32_t>& ids,
+                                 std::uint64_t most_triangles);
+  [[noreturn]] void fail_for_codec(const CodecProblem& problem, const std::string& where) const;
   std::string_view buffer(std::uint64_t index);
   std::string_view external_file(const std::string& uri);
   std::filesystem::path file_below(const std::string& relative, const std::string& uri) const;
@@ -92,11 +119,14 @@ class Document {
   const MeshSource& source_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
+  TileUse use_;
   std::string_view json_, glb_buffer_;
   bool is_glb_ = false;
   Json root_;
-  std::map<std::uint64_t, std::string_view> buffers_;  // by index
-  std::map<std::string, std::string> contents_;        // of external files by path, of data URIs by index
+  std::map<std::uint64_t, std::string_view> buffers_;    // by index
+  std::map<std::string, std::string> contents_;          // of external files by path, of data URIs by index
+  std::map<std::uint64_t, std::string> unpacked_views_;  // by index
+  std::map<std::uint64_t, DracoMesh> unpacked_meshes_;   // by buffer view
   std::uint64_t buffer_bytes_ = 0;
 };
 
