@@ -12,15 +12,17 @@
 #include "vantage/ground.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
+#include "vantage/tileset.h"
 
 namespace vantage {
 
 /// A file and what is to be made of it. Only the options of its kind count.
 struct SceneSource {
   enum class Kind {
-    mesh,   ///< read_scene: OBJ, PLY, STL, glTF, CityJSON
-    map,    ///< build_city: OpenStreetMap
-    raster  ///< scene_from_raster: heights on a grid
+    mesh,    ///< read_scene: OBJ, PLY, STL, glTF, CityJSON
+    map,     ///< build_city: OpenStreetMap
+    raster,  ///< scene_from_raster: heights on a grid
+    tileset  ///< read_tileset: 3D Tiles
   };
   Kind kind = Kind::mesh;
   std::filesystem::path file;
@@ -28,11 +30,12 @@ struct SceneSource {
   SceneReadOptions mesh;
   CityOptions city;
   RasterOptions raster;
+  TilesetOptions tileset;
 };
 
 /// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .hgt.zip, .vrt and .img
-/// are rasters; all else are meshes. Case does not count. VRT and IMG are no formats that scene_from_raster reads: they
-/// are told so that it says what to do.
+/// are rasters; tileset.json is a tileset; all else are meshes. Case does not count. VRT and IMG are no formats that
+/// scene_from_raster reads: they are told so that it says what to do.
 VANTAGE_API SceneSource::Kind source_kind(const std::filesystem::path& file);
 
 /// What missions looked up in a scene, kept for those to come: roofs and facades, outlines of the map, the ground.
@@ -54,8 +57,9 @@ class VANTAGE_API SceneLookups {
 /// Not to be changed once a mission was resolved in it.
 struct LoadedScene {
   Scene scene;
-  std::optional<CityReport> city = {};      ///< of a map
-  std::optional<RasterReport> raster = {};  ///< of a raster
+  std::optional<CityReport> city = {};        ///< of a map
+  std::optional<RasterReport> raster = {};    ///< of a raster
+  std::optional<TilesetReport> tileset = {};  ///< of a tileset
   SceneLookups lookups = {};
 };
 

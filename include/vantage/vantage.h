@@ -31,6 +31,7 @@
 #include "vantage/spheres.h"
 #include "vantage/standpoints.h"
 #include "vantage/target.h"
+#include "vantage/tileset.h"
 #include "vantage/tour.h"
 #include "vantage/verify.h"
 #include "vantage/version.h"

@@ -61,6 +61,21 @@ void add_raster(Json& json, const RasterReport& report) {
                     {"highest_m", report.highest_m}, {"largest_error_m", report.largest_error_m}};
 }
 
+void add_tileset(Json& json, const TilesetReport& report) {
+  json["tileset"] = {{"documents", report.documents},
+                     {"tiles", report.tiles},
+                     {"contents", report.contents},
+                     {"without_surfaces", report.without_surfaces},
+                     {"bytes", report.bytes},
+                     {"objects_outside", report.objects_outside},
+                     {"holes", report.holes},
+                     {"first_hole", report.first_hole.empty() ? Json(nullptr) : Json(report.first_hole)},
+                     {"largest_error_m", report.largest_error_m},
+                     {"coarse", report.coarse},
+                     {"rim_drop_m", report.rim_drop_m},
+                     {"rim_shift_m", report.rim_shift_m}};
+}
+
 void add_credit(Json& json, const Scene& scene) {
   if (std::string credit = attribution_of(scene); !credit.empty()) json["attribution"] = std::move(credit);
 }
@@ -68,6 +83,7 @@ void add_credit(Json& json, const Scene& scene) {
 void add_source(Json& json, const LoadedScene& loaded) {
   if (loaded.city) add_city(json, *loaded.city);
   if (loaded.raster) add_raster(json, *loaded.raster);
+  if (loaded.tileset) add_tileset(json, *loaded.tileset);
 }
 
 Json known_or_null(double number) { return number == 0 ? Json(nullptr) : Json(number); }

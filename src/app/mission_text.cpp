@@ -117,6 +117,13 @@ class Writer {
         section.add("error", source.raster.max_error_m);
         if (source.raster.origin_deg) section.add("origin", list_of(*source.raster.origin_deg));
         break;
+      case SceneSource::Kind::tileset:
+        section.add("tiles", path(source.file));
+        if (source.tileset.center_deg) section.add("center", list_of(*source.tileset.center_deg));
+        if (source.tileset.radius_m) section.add("radius", *source.tileset.radius_m);
+        section.add("detail", source.tileset.detail_m);
+        if (!source.tileset.crs.empty()) section.add("crs", quoted(source.tileset.crs));
+        break;
     }
     if (!mission_.scene.attribution.empty()) section.add("attribution", quoted(mission_.scene.attribution));
     if (mission_.sea_level_m) section.add("sea_level", *mission_.sea_level_m);

@@ -28,6 +28,8 @@ const char* what_of(SceneSource::Kind kind) {
       return "the scene's map";
     case SceneSource::Kind::raster:
       return "the scene's raster";
+    case SceneSource::Kind::tileset:
+      return "the scene's tileset";
   }
   return "the scene's file";
 }

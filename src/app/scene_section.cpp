@@ -39,11 +39,12 @@ class SceneParser {
   }
 
  private:
-  /// Which of the three kinds of file is named.
+  /// Which of the four kinds of file is named.
   void choose_kind() {
     const YamlNode* named = nullptr;
     const char* first = nullptr;
-    for (const auto& [key, kind] : {std::pair{"mesh", Kind::mesh}, {"osm", Kind::map}, {"raster", Kind::raster}}) {
+    for (const auto& [key, kind] :
+         {std::pair{"mesh", Kind::mesh}, {"osm", Kind::map}, {"raster", Kind::raster}, {"tiles", Kind::tileset}}) {
       const YamlNode* const entry = find(node_, key);
       if (!entry) continue;
       if (named) {
@@ -57,9 +58,10 @@ class SceneParser {
       section_.where = place_in(reader_.file(), entry->place);
     }
     if (!named) {
-      reader_.fail(ErrorCode::missing_key, node_, "scene lacks the key 'mesh'",
-                   "write 'mesh: city.obj', 'osm: city.osm.pbf' or 'raster: dsm.tif'; the path starts from the mission "
-                   "file");
+      reader_.fail(
+          ErrorCode::missing_key, node_, "scene lacks the key 'mesh'",
+          "write 'mesh: city.obj', 'osm: city.osm.pbf', 'raster: dsm.tif' or 'tiles: tileset.json'; the path starts "
+          "from the mission file");
     }
   }
 
@@ -77,7 +79,9 @@ class SceneParser {
     if (const YamlNode* scale = take("scale", {Kind::mesh}, "meshes"))
       mesh.scale = reader_.positive_length(*scale, "scene.scale");
     if (const YamlNode* lod = take("lod", {Kind::mesh}, "CityJSON files")) mesh.lod = reader_.text(*lod, "scene.lod");
-    if (const YamlNode* crs = take("crs", {Kind::mesh}, "meshes")) mesh.crs = reader_.text(*crs, "scene.crs");
+    if (const YamlNode* crs = take("crs", {Kind::mesh, Kind::tileset}, "meshes and tilesets")) {
+      mesh.crs = section_.source.tileset.crs = reader_.text(*crs, "scene.crs");
+    }
     if (const YamlNode* origin = take("origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters")) {
       mesh.origin_deg = section_.source.raster.origin_deg = parse_lat_lon(*origin, reader_, "scene.origin");
     }
@@ -85,10 +89,10 @@ class SceneParser {
 
   void parse_region() {
     CityRegion region;
-    const char* const what = "maps and rasters";
-    const YamlNode* const center = take("center", {Kind::map, Kind::raster}, what);
-    const YamlNode* const radius = take("radius", {Kind::map, Kind::raster}, what);
-    const YamlNode* const box = take("bbox", {Kind::map, Kind::raster}, what);
+    const char* const what = "maps, rasters and tilesets";
+    const YamlNode* const center = take("center", {Kind::map, Kind::raster, Kind::tileset}, what);
+    const YamlNode* const radius = take("radius", {Kind::map, Kind::raster, Kind::tileset}, what);
+    const YamlNode* const box = take("bbox", {Kind::map, Kind::raster}, "maps and rasters");
     if (center) region.center_deg = parse_lat_lon(*center, reader_, "scene.center");
     if (radius) region.radius_m = reader_.positive_length(*radius, "scene.radius");
     if (center && !radius) {
@@ -104,6 +108,14 @@ class SceneParser {
     }
     section_.source.city.region = region;
     section_.source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
+    TilesetOptions& tileset = section_.source.tileset;
+    if (center) {
+      tileset.center_deg = region.center_deg;
+      tileset.radius_m = region.radius_m;
+    }
+    if (const YamlNode* detail = take("detail", {Kind::tileset}, "tilesets")) {
+      tileset.detail_m = reader_.length(*detail, "scene.detail");
+    }
   }
 
   void parse_ground() {

@@ -36,6 +36,12 @@ LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
       loaded.raster = raster.report;
       break;
     }
+    case SceneSource::Kind::tileset: {
+      TilesetScene tiles = read_tileset(source.file, source.tileset, progress);
+      loaded.scene = std::move(tiles.scene);
+      loaded.tileset = std::move(tiles.report);
+      break;
+    }
     case SceneSource::Kind::mesh:
       loaded.scene = read_scene(source.file, source.mesh, progress);
       break;
@@ -52,7 +58,7 @@ SceneSource::Kind source_kind(const std::filesystem::path& file) {
   if (ends_with_any(name, {".tif", ".tiff", ".hgt", ".hgt.zip", ".asc", ".vrt", ".img"})) {
     return SceneSource::Kind::raster;
   }
-  return SceneSource::Kind::mesh;
+  return name == "tileset.json" ? SceneSource::Kind::tileset : SceneSource::Kind::mesh;
 }
 
 SceneLookups::SceneLookups() : data_(std::make_unique<Data>()) {}

@@ -259,7 +259,7 @@ std::optional<Warning> found_on_its_side(const LoadedScene& loaded) {
   constexpr double kTooHigh = 100, kHigh = 20, kDeep = 3;  // metres
   constexpr double kLevel = 0.3, kNoLevel = 0.1;  // of the corners. Boxes on flat ground: 0.5, and 2 / their number
   const Scene& scene = loaded.scene;
-  if (loaded.city || loaded.raster || scene.georeference || scene.states_axes) return std::nullopt;
+  if (loaded.city || loaded.raster || loaded.tileset || scene.georeference || scene.states_axes) return std::nullopt;
   const Box box = triangle_runs(loaded).bounds();
   const Vec3 size = box.max - box.min;
   if (size.z() < kHigh || 2 * size.y() > std::min(size.x(), size.z())) return std::nullopt;

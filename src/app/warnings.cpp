@@ -140,6 +140,12 @@ Shortfall of(const Mission& mission, const std::vector<Vec2>& points) {
   const bool has_ground = std::any_of(scene.objects.begin(), scene.objects.end(),
                                       [](const SceneObject& object) { return object.kind == ObjectKind::ground; });
   if (loaded.city) return of_map(mission, points);
+  if (loaded.tileset && mission.as_written.scene.tileset.radius_m) {
+    const double radius = *mission.as_written.scene.tileset.radius_m;
+    const double missing = beyond(points, Vec2::Zero(), radius);
+    return {missing, "the part of the tileset that is used",
+            "give scene.radius " + metres(radius + missing) + " or more"};
+  }
   return loaded.raster || has_ground ? of_surface(loaded, points) : Shortfall{};
 }
 
@@ -193,6 +199,13 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                         "the range reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
                             ": what stands out there hides nothing, and the volume may claim too much; " +
                             shortfall.fix});
+  }
+  if (const auto& tileset = mission.loaded->tileset; tileset && tileset->holes > 0) {
+    warnings.push_back({WarningCode::range_beyond_data,
+                        std::to_string(tileset->holes) +
+                            " files of the tileset are missing or cannot be read: what they hold hides nothing, and "
+                            "the volume may claim too much; the first: " +
+                            tileset->first_hole});
   }
   Box box;
   for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);

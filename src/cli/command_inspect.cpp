@@ -31,7 +31,8 @@ constexpr const char* kInspectExamples =
     "  vantage inspect city.osm.pbf --areas leisure=* --json > areas.geojson\n"
     "  vantage inspect city.osm.pbf --objects \"empire state\"   # its id, height, and what a mission writes for it\n"
     "  vantage inspect city.obj --objects \"tower*\"\n"
-    "  vantage inspect dsm.tif                       # heights and their place\n";
+    "  vantage inspect dsm.tif                       # heights and their place\n"
+    "  vantage inspect tokyo/tileset.json --center 35.67,139.76 --radius 400     # 3D Tiles\n";
 
 struct InspectArguments {
   CommonOptions common;
@@ -60,10 +61,11 @@ std::string table_text(const LoadedScene& loaded, const SceneStatistics& found) 
   table.row("from", vector(found.bounds.min), "metres, z up");
   table.row("to", vector(found.bounds.max), "");
   // Cities are wide and flat: one much higher than wide is most often a file with y up.
-  const bool is_upright = size.z() <= 2 * std::min(size.x(), size.y()) || loaded.city || loaded.raster;
+  const bool is_upright =
+      size.z() <= 2 * std::min(size.x(), size.y()) || loaded.city || loaded.raster || loaded.tileset;
   table.row("size", vector(size), is_upright || scene.up == UpAxis::y ? "" : "is z up? --up y for a file with y up");
   if (scene.georeference) add_place(table, *scene.georeference);
-  if (loaded.city || loaded.raster) table.heading("what the file holds");
+  if (loaded.city || loaded.raster || loaded.tileset) table.heading("what the file holds");
   add_source(table, loaded);
   table.heading("what was mended");
   table.row("positions", count(found.welded_vertices), "vertices left after joining equal ones");

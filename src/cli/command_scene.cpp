@@ -27,6 +27,7 @@ constexpr const char* kSceneExamples =
     "  vantage scene city.osm.pbf --center \"40.7484, -73.9857\" --radius 600     # writes nothing: what would be "
     "built\n"
     "  vantage scene dsm.tif --center 51.999,4.37 --radius 200 --error 0.1 -o scene.ply\n"
+    "  vantage scene tokyo/tileset.json --center 35.67,139.76 --radius 400 --detail 1 -o scene.glb\n"
     "  vantage scene delft.obj --crs EPSG:28992 --origin 52.0116,4.3571 -o scene.obj\n"
     "\n"
     "The scene frame: x east, y north, z up, metres, about the origin: the centre that is asked for, or else that of\n"
@@ -84,12 +85,13 @@ int run_scene(const SceneArguments& options) {
 }  // namespace
 
 void add_scene(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("scene", "Make a scene from a map, CityJSON, a height raster or a mesh");
+  CLI::App* command =
+      app.add_subcommand("scene", "Make a scene from a map, CityJSON, 3D Tiles, a height raster or a mesh");
   auto options = std::make_shared<SceneArguments>();
   command
       ->add_option("input", options->scene.input,
                    "OpenStreetMap (.osm, .osm.gz, .osm.bz2, .osm.pbf), CityJSON, a raster of heights (GeoTIFF, .hgt), "
-                   "or a mesh")
+                   "a tileset.json of 3D Tiles, or a mesh")
       ->required()
       ->option_text("FILE");
   command

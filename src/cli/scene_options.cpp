@@ -77,6 +77,10 @@ SceneSource source_of(const SceneOptions& options) {
   for (const std::string& kind : options.without) leave_out(source.city.occluders, kind, "--without " + kind);
   const CityRegion& region = source.city.region;
   source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
+  source.tileset.center_deg = region.center_deg;
+  if (region.center_deg) source.tileset.radius_m = region.radius_m;
+  source.tileset.crs = options.crs;
+  if (!options.detail.empty()) source.tileset.detail_m = length_option("--detail", options.detail);
   if (!options.window.empty()) source.raster.region.pixels = window_of(options.window);
   if (!options.error.empty()) {
     source.city.terrain_error_m = source.raster.max_error_m = positive_length_option("--error", options.error);
@@ -99,7 +103,8 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
     fail(ErrorCode::not_applicable, std::string(option) + " is for " + what + ", and " + options.input + " is none",
          option, "leave it out");
   };
-  only_for(!options.center.empty(), "--center", {Kind::map, Kind::raster}, "maps and rasters");
+  only_for(!options.center.empty(), "--center", {Kind::map, Kind::raster, Kind::tileset}, "maps, rasters and tilesets");
+  only_for(!options.detail.empty(), "--detail", {Kind::tileset}, "tilesets");
   only_for(!options.bbox.empty(), "--bbox", {Kind::map, Kind::raster}, "maps and rasters");
   only_for(!options.error.empty(), "--error", {Kind::map, Kind::raster}, "terrain and rasters");
   only_for(!options.terrain.empty(), "--terrain", {Kind::map}, "maps");
@@ -108,7 +113,7 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   only_for(options.up == "y", "--up", {Kind::mesh}, "meshes");
   only_for(options.scale != "1", "--scale", {Kind::mesh}, "meshes");
   only_for(!options.lod.empty(), "--lod", {Kind::mesh}, "CityJSON files");
-  only_for(!options.crs.empty(), "--crs", {Kind::mesh}, "meshes");
+  only_for(!options.crs.empty(), "--crs", {Kind::mesh, Kind::tileset}, "meshes and tilesets");
   only_for(!options.origin.empty(), "--origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters");
   only_for(!options.window.empty(), "--window", {Kind::raster}, "rasters");
 }
@@ -143,8 +148,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--without", options.without, "Leave out walls, towers, bridges or trees")
       ->allow_extra_args(false)
       ->option_text("KIND");
+  command.add_option("--detail", options.detail, "Largest geometric error of a tile of 3D Tiles (default 1)")
+      ->option_text("METRES");
   command.add_option("--lod", options.lod, "Level of detail of CityJSON (default: the highest)")->option_text("LOD");
-  command.add_option("--crs", options.crs, "Reference system of a mesh's coordinates, such as EPSG:28992")
+  command
+      .add_option("--crs", options.crs, "Reference system of the coordinates of a mesh or tileset, such as EPSG:28992")
       ->option_text("CRS");
   command.add_option("--origin", options.origin, "Origin of the scene frame (default: the middle)")
       ->option_text("LAT,LON");

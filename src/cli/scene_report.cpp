@@ -56,11 +56,21 @@ void add_raster(TextTable& table, const RasterReport& report) {
   table.row("error", fixed(report.largest_error_m, 3), "metres, vertical, at most, measured at every post");
 }
 
+void add_tileset(TextTable& table, const TilesetReport& report) {
+  table.row("files read", count(report.contents),
+            count(report.documents) + " documents, " + count(report.bytes) + " bytes");
+  table.row("tiles within", count(report.tiles), "of all levels that were looked at");
+  table.row("missing files", count(report.holes), report.holes > 0 ? "what they hold is not in the scene" : "");
+  table.row("largest error", fixed(report.largest_error_m, 3),
+            "metres, geometric, of the coarsest tile that was taken");
+}
+
 }  // namespace
 
 void add_source(TextTable& table, const LoadedScene& loaded) {
   if (loaded.city) add_city(table, *loaded.city);
   if (loaded.raster) add_raster(table, *loaded.raster);
+  if (loaded.tileset) add_tileset(table, *loaded.tileset);
 }
 
 std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file,

@@ -1,4 +1,4 @@
-// 3D Tiles, which are not read: what such a file is, and which of its files may be given instead.
+// Files of 3D Tiles where a mesh was expected. src/tiles reads them.
 #pragma once
 
 #include <string_view>

@@ -22,6 +22,14 @@ inline constexpr std::array kSceneKeys = {
     Own{{"osm", "instead of `mesh`, an OpenStreetMap file", "The scene is built from it ([below](#scenes-from-maps))."},
         Kind::path},
     Own{{"raster", "instead of `mesh`, a raster of surface heights", "It is the scene."}, Kind::path},
+    Own{{"tiles", "instead of `mesh`, the `tileset.json` of a tileset of [3D Tiles](tilesets.md)",
+         "Its features become the objects of the scene."},
+        Kind::path},
+    Own{{.path = "detail",
+         .says = "for a tileset, the largest geometric error of a tile that is not refined",
+         .without = "1"},
+        Kind::number,
+        Unit::metres},
     Own{{.path = "up",
          .says = "the axis of the mesh file that points up, `y` or `z`",
          .more = "A point (x, y, z) of a y-up file is (x, -z, y) in the scene frame. glTF is y up by its "
@@ -33,9 +41,9 @@ inline constexpr std::array kSceneKeys = {
         Unit::metres},
     Own{{.path = "lod", .says = "for CityJSON, the level of detail", .without = "the highest"}, Kind::text},
     Own{{.path = "crs",
-         .says =
-             "for a mesh, the coordinate reference system of its coordinates, such as `EPSG:28992`; or `none`: they "
-             "are metres of no known place, whatever the file says",
+         .says = "for a mesh or a tileset, the coordinate reference system of its coordinates, such as `EPSG:28992`; "
+                 "or `none`: they "
+                 "are metres of no known place, whatever the file says",
          .without = "what the file says"},
         Kind::text},
     Own{{.path = "origin",
@@ -54,8 +62,8 @@ inline constexpr std::array kSceneKeys = {
          .without = "what the scene's file says, which a scene made from OpenStreetMap by vantage does"},
         Kind::text},
     Own{{.path = "center",
-         .says = "[latitude, longitude]: for a map or a raster, the centre of the part that is used; it is the scene's "
-                 "origin",
+         .says = "[latitude, longitude]: for a map, a raster or a tileset, the centre of the part that is used; it is "
+                 "the scene's origin",
          .without = "all of the file"},
         Kind::place},
     Own{{"radius", "of the part that is used round `center`"}, Kind::number, Unit::metres},

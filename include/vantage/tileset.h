@@ -1,0 +1,85 @@
+// Scenes from tilesets of 3D Tiles.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/export.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+
+namespace vantage {
+
+/// Which part of a tileset is read, and how fine.
+struct TilesetOptions {
+  /// Latitude and longitude (WGS 84, degrees) of the middle, which becomes the origin of the scene frame. Empty: all is
+  /// read, and the origin is the middle of that.
+  std::optional<std::array<double, 2>> center_deg = std::nullopt;
+  std::optional<double> radius_m = std::nullopt;  ///< with a centre; > 0. Tiles beyond it are not read
+
+  /// Metres of geometric error: a tile whose error is larger is refined, where it can be. >= 0.
+  double detail_m = 1.0;
+
+  /// The coordinate reference system of a tileset in projected metres: "EPSG:3946"; or "none": metres of no known
+  /// place. Empty: as the tileset says, on the earth (ECEF, EPSG:4978) or nowhere.
+  std::string crs = {};
+};
+
+/// What reading found.
+struct TilesetReport {
+  std::size_t documents = 0;         ///< tileset.json, external ones too, and subtrees
+  std::size_t tiles = 0;             ///< within the radius, at all levels that were looked at
+  std::size_t contents = 0;          ///< files with surfaces that were read
+  std::size_t without_surfaces = 0;  ///< files of points or lines
+  std::size_t bytes = 0;             ///< of all these
+  std::size_t triangles = 0;         ///< of the scene
+  std::size_t objects = 0;           ///< of the scene
+  std::size_t objects_outside = 0;   ///< in tiles that were read, but wholly beyond the radius: left out
+
+  /// Files that are missing or cannot be read. What they hold is not in the scene, so that volumes may claim too much
+  /// behind it.
+  std::size_t holes = 0;
+  std::string first_hole = {};  ///< the first of them, and what is wrong with it
+
+  double largest_error_m = 0;  ///< the geometric error of the coarsest tile that was taken
+  std::size_t coarse = 0;  ///< tiles that were taken though their error is larger than asked: they have no finer ones
+
+  /// Of a tileset on the earth: how far the ellipsoid lies below the horizontal plane through the origin, at the
+  /// farthest corner of the scene. There z is as much less than the height above the ellipsoid.
+  double rim_drop_m = 0;
+  /// There: how far x and y are from the projection that the georeference names.
+  double rim_shift_m = 0;
+};
+
+struct TilesetScene {
+  Scene scene;
+  TilesetReport report;
+};
+
+/// Reads a tileset of 3D Tiles 1.0 or 1.1: `file` is its tileset.json. All other files must lie in its folder or below.
+///
+/// Contents are glTF, GLB, b3dm, i3dm and cmpt; clouds of points are counted. Draco and meshopt compression are
+/// unpacked where vantage was built with these libraries. Textures are not read. Each feature of a batch table or of
+/// EXT_structural_metadata is an object, named by its id ("gml_id") and name or address; where a tile has no features,
+/// each node is.
+///
+/// A tile that is finer than `detail_m` or has no finer ones is taken. With REPLACE refinement finer tiles stand for
+/// their parent, with ADD they are added to it. A tileset on the earth is turned, not bent, into the frame about the
+/// origin: straight lines stay straight, and z is the height above the plane that touches the ellipsoid at the origin.
+/// A file that cannot be read is a hole: see the report, and Scene::notes.
+///
+/// Throws Error(input) for: a tileset.json that cannot be read, options that are out of range, a centre outside of the
+/// tileset, nothing within the radius, no file that can be read, a tileset without end (more than 5 million tiles,
+/// 20,000 tileset.json and subtrees, or 200 million triangles); where a file needs a library that vantage was built
+/// without. Error(cancelled) when told to stop. Cost: linear in the tiles looked at and the files read, on one thread.
+VANTAGE_API TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options = {},
+                                      const Progress& progress = {});
+
+/// The sentences that tell a report.
+VANTAGE_API std::vector<std::string> notes_of(const TilesetReport& report);
+
+}  // namespace vantage

@@ -1,0 +1,177 @@
+#include "tiles/content.h"
+
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "io/gltf_tile.h"
+#include "tiles/instances.h"
+#include "tiles/tables.h"
+#include "vantage/error.h"
+
+namespace vantage::internal::tiles {
+namespace {
+
+constexpr std::size_t kBatchedHeader = 28, kInstancedHeader = 32, kCompositeHeader = 16;
+
+std::uint32_t load_word(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+/// From glTF's axes to those of tiles, z up (3D Tiles, "Coordinate reference system").
+Transform upright(GltfUp up) {
+  Transform turn = Transform::Identity();
+  if (up == GltfUp::y) turn.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (up == GltfUp::x) turn.linear() << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  return turn;
+}
+
+std::string without_end(std::string text) {
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+  return text;
+}
+
+/// A mesh that may have no triangles.
+std::optional<io::TileMesh> surfaces_of(const io::MeshSource& source, const core::ProgressReporter& progress,
+                                        const core::ReadLimits& limits, const io::TileContext& tile) {
+  try {
+    return io::read_gltf_tile(source, progress, limits, tile);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::mesh_empty) return std::nullopt;
+    throw;
+  }
+}
+
+}  // namespace
+
+/// Of a b3dm or i3dm.
+struct ContentReader::Parts {
+  std::string_view feature_json, feature_binary, batch_json, batch_binary, rest;
+};
+
+void ContentReader::fail(const std::string& address, const std::string& problem) const {
+  throw Error(ErrorCode::mesh_syntax, "not a valid tile: " + problem, source_.shown(address),
+              "export the tileset again; the file is cut off or garbled");
+}
+
+bool ContentReader::read(const std::string& address, const std::string& bytes, const Placement& placement) {
+  try {
+    return read_part(address, bytes, placement, 0);
+  } catch (const std::string& problem) {
+    fail(address, problem);
+  }
+}
+
+bool ContentReader::read_part(const std::string& address, std::string_view bytes, const Placement& placement,
+                              int depth) {
+  const std::string_view kind = bytes.substr(0, 4);
+  if (kind == "b3dm") return read_batched(address, bytes, placement);
+  if (kind == "i3dm") return read_instanced(address, bytes, placement);
+  if (kind == "cmpt") return read_composite(address, bytes, placement, depth);
+  if (kind == "pnts") return false;
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (kind == "glTF" || (first != std::string_view::npos && bytes[first] == '{')) {
+    return read_gltf(address, bytes, placement);
+  }
+  if (kind == "vctr" || kind == "geom") {
+    throw Error(ErrorCode::mesh_unsupported, "a tile of the kind " + std::string(kind) + " cannot be read",
+                source_.shown(address), "export it as glTF");
+  }
+  fail(address, "it is neither glTF nor b3dm, i3dm, cmpt or pnts");
+}
+
+bool ContentReader::read_composite(const std::string& address, std::string_view bytes, const Placement& placement,
+                                   int depth) {
+  constexpr int kDeepest = 8;
+  if (depth >= kDeepest) fail(address, "composite tiles are nested deeper than 8 levels");
+  if (bytes.size() < kCompositeHeader) fail(address, "it ends in its header");
+  const std::uint32_t count = load_word(bytes, 12);
+  std::size_t at = kCompositeHeader;
+  bool any = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (bytes.size() - at < 12) fail(address, "it announces " + std::to_string(count) + " tiles and ends before");
+    const std::uint32_t length = load_word(bytes, at + 8);
+    if (length < 12 || length > bytes.size() - at) fail(address, "a tile in it goes beyond its end");
+    any = read_part(address, bytes.substr(at, length), placement, depth + 1) || any;
+    at += length;
+  }
+  return any;
+}
+
+ContentReader::Parts ContentReader::split(const std::string& address, std::string_view bytes,
+                                          std::size_t header) const {
+  if (bytes.size() < header) fail(address, "it ends in its header");
+  if (load_word(bytes, 4) != 1) fail(address, "its version is " + std::to_string(load_word(bytes, 4)) + ", not 1");
+  const std::uint32_t length = load_word(bytes, 8);
+  if (length < header || length > bytes.size()) {
+    fail(address, "it announces " + std::to_string(length) + " bytes and has " + std::to_string(bytes.size()));
+  }
+  std::string_view left = bytes.substr(header, length - header);
+  Parts parts;
+  std::size_t at = 12;
+  for (std::string_view* part : {&parts.feature_json, &parts.feature_binary, &parts.batch_json, &parts.batch_binary}) {
+    const std::uint32_t size = load_word(bytes, at);
+    if (size > left.size()) fail(address, "one of its tables goes beyond its end");
+    *part = left.substr(0, size);
+    left.remove_prefix(size);
+    at += 4;
+  }
+  parts.rest = left;
+  return parts;
+}
+
+bool ContentReader::read_gltf(const std::string& address, std::string_view bytes, const Placement& placement) {
+  const io::MeshSource source(source_.shown(address), std::string(bytes));
+  const auto from_here = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
+  const auto mesh = surfaces_of(source, progress_, limits_, {address, {}, from_here});
+  if (!mesh) return false;
+  collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(mesh->center) * upright(placement.gltf_up),
+                 source_.shown(address));
+  return true;
+}
+
+bool ContentReader::read_batched(const std::string& address, std::string_view bytes, const Placement& placement) {
+  const Parts parts = split(address, bytes, kBatchedHeader);
+  const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
+  const BatchTable batch(parts.batch_json, parts.batch_binary, address, progress_, limits_);
+  const std::vector<double> about = features.global("RTC_CENTER", 3).value_or(std::vector<double>{0, 0, 0});
+  const io::MeshSource source(source_.shown(address), std::string(parts.rest));
+  io::TileContext context{address, {}, {}};
+  if (features.whole("BATCH_LENGTH") > 0) context.batch = [&batch](std::uint64_t id) { return batch.identity(id); };
+  context.read_file = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
+  const auto mesh = surfaces_of(source, progress_, limits_, context);
+  if (!mesh) return false;
+  const Vec3 center = mesh->center + Vec3(about[0], about[1], about[2]);
+  collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(center) * upright(placement.gltf_up),
+                 source_.shown(address));
+  return true;
+}
+
+bool ContentReader::read_instanced(const std::string& address, std::string_view bytes, const Placement& placement) {
+  const Parts parts = split(address, bytes, kInstancedHeader);
+  const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
+  const BatchTable batch(parts.batch_json, parts.batch_binary, address, progress_, limits_);
+  std::string model = address;
+  std::string content(parts.rest);
+  if (load_word(bytes, 28) == 0) {  // the model is another file
+    model = source_.resolve(address, without_end(content));
+    content = source_.read(model, progress_);
+  }
+  const io::MeshSource source(source_.shown(model), std::move(content));
+  const auto from_model = [&](const std::string& uri) { return source_.read(source_.resolve(model, uri), progress_); };
+  const auto mesh = surfaces_of(source, progress_, limits_, {address, {}, from_model});
+  if (!mesh) return false;
+  const Transform shape = Eigen::Translation3d(mesh->center) * upright(placement.gltf_up);
+  for (const Instance& instance : instances_of(features, placement.into_world)) {
+    progress_.check();
+    collector_.add_as(batch.identity(instance.batch), mesh->mesh, placement.into_world * instance.transform * shape,
+                      source_.shown(address));
+  }
+  return true;
+}
+
+}  // namespace vantage::internal::tiles

@@ -1,0 +1,209 @@
+#include "tiles/implicit.h"
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "io/json_text.h"
+
+namespace vantage::internal::tiles {
+namespace {
+
+// Deepest tree: its coordinates fit in 63 bits when they are interleaved.
+constexpr std::uint32_t kMostLevels = 21;
+// Bits of one subtree: a quadtree of 12 levels, an octree of 8.
+constexpr std::uint64_t kMostTiles = std::uint64_t{1} << 25U;
+
+std::uint64_t whole_of(const Json& object, const char* key, std::uint64_t otherwise, std::uint64_t most) {
+  const auto found = object.find(key);
+  if (found == object.end()) return otherwise;
+  const double value = found->is_number() ? found->get<double>() : -1;
+  if (!(value >= 0 && value <= static_cast<double>(most)) || value != std::floor(value)) {
+    throw std::string("\"") + key + "\" is not a whole number of 0 to " + std::to_string(most);
+  }
+  return static_cast<std::uint64_t>(value);
+}
+
+const Json& member_of(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw std::string("\"") + key + "\" is missing";
+  return *found;
+}
+
+std::uint64_t load_whole(const std::string& bytes, std::size_t at) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+/// The JSON of a subtree and its buffers.
+struct Subtree::Parts {
+  Json json;
+  std::string binary;
+  const ReadFile& read_file;
+  std::map<std::uint64_t, std::string> buffers;
+
+  const std::string& buffer(std::uint64_t index) {
+    if (const auto known = buffers.find(index); known != buffers.end()) return known->second;
+    const Json& all = member_of(json, "buffers");
+    if (!all.is_array() || index >= all.size() || !all[index].is_object()) throw std::string("a buffer is missing");
+    const auto uri = all[index].find("uri");
+    if (uri == all[index].end()) return binary;
+    if (!uri->is_string()) throw std::string("the \"uri\" of a buffer is not a text");
+    return buffers[index] = read_file(uri->get<std::string>());
+  }
+
+  std::string view(std::uint64_t index) {
+    const Json& all = member_of(json, "bufferViews");
+    if (!all.is_array() || index >= all.size() || !all[index].is_object()) {
+      throw std::string("a buffer view is missing");
+    }
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 40U;
+    const std::uint64_t start = whole_of(all[index], "byteOffset", 0, kMost);
+    const std::uint64_t length = whole_of(all[index], "byteLength", 0, kMost);
+    const std::string& bytes = buffer(whole_of(all[index], "buffer", 0, kMost));
+    if (start + length > bytes.size()) throw std::string("a buffer view goes beyond the end of its buffer");
+    return bytes.substr(start, length);
+  }
+};
+
+Subtree::Bits Subtree::bits(const Json& described, std::uint64_t count, Parts& parts) {
+  if (!described.is_object()) throw std::string("an availability is not an object");
+  Bits bits;
+  if (const auto constant = described.find("constant"); constant != described.end()) {
+    bits.all = *constant == 1;
+    return bits;
+  }
+  const char* const key = described.contains("bitstream") ? "bitstream" : "bufferView";
+  member_of(described, key);
+  bits.is_constant = false;
+  bits.bytes = parts.view(whole_of(described, key, 0, 1U << 20U));
+  if (bits.bytes.size() < (count + 7) / 8) throw std::string("an availability has too few bits");
+  return bits;
+}
+
+Subtree::Subtree(std::string bytes, const Shape& shape, const ReadFile& read_file,
+                 const core::ProgressReporter& progress, const core::ReadLimits& limits)
+    : shape_(shape) {
+  constexpr std::size_t kHeader = 24;
+  Parts parts{{}, {}, read_file, {}};
+  std::string_view text = bytes;
+  if (bytes.starts_with("subt")) {
+    if (bytes.size() < kHeader) throw std::string("it ends in its header");
+    const std::uint64_t json = load_whole(bytes, 8), binary = load_whole(bytes, 16), room = bytes.size() - kHeader;
+    if (json > room || binary > room - json) throw std::string("it ends before the length that it announces");
+    text = text.substr(kHeader, json);
+    parts.binary = bytes.substr(kHeader + json, binary);
+  }
+  try {
+    parts.json = io::parse_json(text, progress, limits);
+  } catch (const io::JsonProblem& problem) {
+    throw problem.text;
+  }
+  if (!parts.json.is_object()) throw std::string("its JSON is not an object");
+  const std::uint64_t inside = before(shape.levels);
+  tiles_ = bits(member_of(parts.json, "tileAvailability"), inside, parts);
+  children_ = bits(member_of(parts.json, "childSubtreeAvailability"), before(shape.levels + 1) - inside, parts);
+  const auto contents = parts.json.find("contentAvailability");
+  if (contents == parts.json.end()) return;
+  if (contents->is_object()) contents_.push_back(bits(*contents, inside, parts));
+  if (!contents->is_array()) return;
+  for (const Json& content : *contents) contents_.push_back(bits(content, inside, parts));
+}
+
+std::uint64_t Subtree::before(std::uint32_t level) const {
+  std::uint64_t count = 0, width = 1;
+  for (std::uint32_t i = 0; i < level; ++i) {
+    count += width;
+    width *= shape_.children;
+  }
+  return count;
+}
+
+bool Subtree::has_tile(std::uint32_t level, std::uint64_t morton) const { return tiles_.has(before(level) + morton); }
+
+bool Subtree::has_content(std::size_t content, std::uint32_t level, std::uint64_t morton) const {
+  return content < contents_.size() && contents_[content].has(before(level) + morton);
+}
+
+ImplicitTree::ImplicitTree(std::shared_ptr<const TilesetDocument> of, const Tile& root, double root_error_m)
+    : document(std::move(of)), bounds(root.bounds), error_m(root_error_m), contents(root.contents) {
+  const Json& described = *root.implicit;
+  try {
+    const Json& scheme = member_of(described, "subdivisionScheme");
+    is_octree = scheme == "OCTREE";
+    if (!is_octree && scheme != "QUADTREE") throw std::string("\"subdivisionScheme\" is neither QUADTREE nor OCTREE");
+    shape.children = is_octree ? 8 : 4;
+    shape.levels = static_cast<std::uint32_t>(whole_of(described, "subtreeLevels", 0, kMostLevels));
+    const bool is_older = !described.contains("availableLevels") && described.contains("maximumLevel");
+    levels = static_cast<std::uint32_t>(is_older ? whole_of(described, "maximumLevel", 0, kMostLevels - 1) + 1
+                                                 : whole_of(described, "availableLevels", 0, kMostLevels));
+    const double bits = std::pow(shape.children, shape.levels);
+    if (shape.levels == 0 || levels == 0 || bits > static_cast<double>(kMostTiles)) {
+      throw std::string("its subtrees have too many levels, or none");
+    }
+    const Json& files = member_of(described, "subtrees");
+    const auto uri = files.is_object() ? files.find("uri") : files.end();
+    if (!files.is_object() || uri == files.end() || !uri->is_string())
+      throw std::string("its subtrees have no \"uri\"");
+    subtrees = uri->get<std::string>();
+  } catch (const std::string& problem) {
+    document->fail("implicit tiling: " + problem);
+  }
+}
+
+Volume ImplicitTree::bounds_of(const TileIndex& index) const {
+  const double parts = std::ldexp(1, static_cast<int>(index.level));
+  const auto fraction = [&](std::size_t axis) { return static_cast<double>(index.at[axis]) / parts; };
+  const std::size_t axes = is_octree ? 3 : 2;
+  if (const auto* const box = std::get_if<OrientedBox>(&bounds)) {
+    OrientedBox part = *box;
+    for (std::size_t i = 0; i < axes; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      part.center += box->half_axes.col(column) * (2 * fraction(i) + 1 / parts - 1);
+      part.half_axes.col(column) /= parts;
+    }
+    return part;
+  }
+  if (const auto* const region = std::get_if<EarthRegion>(&bounds)) {
+    EarthRegion part = *region;
+    const double east = region->east < region->west ? region->east + 2 * EIGEN_PI : region->east;
+    const auto split = [&](double low, double high, std::size_t axis, double& from, double& to) {
+      from = low + (high - low) * fraction(axis);
+      to = low + (high - low) * (fraction(axis) + 1 / parts);
+    };
+    split(region->west, east, 0, part.west, part.east);
+    split(region->south, region->north, 1, part.south, part.north);
+    if (is_octree) split(region->low, region->high, 2, part.low, part.high);
+    return part;
+  }
+  return Everywhere{};
+}
+
+std::string ImplicitTree::uri_of(const std::string& pattern, const TileIndex& index) const {
+  std::string uri = pattern;
+  const std::array<std::pair<const char*, std::uint64_t>, 4> values = {
+      {{"{level}", index.level}, {"{x}", index.at[0]}, {"{y}", index.at[1]}, {"{z}", index.at[2]}}};
+  for (const auto& [name, value] : values) {
+    for (std::size_t at = uri.find(name); at != std::string::npos; at = uri.find(name, at)) {
+      uri.replace(at, std::strlen(name), std::to_string(value));
+    }
+  }
+  return uri;
+}
+
+std::uint64_t morton_of(const TileIndex& index, std::uint32_t levels, bool is_octree) {
+  const std::uint32_t axes = is_octree ? 3 : 2;
+  std::uint64_t number = 0;
+  for (std::uint32_t bit = 0; bit < levels; ++bit) {
+    for (std::uint32_t axis = 0; axis < axes; ++axis) {
+      number |= (index.at[axis] >> bit & 1U) << (bit * axes + axis);
+    }
+  }
+  return number;
+}
+
+}  // namespace vantage::internal::tiles

@@ -1,0 +1,285 @@
+#include "tiles/walk.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace vantage::internal::tiles {
+namespace {
+
+// A national tileset has some million tiles; what looks at more within one radius has no end.
+constexpr std::uint64_t kMostTiles = 5'000'000;
+constexpr std::uint64_t kMostDocuments = 20'000;  ///< tilesets and subtrees
+constexpr std::uint64_t kMostFiles = 200'000;
+constexpr std::uint64_t kMostHoles = 20'000;
+constexpr int kMostNested = 64;  ///< tilesets, one inside of the other
+constexpr int kDeepest = 1'000;
+
+/// Whether no other file will be read better: then the walk ends.
+bool ends_all(const Error& error) {
+  switch (error.code()) {
+    case ErrorCode::cancelled:
+    case ErrorCode::out_of_memory:
+    case ErrorCode::system_limit:
+    case ErrorCode::component_missing:
+    case ErrorCode::region_invalid:
+    case ErrorCode::internal_defect:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Whether a URI names a tileset.json, as far as its name says.
+bool is_named_json(const std::string& uri) {
+  const std::string path = uri.substr(0, uri.find_first_of("?#"));
+  return path.size() >= 5 && path.compare(path.size() - 5, 5, ".json") == 0;
+}
+
+}  // namespace
+
+Walk::Walk(TileSource& source, Collector& collector, const Reach& reach, double detail_m, TilesetReport& report,
+           const core::ProgressReporter& progress, const core::ReadLimits& limits)
+    : source_(source),
+      collector_(collector),
+      reach_(reach),
+      detail_m_(detail_m),
+      report_(report),
+      progress_(progress),
+      limits_(limits),
+      contents_(source, collector, progress, limits) {}
+
+void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
+  ++report_.documents;
+  Visit root;
+  root.trail = std::make_shared<Trail>(Trail{document, nullptr, 0});
+  root.described = &document->root();
+  root.parent = Transform::Identity();
+  root.error_m = document->error_m();
+  waiting_.push_back(root);
+  while (!waiting_.empty()) {
+    const Visit next = std::move(waiting_.back());
+    waiting_.pop_back();
+    progress_.check();
+    try {
+      visit(next);
+    } catch (const Error& error) {
+      if (ends_all(error)) throw;
+      count_hole(error);
+    }
+  }
+}
+
+void Walk::count_hole(const Error& error) {
+  if (report_.holes == 0) {
+    report_.first_hole = error.where().empty() ? error.problem() : error.where() + ": " + error.problem();
+  }
+  if (++report_.holes > kMostHoles) {
+    throw Error(ErrorCode::region_invalid,
+                "more than " + std::to_string(kMostHoles) +
+                    " files of the tileset cannot be read; the first: " + report_.first_hole,
+                source_.shown(source_.root()), "download the whole tileset");
+  }
+}
+
+std::string Walk::read_file(const std::string& address) {
+  const bool has_too_many_documents = report_.documents > kMostDocuments;
+  if (has_too_many_documents || report_.contents + report_.without_surfaces > kMostFiles) {
+    throw Error(ErrorCode::region_invalid,
+                has_too_many_documents
+                    ? "the region has more than " + std::to_string(kMostDocuments) + " tilesets, or there is no end"
+                    : "the region has more than " + std::to_string(kMostFiles) + " files",
+                source_.shown(address), "give a smaller radius, or a larger detail");
+  }
+  std::string bytes = source_.read(address, progress_);
+  report_.bytes += bytes.size();
+  return bytes;
+}
+
+void Walk::visit(const Visit& visit) {
+  if (++looked_at_ > kMostTiles) {
+    throw Error(ErrorCode::region_invalid,
+                "the region has more than " + std::to_string(kMostTiles) + " tiles, or the tileset has no end",
+                visit.trail->document->shown(), "give a smaller radius, or a larger detail");
+  }
+  if (visit.depth > kDeepest) visit.trail->document->fail("its tiles are nested deeper than 1000 levels");
+  if (visit.described) {
+    visit_explicit(visit);
+  } else {
+    visit_implicit(visit);
+  }
+}
+
+void Walk::visit_explicit(const Visit& visit) {
+  const TilesetDocument& document = *visit.trail->document;
+  const Tile tile = document.tile(*visit.described);
+  Here here;
+  here.into_world = visit.parent * tile.transform;
+  here.bounds = moved(tile.bounds, here.into_world);
+  here.error_m = tile.error_m.value_or(visit.error_m);
+  here.refinement = tile.refinement.value_or(visit.refinement);
+  if (!reach_.meets(here.bounds)) return;
+  if (tile.implicit) {
+    enter_tree(visit, tile, here);
+    return;
+  }
+  here.contents = tile.contents;
+  ++report_.tiles;
+  if (!take(visit, here, tile.children != nullptr)) return;
+  for (auto child = tile.children->rbegin(); child != tile.children->rend(); ++child) {
+    Visit next;
+    next.trail = visit.trail;
+    next.described = &*child;
+    next.parent = here.into_world;
+    next.refinement = here.refinement;
+    next.error_m = here.error_m;
+    next.depth = visit.depth + 1;
+    waiting_.push_back(std::move(next));
+  }
+}
+
+/// Reads what a tile holds where it is wanted. Returns whether the tile's children are wanted, too.
+bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
+  const auto is_document = [](const ContentName& content) { return is_named_json(content.uri); };
+  const bool has_own = std::any_of(here.contents.begin(), here.contents.end(),
+                                   [&](const ContentName& content) { return !is_document(content); });
+  // A tile without content is finer only in its children, whatever it says.
+  const bool goes_on = has_children && (here.error_m > detail_m_ || !has_own);
+  const bool is_taken = !goes_on || here.refinement == Refinement::add;
+  if (has_own && !goes_on) {
+    report_.largest_error_m = std::max(report_.largest_error_m, here.error_m);
+    if (here.error_m > detail_m_) ++report_.coarse;
+  }
+  for (const ContentName& content : here.contents) {
+    if (!is_taken && !is_document(content)) continue;
+    if (!reach_.meets(moved(content.bounds, here.into_world))) continue;
+    try {
+      read_content(visit, here, content);
+    } catch (const Error& error) {
+      if (ends_all(error)) throw;
+      count_hole(error);
+    }
+  }
+  return goes_on;
+}
+
+void Walk::read_content(const Visit& visit, const Here& here, const ContentName& content) {
+  const TilesetDocument& document = *visit.trail->document;
+  const std::string address = source_.resolve(document.address(), content.uri);
+  const std::string bytes = read_file(address);
+  if (is_tileset_text(bytes)) {
+    enter_document(visit, here, address, bytes);
+    return;
+  }
+  if (contents_.read(address, bytes, {here.into_world, document.gltf_up()})) {
+    ++report_.contents;
+  } else {
+    ++report_.without_surfaces;
+  }
+}
+
+void Walk::enter_document(const Visit& visit, const Here& here, const std::string& address, std::string_view text) {
+  for (const Trail* above = visit.trail.get(); above; above = above->parent.get()) {
+    if (above->document->address() == address) {
+      throw Error(ErrorCode::mesh_syntax, "the tileset contains itself", source_.shown(address),
+                  "remove the tile of " + visit.trail->document->shown() + " that refers to it");
+    }
+  }
+  if (visit.trail->depth >= kMostNested) {
+    throw Error(ErrorCode::mesh_syntax,
+                "tilesets contain each other more than " + std::to_string(kMostNested) + " levels deep",
+                source_.shown(address), "export the tileset again");
+  }
+  ++report_.documents;
+  const auto document = std::make_shared<TilesetDocument>(address, source_.shown(address), text, progress_, limits_);
+  Visit next;
+  next.trail = std::make_shared<Trail>(Trail{document, visit.trail, visit.trail->depth + 1});
+  next.described = &document->root();
+  next.parent = here.into_world;
+  next.refinement = here.refinement;
+  next.error_m = document->error_m();
+  next.depth = visit.depth + 1;
+  waiting_.push_back(std::move(next));
+}
+
+void Walk::enter_tree(const Visit& visit, const Tile& tile, const Here& here) {
+  const auto tree = std::make_shared<ImplicitTree>(visit.trail->document, tile, here.error_m);
+  enter_subtree(visit, tree, TileIndex{}, here.into_world, here.refinement);
+}
+
+void Walk::enter_subtree(const Visit& visit, const std::shared_ptr<const ImplicitTree>& tree, const TileIndex& root,
+                         const Transform& into_world, Refinement refinement) {
+  const std::string address = source_.resolve(tree->document->address(), tree->uri_of(tree->subtrees, root));
+  const auto read_buffer = [&](const std::string& uri) { return read_file(source_.resolve(address, uri)); };
+  auto loaded = std::make_shared<LoadedSubtree>(LoadedSubtree{tree, root, nullptr});
+  std::string bytes = read_file(address);
+  ++report_.documents;
+  try {
+    loaded->bits = std::make_shared<Subtree>(std::move(bytes), tree->shape, read_buffer, progress_, limits_);
+  } catch (const std::string& problem) {
+    throw Error(ErrorCode::mesh_syntax, "not a valid subtree: " + problem, source_.shown(address),
+                "export the tileset again; the file is cut off or garbled");
+  }
+  if (!loaded->bits->has_tile(0, 0)) return;
+  Visit next;
+  next.trail = visit.trail;
+  next.subtree = loaded;
+  next.index = root;
+  next.parent = into_world;
+  next.refinement = refinement;
+  next.depth = visit.depth + 1;
+  waiting_.push_back(std::move(next));
+}
+
+void Walk::visit_implicit(const Visit& visit) {
+  const ImplicitTree& tree = *visit.subtree->tree;
+  const TileIndex& index = visit.index;
+  const std::uint32_t level = index.level - visit.subtree->root.level;
+  Here here;
+  here.into_world = visit.parent;
+  here.bounds = moved(tree.bounds_of(index), here.into_world);
+  here.error_m = std::ldexp(tree.error_m, -static_cast<int>(index.level));
+  here.refinement = visit.refinement;
+  if (!reach_.meets(here.bounds)) return;
+  if (level == tree.shape.levels) {  // the root of the next subtree
+    enter_subtree(visit, visit.subtree->tree, index, visit.parent, visit.refinement);
+    return;
+  }
+  ++report_.tiles;
+  const std::uint64_t morton = morton_of(index, level, tree.is_octree);
+  for (std::size_t i = 0; i < tree.contents.size(); ++i) {
+    if (visit.subtree->bits->has_content(i, level, morton)) {
+      here.contents.push_back({tree.uri_of(tree.contents[i].uri, index), Everywhere{}});
+    }
+  }
+  std::vector<TileIndex> children = children_of(visit);
+  if (!take(visit, here, !children.empty())) return;
+  for (auto child = children.rbegin(); child != children.rend(); ++child) {
+    Visit next = visit;
+    next.index = *child;
+    next.depth = visit.depth + 1;
+    waiting_.push_back(std::move(next));
+  }
+}
+
+std::vector<TileIndex> Walk::children_of(const Visit& visit) const {
+  const ImplicitTree& tree = *visit.subtree->tree;
+  std::vector<TileIndex> children;
+  if (visit.index.level + 1 >= tree.levels) return children;
+  const std::uint32_t level = visit.index.level + 1 - visit.subtree->root.level;
+  for (std::uint64_t i = 0; i < tree.shape.children; ++i) {
+    TileIndex child = visit.index;
+    ++child.level;
+    child.at = {2 * child.at[0] + (i & 1U), 2 * child.at[1] + (i >> 1U & 1U),
+                tree.is_octree ? 2 * child.at[2] + (i >> 2U & 1U) : 0};
+    const std::uint64_t morton = morton_of(child, level, tree.is_octree);
+    const bool is_there = level < tree.shape.levels ? visit.subtree->bits->has_tile(level, morton)
+                                                    : visit.subtree->bits->has_child_subtree(morton);
+    if (is_there) children.push_back(child);
+  }
+  return children;
+}
+
+}  // namespace vantage::internal::tiles

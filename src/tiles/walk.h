@@ -1,0 +1,82 @@
+// From the root of a tileset to the tiles that are wanted.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tiles/content.h"
+#include "tiles/implicit.h"
+#include "vantage/error.h"
+#include "vantage/tileset.h"
+
+namespace vantage::internal::tiles {
+
+/// Goes through a tileset and hands the contents of all tiles that are wanted to a ContentReader.
+class Walk {
+ public:
+  Walk(TileSource& source, Collector& collector, const Reach& reach, double detail_m, TilesetReport& report,
+       const core::ProgressReporter& progress, const core::ReadLimits& limits);
+
+  /// From the root of `document` on. Throws Error(input) for a tileset without end, and for want of a library.
+  void run(const std::shared_ptr<const TilesetDocument>& document);
+
+ private:
+  /// The files that led to a tile.
+  struct Trail {
+    std::shared_ptr<const TilesetDocument> document;
+    std::shared_ptr<const Trail> parent;
+    int depth = 0;
+  };
+  struct LoadedSubtree {
+    std::shared_ptr<const ImplicitTree> tree;
+    TileIndex root;
+    std::shared_ptr<const Subtree> bits;
+  };
+  /// A tile that waits.
+  struct Visit {
+    std::shared_ptr<const Trail> trail;
+    const Json* described = nullptr;  ///< or else `subtree` and `index`
+    std::shared_ptr<const LoadedSubtree> subtree;
+    TileIndex index;
+    Transform parent;  ///< of the tile's parent, into the world; of an implicit tile the tree's own
+    Refinement refinement = Refinement::replace;
+    double error_m = 0;  ///< of the parent
+    int depth = 0;
+  };
+  /// A visited tile in the world.
+  struct Here {
+    Volume bounds;
+    Transform into_world;
+    double error_m = 0;
+    Refinement refinement = Refinement::replace;
+    std::vector<ContentName> contents;
+  };
+
+  void visit(const Visit& visit);
+  void visit_explicit(const Visit& visit);
+  void visit_implicit(const Visit& visit);
+  bool take(const Visit& visit, const Here& here, bool has_children);
+  void read_content(const Visit& visit, const Here& here, const ContentName& content);
+  void enter_document(const Visit& visit, const Here& here, const std::string& address, std::string_view text);
+  void enter_tree(const Visit& visit, const Tile& tile, const Here& here);
+  void enter_subtree(const Visit& visit, const std::shared_ptr<const ImplicitTree>& tree, const TileIndex& root,
+                     const Transform& into_world, Refinement refinement);
+  std::vector<TileIndex> children_of(const Visit& visit) const;
+  std::string read_file(const std::string& address);
+  void count_hole(const Error& error);
+
+  TileSource& source_;
+  Collector& collector_;
+  const Reach& reach_;
+  double detail_m_;
+  TilesetReport& report_;
+  const core::ProgressReporter& progress_;
+  const core::ReadLimits& limits_;
+  ContentReader contents_;
+  std::vector<Visit> waiting_;  ///< a stack
+  std::uint64_t looked_at_ = 0;
+};
+
+}  // namespace vantage::internal::tiles

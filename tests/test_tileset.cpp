@@ -1,0 +1,318 @@
+// Tilesets of 3D Tiles that are made here: which tiles are read, where their contents come to lie, who the objects are.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "support/internals.h"
+#include "support/mesh_reading.h"
+#include "support/objects.h"
+#include "support/temporary_directory.h"
+#include "support/tile_files.h"
+#include "vantage/scene_source.h"
+#include "vantage/tileset.h"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using testing::b3dm;
+using testing::box_glb;
+using testing::bytes_of;
+using testing::cmpt;
+using testing::expect_error;
+using testing::i3dm;
+using testing::subtree;
+using testing::TemporaryDirectory;
+using testing::tile_json;
+using testing::tileset_json;
+using testing::write_bytes;
+
+using Names = std::vector<std::string>;
+
+/// A folder with a tileset.
+class Tileset : public TemporaryDirectory {
+ public:
+  explicit Tileset(const json& tileset) { add("tileset.json", tileset.dump()); }
+  void add(const std::string& name, const std::string& bytes) {
+    std::filesystem::create_directories((path() / name).parent_path());
+    write_bytes(path() / name, bytes);
+  }
+  std::filesystem::path file() const { return path() / "tileset.json"; }
+  TilesetScene read(const TilesetOptions& options = {}) const { return read_tileset(file(), options); }
+};
+
+std::set<std::string> ids_of(const TilesetScene& tiles) {
+  std::set<std::string> ids;
+  for (const SceneObject& object : tiles.scene.objects) ids.insert(object.source_id);
+  return ids;
+}
+
+TEST(Tileset, ReadsAGlbWithZUp) {
+  Tileset tiles(tileset_json(tile_json(0, "a.glb")));
+  tiles.add("a.glb", box_glb({{{3, 0, -5}, 7, 0}}));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(read.report.triangles, 12u);
+  EXPECT_EQ(read.report.contents, 1u);
+  EXPECT_EQ(read.report.holes, 0u);
+  const Box box = bounding_box(read.scene.mesh);
+  EXPECT_EQ(box.min, Vec3(3, 4, 0));  // (x, y, z) of glTF is (x, -z, y)
+  EXPECT_EQ(box.max, Vec3(4, 5, 7));
+  EXPECT_FALSE(read.scene.georeference);
+  EXPECT_EQ(ids_of(read), std::set<std::string>{"a.glb"});
+  EXPECT_GT(enclosed_volume(read.scene.mesh), 0);
+}
+
+TEST(Tileset, ReplacesParentsAndAddsToThem) {
+  for (const bool is_add : {false, true}) {
+    json root = tile_json(50, "coarse.glb");
+    root["refine"] = is_add ? "ADD" : "REPLACE";
+    root["children"] = {tile_json(5, "fine.glb"), tile_json(0, "other.glb")};
+    root["children"][0]["children"] = {tile_json(0, "finest.glb")};
+    Tileset tiles(tileset_json(root));
+    for (const char* name : {"coarse.glb", "fine.glb", "finest.glb", "other.glb"}) tiles.add(name, box_glb({{}}));
+    const auto at = [&](double detail) {
+      TilesetOptions options;
+      options.detail_m = detail;
+      return tiles.read(options);
+    };
+    using Ids = std::set<std::string>;
+    EXPECT_EQ(ids_of(at(50)), Ids{"coarse.glb"});
+    EXPECT_EQ(at(50).report.largest_error_m, 50);
+    EXPECT_EQ(ids_of(at(5)), is_add ? (Ids{"coarse.glb", "fine.glb", "other.glb"}) : (Ids{"fine.glb", "other.glb"}));
+    EXPECT_EQ(at(5).report.largest_error_m, 5);
+    EXPECT_EQ(ids_of(at(1)),
+              is_add ? (Ids{"coarse.glb", "fine.glb", "finest.glb", "other.glb"}) : (Ids{"finest.glb", "other.glb"}));
+    EXPECT_EQ(at(1).report.largest_error_m, 0);
+    EXPECT_EQ(at(1).report.coarse, 0u);
+  }
+}
+
+TEST(Tileset, SaysWhatIsCoarserThanAsked) {
+  Tileset tiles(tileset_json(tile_json(30, "a.glb")));
+  tiles.add("a.glb", box_glb({{}}));
+  const TilesetReport report = tiles.read().report;
+  EXPECT_EQ(report.largest_error_m, 30);
+  EXPECT_EQ(report.coarse, 1u);
+}
+
+TEST(Tileset, LiesOnTheEarthAsItsGeoreferenceSays) {
+  json root = tile_json(0, "a.b3dm");
+  root["transform"] = testing::transform_at(35.67, 139.76);
+  Tileset tiles(tileset_json(root, 10, "1.0"));
+  tiles.add("a.b3dm", b3dm(box_glb({{{30, 12, -40}, 25, 0}}), {{"BATCH_LENGTH", 0}, {"RTC_CENTER", {100, 200, 3}}}));
+  TilesetOptions options;
+  options.center_deg = {35.67, 139.76};
+  options.radius_m = 400;
+  const TilesetScene read = tiles.read(options);
+  ASSERT_TRUE(read.scene.georeference);
+  EXPECT_EQ(read.scene.georeference->vertical, "ellipsoidal height");
+  const Box box = bounding_box(read.scene.mesh);
+  EXPECT_LT((box.min - Vec3(130, 239, 15)).norm(), 1e-6);
+  EXPECT_LT((box.max - Vec3(131, 240, 40)).norm(), 1e-6);
+  // d^2 / 2 R.
+  EXPECT_NEAR(read.report.rim_drop_m, (131. * 131 + 240. * 240) / 2 / 6.37e6, 1e-4);
+  EXPECT_LT(read.report.rim_shift_m, 5e-3);
+
+  options.center_deg = {35.68, 139.76};
+  expect_error([&] { tiles.read(options); }, ErrorCode::region_outside, "tileset.json");
+}
+
+TEST(Tileset, LeavesOutTilesAndObjectsBeyondTheRadius) {
+  json root = tile_json(10, "", 5000);
+  root["transform"] = testing::transform_at(52, 4.4);
+  root["refine"] = "ADD";
+  json near = tile_json(0, "near.glb", 60), far = tile_json(0, "far.glb", 60);
+  far["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 500, 0, 0, 1};
+  root["children"] = {near, far};
+  Tileset tiles(tileset_json(root));
+  json two = {{"nodes", {{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}, {"translation", {250, 0, 0}}}}}};
+  two["scenes"] = {{{"nodes", {0, 1}}}};
+  tiles.add("near.glb", box_glb({{}}));
+  tiles.add("far.glb", "no glb at all");
+  TilesetOptions options;
+  options.center_deg = {52, 4.4};
+  options.radius_m = 100;
+  const TilesetReport report = tiles.read(options).report;  // far.glb is not read
+  EXPECT_EQ(report.contents, 1u);
+  EXPECT_EQ(report.holes, 0u);
+  options.radius_m = 450;
+  EXPECT_EQ(tiles.read(options).report.holes, 1u);
+}
+
+TEST(Tileset, ObjectsAreFeaturesOfBatchTables) {
+  json root = tile_json(0);
+  root["refine"] = "ADD";
+  root["children"] = {tile_json(0, "a.b3dm"), tile_json(0, "b.b3dm")};
+  Tileset tiles(tileset_json(root));
+  const json batch = {{"gml_id", {"bldg_1", "bldg_2"}},
+                      {"bldg:address", {"Main Street 1", "Main Street 2"}},
+                      {"feature_type", {"bldg:Building", "bldg:Building"}}};
+  tiles.add("a.b3dm", b3dm(box_glb({{{0, 0, 0}, 5, 0}, {{4, 0, 0}, 6, 1}, {{8, 0, 0}, 7, 0}}, "_BATCHID"),
+                           {{"BATCH_LENGTH", 2}}, batch));
+  // The same building in another tile, and numbers that are unique in their tile alone, in the binary part.
+  const json numbers = {{"id", {{"byteOffset", 0}, {"componentType", "UNSIGNED_SHORT"}, {"type", "SCALAR"}}}};
+  tiles.add("b.b3dm", b3dm(box_glb({{{0, 0, 9}, 5, 0}, {{4, 0, 9}, 6, 1}}, "_BATCHID"), {{"BATCH_LENGTH", 2}}, numbers,
+                           bytes_of(std::uint16_t{41}) + bytes_of(std::uint16_t{17}) + std::string(4, '\0')));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(ids_of(read), (std::set<std::string>{"bldg_1", "bldg_2", "b.b3dm#41", "b.b3dm#17"}));
+  EXPECT_EQ(read.scene.objects[0], (SceneObject{"Main Street 1", "bldg_1", ObjectKind::building}));
+  EXPECT_EQ(std::count(read.scene.object_of.begin(), read.scene.object_of.end(), 0u), 24);
+}
+
+TEST(Tileset, ObjectsAreFeaturesOfStructuralMetadata) {
+  Tileset tiles(tileset_json(tile_json(0, "a.glb")));
+  const std::string texts = "NL.1NL.22";
+  std::string offsets;
+  for (const std::uint32_t offset : {0u, 4u, 9u}) offsets += bytes_of(offset);
+  json extra;
+  extra["more"] = {texts, offsets};
+  extra["extensions"]["EXT_structural_metadata"] = {
+      {"schema", {{"classes", {{"b", {{"properties", {{"identificatie", {{"type", "STRING"}}}}}}}}}}},
+      {"propertyTables",
+       {{{"class", "b"}, {"count", 2}, {"properties", {{"identificatie", {{"values", 3}, {"stringOffsets", 4}}}}}}}}};
+  tiles.add("a.glb", box_glb({{{0, 0, 0}, 5, 1}, {{4, 0, 0}, 6, 0}}, "_FEATURE_ID_0", extra));
+  EXPECT_EQ(ids_of(tiles.read()), (std::set<std::string>{"NL.1", "NL.22"}));
+}
+
+TEST(Tileset, ReadsInstancesAndComposites) {
+  json root = tile_json(0, "all.cmpt");
+  Tileset tiles(tileset_json(root, 1, "1.0"));
+  std::string positions, rest;
+  for (const float value : {10.f, 20.f, 30.f, -10.f, -20.f, -30.f}) positions += bytes_of(value);
+  for (const float value : {2.f, 3.f}) rest += bytes_of(value);
+  const json features = {{"INSTANCES_LENGTH", 2}, {"POSITION", {{"byteOffset", 0}}}, {"SCALE", {{"byteOffset", 24}}}};
+  const std::string trees = i3dm(box_glb({{}}), features, positions + rest, {{"name", {"oak", "elm"}}});
+  const std::string points = std::string("pnts\1\0\0\0\x1c\0\0\0", 12) + std::string(16, '\0');
+  tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points}));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(read.report.triangles, 36u);
+  EXPECT_EQ(read.report.holes, 0u);
+  const Box box = bounding_box(read.scene.mesh);
+  EXPECT_LT((box.max - Vec3(12, 20, 32)).norm(), 1e-5);
+  EXPECT_LT((box.min - Vec3(-10, -23, -30)).norm(), 1e-5);
+  EXPECT_EQ(ids_of(read), (std::set<std::string>{"all.cmpt", "all.cmpt#0", "all.cmpt#1"}));
+  tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points + points.substr(0, 9)}));
+  EXPECT_EQ(tiles.read().report.holes, 0u);  // what follows the announced parts is not looked at
+  tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points.substr(0, 9)}));
+  EXPECT_EQ(tiles.read().report.holes, 1u);
+}
+
+TEST(Tileset, ReadsImplicitTrees) {
+  json root = tile_json(16, "c/{level}_{x}_{y}.glb", 8);
+  root["refine"] = "REPLACE";
+  root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                            {"subtreeLevels", 2},
+                            {"availableLevels", 3},
+                            {"subtrees", {{"uri", "s/{level}_{x}_{y}.subtree"}}}};
+  Tileset tiles(tileset_json(root));
+  // Level 1: the tiles (1, 0) and (0, 1), Morton numbers 1 and 2. Below (0, 1) is a subtree at (1, 2), number 9 of 16.
+  const json bits = {{"buffers", {{{"byteLength", 4}}}},
+                     {"bufferViews",
+                      {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}},
+                       {{"buffer", 0}, {"byteOffset", 1}, {"byteLength", 1}},
+                       {{"buffer", 0}, {"byteOffset", 2}, {"byteLength", 2}}}},
+                     {"tileAvailability", {{"bitstream", 0}}},
+                     {"contentAvailability", {{{"bitstream", 1}}}},
+                     {"childSubtreeAvailability", {{"bitstream", 2}}}};
+  tiles.add("s/0_0_0.subtree", subtree(bits, std::string("\x0d\x0d\x00\x02\0\0\0\0", 8)));
+  const json all = {{"tileAvailability", {{"constant", 1}}},
+                    {"contentAvailability", {{{"constant", 1}}}},
+                    {"childSubtreeAvailability", {{"constant", 0}}}};
+  tiles.add("s/2_1_2.subtree", subtree(all));
+  for (const char* name : {"c/0_0_0.glb", "c/1_1_0.glb", "c/1_0_1.glb", "c/2_1_2.glb"}) tiles.add(name, box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+  EXPECT_EQ(ids_of(read), (std::set<std::string>{"c/1_1_0.glb", "c/2_1_2.glb"}));
+  EXPECT_EQ(read.report.largest_error_m, 8);
+  EXPECT_EQ(read.report.documents, 3u);
+}
+
+TEST(Tileset, CountsHolesAndGoesOn) {
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = {tile_json(0, "gone.glb"), tile_json(0, "cut.b3dm"), tile_json(0, "../outside.glb"),
+                      tile_json(0, "gone/tileset.json"), tile_json(0, "a.glb")};
+  Tileset tiles(tileset_json(root));
+  tiles.add("cut.b3dm", b3dm(box_glb({{}})).substr(0, 200));
+  tiles.add("a.glb", box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(read.report.holes, 4u);
+  EXPECT_NE(read.report.first_hole.find("gone.glb"), std::string::npos);
+  EXPECT_EQ(ids_of(read), std::set<std::string>{"a.glb"});
+  std::filesystem::remove(tiles.path() / "a.glb");
+  expect_error([&] { tiles.read(); }, ErrorCode::mesh_empty, "tileset.json");
+}
+
+TEST(Tileset, FollowsExternalTilesetsButNotInCircles) {
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = {tile_json(5, "b/tileset.json"), tile_json(0, "a.glb")};
+  Tileset tiles(tileset_json(root));
+  json inner = tile_json(3, "x.glb");
+  inner["children"] = {tile_json(1, "../tileset.json")};
+  tiles.add("b/tileset.json", tileset_json(inner, 4).dump());
+  tiles.add("a.glb", box_glb({{}}));
+  tiles.add("b/x.glb", box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(ids_of(read), (std::set<std::string>{"a.glb", "b/x.glb"}));
+  EXPECT_EQ(read.report.holes, 1u);
+  EXPECT_NE(read.report.first_hole.find("contains itself"), std::string::npos) << read.report.first_hole;
+}
+
+TEST(Tileset, NamesWhatIsWrong) {
+  const auto refuse = [](const json& tileset, ErrorCode code, const TilesetOptions& options = {}) {
+    Tileset tiles(tileset);
+    tiles.add("a.glb", box_glb({{}}));
+    expect_error([&] { tiles.read(options); }, code, "tileset.json");
+  };
+  refuse({}, ErrorCode::mesh_format_unknown);
+  refuse(tileset_json(7), ErrorCode::mesh_syntax);
+  refuse(tileset_json(tile_json(0, "a.glb"), 1, "2.0"), ErrorCode::mesh_unsupported);
+  json needs = tileset_json(tile_json(0, "a.glb"));
+  needs["extensionsRequired"] = {"ACME_other_tiles"};
+  refuse(needs, ErrorCode::mesh_unsupported);
+  json garbled = tile_json(0, "a.glb");
+  garbled["transform"] = {1, 2};
+  refuse(tileset_json(garbled), ErrorCode::mesh_syntax);
+  refuse(tileset_json(tile_json(0)), ErrorCode::region_empty);
+  TilesetOptions options;
+  options.radius_m = 5;
+  refuse(tileset_json(tile_json(0, "a.glb")), ErrorCode::missing_key, options);
+  options.center_deg = {48, 11};
+  refuse(tileset_json(tile_json(0, "a.glb")), ErrorCode::not_georeferenced, options);
+  options.radius_m = -5;
+  refuse(tileset_json(tile_json(0, "a.glb")), ErrorCode::value_out_of_range, options);
+  options = {};
+  options.detail_m = -1;
+  refuse(tileset_json(tile_json(0, "a.glb")), ErrorCode::value_out_of_range, options);
+}
+
+TEST(Tileset, IsAKindOfScene) {
+  EXPECT_EQ(source_kind("a/Tileset.JSON"), SceneSource::Kind::tileset);
+  EXPECT_EQ(source_kind("a/town.json"), SceneSource::Kind::mesh);
+  Tileset tiles(tileset_json(tile_json(0, "a.glb")));
+  tiles.add("a.glb", box_glb({{}}));
+  SceneSource source;
+  source.kind = source_kind(tiles.file());
+  source.file = tiles.file();
+  const LoadedScene loaded = load_scene(source);
+  ASSERT_TRUE(loaded.tileset);
+  EXPECT_EQ(loaded.tileset->triangles, 12u);
+  EXPECT_FALSE(notes_of(loaded).empty());
+}
+
+TEST(Tileset, ManyChildrenAreReadInTime) {
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  json children = json::array();
+  for (int i = 0; i < 100'000; ++i) children.push_back({{"geometricError", 0}});
+  children.push_back(tile_json(0, "a.glb"));
+  root["children"] = std::move(children);
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  EXPECT_EQ(tiles.read().report.tiles, 100'002u);
+}
+
+}  // namespace
+}  // namespace vantage
