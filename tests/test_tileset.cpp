@@ -48,6 +48,13 @@ std::set<std::string> ids_of(const TilesetScene& tiles) {
   return ids;
 }
 
+double unit_normal_z(const Scene& scene, std::size_t triangle) {
+  const Triangle& corners = scene.mesh.triangles[triangle];
+  const Vec3 first = scene.mesh.vertices[corners[0]];
+  const Vec3 a = scene.mesh.vertices[corners[1]] - first, b = scene.mesh.vertices[corners[2]] - first;
+  return unit(Vec3(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x())).z();
+}
+
 TEST(Tileset, ReadsAGlbWithZUp) {
   Tileset tiles(tileset_json(tile_json(0, "a.glb")));
   tiles.add("a.glb", box_glb({{{3, 0, -5}, 7, 0}}));
@@ -86,6 +93,19 @@ TEST(Tileset, ReplacesParentsAndAddsToThem) {
     EXPECT_EQ(at(1).report.largest_error_m, 0);
     EXPECT_EQ(at(1).report.coarse, 0u);
   }
+}
+
+TEST(Tileset, AddsAPlaneAsGround) {
+  Tileset tiles(tileset_json(tile_json(0, "a.glb")));
+  tiles.add("a.glb", box_glb({{{3, 0, -5}, 7, 0}}));
+  TilesetOptions options;
+  options.ground_m = -0.5;
+  const Scene scene = tiles.read(options).scene;
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[1], (SceneObject{"ground", "", ObjectKind::ground}));
+  EXPECT_EQ(scene.mesh.triangles.size(), 14u);
+  EXPECT_EQ(bounding_box(scene.mesh).min, Vec3(3, 4, -0.5));
+  EXPECT_GT(unit_normal_z(scene, 13), 0.99);
 }
 
 TEST(Tileset, SaysWhatIsCoarserThanAsked) {

@@ -34,8 +34,8 @@ struct SceneSource {
 };
 
 /// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .hgt.zip, .vrt and .img
-/// are rasters; tileset.json is a tileset; all else are meshes. Case does not count. VRT and IMG are no formats that
-/// scene_from_raster reads: they are told so that it says what to do.
+/// are rasters; tileset.json and web addresses are tilesets; all else are meshes. Case does not count. VRT and IMG are
+/// no formats that scene_from_raster reads: they are told so that it says what to do.
 VANTAGE_API SceneSource::Kind source_kind(const std::filesystem::path& file);
 
 /// What missions looked up in a scene, kept for those to come: roofs and facades, outlines of the map, the ground.

@@ -24,6 +24,10 @@ struct TilesetOptions {
   /// Metres of geometric error: a tile whose error is larger is refined, where it can be. >= 0.
   double detail_m = 1.0;
 
+  /// z of a plane that is the ground: an object of the kind ground, as wide as the circle or the scene. Empty: none but
+  /// what the tileset has.
+  std::optional<double> ground_m = std::nullopt;
+
   /// The coordinate reference system of a tileset in projected metres: "EPSG:3946"; or "none": metres of no known
   /// place. Empty: as the tileset says, on the earth (ECEF, EPSG:4978) or nowhere.
   std::string crs = {};
@@ -60,7 +64,12 @@ struct TilesetScene {
   TilesetReport report;
 };
 
+/// Whether the file of a tileset is an address on the network, "https://..." or "http://...".
+VANTAGE_API bool is_web_address(const std::filesystem::path& file);
+
 /// Reads a tileset of 3D Tiles 1.0 or 1.1: `file` is its tileset.json. All other files must lie in its folder or below.
+/// It may be a web address; all files then come from that server, which gets what the address has as `key`, and what
+/// it gives as `session`, with every request. libcurl is loaded for it. Nothing is kept on disk.
 ///
 /// Contents are glTF, GLB, b3dm, i3dm and cmpt; clouds of points are counted. Draco and meshopt compression are
 /// unpacked where vantage was built with these libraries. Textures are not read. Each feature of a batch table or of
@@ -75,7 +84,8 @@ struct TilesetScene {
 /// Throws Error(input) for: a tileset.json that cannot be read, options that are out of range, a centre outside of the
 /// tileset, nothing within the radius, no file that can be read, a tileset without end (more than 5 million tiles,
 /// 20,000 tileset.json and subtrees, or 200 million triangles); where a file needs a library that vantage was built
-/// without. Error(cancelled) when told to stop. Cost: linear in the tiles looked at and the files read, on one thread.
+/// without, or libcurl is not installed; a server that refuses the key or ends the session (401, 403). Error(cancelled)
+/// when told to stop. Cost: linear in the tiles looked at and the files read, on one thread.
 VANTAGE_API TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options = {},
                                       const Progress& progress = {});
 

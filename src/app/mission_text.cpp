@@ -88,6 +88,7 @@ class Writer {
  private:
   /// Relative to the folder where it lies in it.
   std::string path(const fs::path& file) const {
+    if (is_web_address(file)) return quoted(file.string());
     const fs::path relative = file.lexically_relative(folder_);
     const bool is_below = !relative.empty() && *relative.begin() != "..";
     return quoted((is_below ? relative : file).string());
@@ -122,6 +123,7 @@ class Writer {
         if (source.tileset.center_deg) section.add("center", list_of(*source.tileset.center_deg));
         if (source.tileset.radius_m) section.add("radius", *source.tileset.radius_m);
         section.add("detail", source.tileset.detail_m);
+        if (source.tileset.ground_m) section.add("ground", *source.tileset.ground_m);
         if (!source.tileset.crs.empty()) section.add("crs", quoted(source.tileset.crs));
         break;
     }

@@ -36,6 +36,7 @@ const char* what_of(SceneSource::Kind kind) {
 
 void check_scene(MissionFile& mission) {
   SceneSource& scene = mission.scene;
+  if (scene.kind == SceneSource::Kind::tileset && is_web_address(scene.file)) return;
   check_readable(scene.file, what_of(scene.kind), mission.places.scene);
   scene.file = with_true_folder(scene.file);
   if (!scene.city.terrain.empty()) {

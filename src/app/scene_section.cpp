@@ -54,7 +54,8 @@ class SceneParser {
       named = entry;
       first = key;
       section_.source.kind = kind;
-      section_.source.file = folder_ / reader_.text(*entry, std::string("scene.") + key);
+      const std::filesystem::path file = reader_.text(*entry, std::string("scene.") + key);
+      section_.source.file = kind == Kind::tileset && is_web_address(file) ? file : folder_ / file;
       section_.where = place_in(reader_.file(), entry->place);
     }
     if (!named) {
@@ -112,6 +113,9 @@ class SceneParser {
     if (center) {
       tileset.center_deg = region.center_deg;
       tileset.radius_m = region.radius_m;
+    }
+    if (const YamlNode* ground = take("ground", {Kind::tileset}, "tilesets")) {
+      tileset.ground_m = reader_.length(*ground, "scene.ground");
     }
     if (const YamlNode* detail = take("detail", {Kind::tileset}, "tilesets")) {
       tileset.detail_m = reader_.length(*detail, "scene.detail");

@@ -52,6 +52,7 @@ LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
 }  // namespace
 
 SceneSource::Kind source_kind(const std::filesystem::path& file) {
+  if (is_web_address(file)) return SceneSource::Kind::tileset;
   std::string name = file.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   if (ends_with_any(name, {".osm", ".osm.gz", ".osm.bz2", ".pbf"})) return SceneSource::Kind::map;

@@ -121,7 +121,7 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
 }  // namespace
 
 SceneSource scene_source(const SceneOptions& options, const std::string& what) {
-  check_readable(options.input, what, "");
+  if (!is_web_address(options.input)) check_readable(options.input, what, "");
   SceneSource source = source_of(options);
   check_options(options, source.kind);
   return source;

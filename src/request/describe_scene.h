@@ -30,6 +30,11 @@ inline constexpr std::array kSceneKeys = {
          .without = "1"},
         Kind::number,
         Unit::metres},
+    Own{{.path = "ground",
+         .says = "for a tileset, the z of a plane that is its ground",
+         .without = "none but what the tileset has"},
+        Kind::number,
+        Unit::metres},
     Own{{.path = "up",
          .says = "the axis of the mesh file that points up, `y` or `z`",
          .more = "A point (x, y, z) of a y-up file is (x, -z, y) in the scene frame. glTF is y up by its "

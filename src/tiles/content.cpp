@@ -127,7 +127,7 @@ ContentReader::Parts ContentReader::split(const std::string& address, std::strin
 bool ContentReader::read_gltf(const std::string& address, std::string_view bytes, const Placement& placement) {
   const io::MeshSource source(source_.shown(address), std::string(bytes));
   const auto from_here = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
-  const auto mesh = surfaces_of(source, progress_, limits_, {address, {}, from_here});
+  const auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here});
   if (!mesh) return false;
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(mesh->center) * upright(placement.gltf_up),
                  source_.shown(address));
@@ -137,10 +137,10 @@ bool ContentReader::read_gltf(const std::string& address, std::string_view bytes
 bool ContentReader::read_batched(const std::string& address, std::string_view bytes, const Placement& placement) {
   const Parts parts = split(address, bytes, kBatchedHeader);
   const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
-  const BatchTable batch(parts.batch_json, parts.batch_binary, address, progress_, limits_);
+  const BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
   const std::vector<double> about = features.global("RTC_CENTER", 3).value_or(std::vector<double>{0, 0, 0});
   const io::MeshSource source(source_.shown(address), std::string(parts.rest));
-  io::TileContext context{address, {}, {}};
+  io::TileContext context{source_.name(address), {}, {}};
   if (features.whole("BATCH_LENGTH") > 0) context.batch = [&batch](std::uint64_t id) { return batch.identity(id); };
   context.read_file = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
   const auto mesh = surfaces_of(source, progress_, limits_, context);
@@ -154,7 +154,7 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
 bool ContentReader::read_instanced(const std::string& address, std::string_view bytes, const Placement& placement) {
   const Parts parts = split(address, bytes, kInstancedHeader);
   const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
-  const BatchTable batch(parts.batch_json, parts.batch_binary, address, progress_, limits_);
+  const BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
   std::string model = address;
   std::string content(parts.rest);
   if (load_word(bytes, 28) == 0) {  // the model is another file
@@ -163,7 +163,7 @@ bool ContentReader::read_instanced(const std::string& address, std::string_view 
   }
   const io::MeshSource source(source_.shown(model), std::move(content));
   const auto from_model = [&](const std::string& uri) { return source_.read(source_.resolve(model, uri), progress_); };
-  const auto mesh = surfaces_of(source, progress_, limits_, {address, {}, from_model});
+  const auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_model});
   if (!mesh) return false;
   const Transform shape = Eigen::Translation3d(mesh->center) * upright(placement.gltf_up);
   for (const Instance& instance : instances_of(features, placement.into_world)) {

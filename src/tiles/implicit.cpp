@@ -13,7 +13,7 @@ namespace {
 // Deepest tree: its coordinates fit in 63 bits when they are interleaved.
 constexpr std::uint32_t kMostLevels = 21;
 // Bits of one subtree: a quadtree of 12 levels, an octree of 8.
-constexpr std::uint64_t kMostTiles = std::uint64_t{1} << 25U;
+constexpr std::uint64_t kMostBits = std::uint64_t{1} << 25U;
 
 std::uint64_t whole_of(const Json& object, const char* key, std::uint64_t otherwise, std::uint64_t most) {
   const auto found = object.find(key);
@@ -142,7 +142,7 @@ ImplicitTree::ImplicitTree(std::shared_ptr<const TilesetDocument> of, const Tile
     levels = static_cast<std::uint32_t>(is_older ? whole_of(described, "maximumLevel", 0, kMostLevels - 1) + 1
                                                  : whole_of(described, "availableLevels", 0, kMostLevels));
     const double bits = std::pow(shape.children, shape.levels);
-    if (shape.levels == 0 || levels == 0 || bits > static_cast<double>(kMostTiles)) {
+    if (shape.levels == 0 || levels == 0 || bits > static_cast<double>(kMostBits)) {
       throw std::string("its subtrees have too many levels, or none");
     }
     const Json& files = member_of(described, "subtrees");

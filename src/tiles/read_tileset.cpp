@@ -6,6 +6,8 @@
 
 #include "common/input.h"
 #include "core/format.h"
+#include "core/read_limits.h"
+#include "tiles/http_source.h"
 #include "tiles/place.h"
 #include "tiles/walk.h"
 
@@ -32,6 +34,9 @@ void check_options(const TilesetOptions& options, const std::string& where) {
   if (!(options.detail_m >= 0) || !std::isfinite(options.detail_m)) {
     refuse(ErrorCode::value_out_of_range, "the detail of a tileset is not a length",
            "give the largest geometric error in metres, as in 1.0");
+  }
+  if (options.ground_m && !(std::abs(*options.ground_m) <= core::kMaxCoordinate)) {
+    refuse(ErrorCode::value_out_of_range, "the ground of a tileset is not a height", "give its z in metres");
   }
 }
 
@@ -91,6 +96,28 @@ std::size_t keep_within(Scene& scene, double radius_m) {
   return left_out;
 }
 
+/// A square of two triangles, which faces up.
+void add_ground(Scene& scene, double z, const std::optional<double>& radius_m) {
+  Box box = bounding_box(scene.mesh);
+  if (radius_m) {
+    box.extend(Vec3(-*radius_m, -*radius_m, z));
+    box.extend(Vec3(*radius_m, *radius_m, z));
+  }
+  const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+  const auto object = static_cast<std::uint32_t>(scene.objects.size());
+  for (const auto& [x, y] : {std::pair{box.min.x(), box.min.y()},
+                             {box.max.x(), box.min.y()},
+                             {box.max.x(), box.max.y()},
+                             {box.min.x(), box.max.y()}}) {
+    scene.mesh.vertices.emplace_back(x, y, z);
+  }
+  scene.mesh.triangles.push_back({first, first + 1, first + 2});
+  scene.mesh.triangles.push_back({first, first + 2, first + 3});
+  scene.object_of.insert(scene.object_of.end(), 2, object);
+  scene.objects.push_back({"ground", "", ObjectKind::ground});
+  scene.notes.push_back(core::format("the ground is a plane at z = {:.6g} m, as asked for", z));
+}
+
 [[noreturn]] void fail_for_nothing(const TilesetReport& report, const std::string& where) {
   if (report.objects_outside > 0) {
     throw Error(ErrorCode::region_empty,
@@ -131,6 +158,7 @@ TilesetScene read(TileSource& source, const std::filesystem::path& file, const T
   if (options.radius_m) result.report.objects_outside = keep_within(result.scene, *options.radius_m);
   if (result.scene.mesh.triangles.empty()) fail_for_nothing(result.report, file.string());
   if (world == World::earth) measure_frame(result.scene, result.report);
+  if (options.ground_m) add_ground(result.scene, *options.ground_m, options.radius_m);
   result.report.triangles = result.scene.mesh.triangles.size();
   result.report.objects = result.scene.objects.size();
   for (std::string& note : notes_of(result.report)) result.scene.notes.push_back(std::move(note));
@@ -169,9 +197,16 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
   return notes;
 }
 
+bool is_web_address(const std::filesystem::path& file) { return internal::tiles::is_http(file.string()); }
+
 TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options, const Progress& callback) {
-  const internal::core::ProgressReporter progress(callback, file.string());
+  const internal::core::ProgressReporter progress(callback, internal::tiles::without_query(file.string()));
   try {
+    const std::string address = file.string();
+    if (internal::tiles::is_http(address)) {
+      internal::tiles::HttpSource source(address);
+      return internal::tiles::read(source, internal::tiles::without_query(address), options, progress);
+    }
     internal::tiles::FolderSource source(file);
     return internal::tiles::read(source, file, options, progress);
   } catch (const std::bad_alloc&) {

@@ -5,8 +5,15 @@
 #include <string>
 
 #include "core/progress_reporter.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::tiles {
+
+/// No file of the source can be read any more: a server has ended the session.
+class SourceClosed : public Error {
+ public:
+  explicit SourceClosed(const Error& error) : Error(error) {}
+};
 
 /// Files by their address: a path from the tileset's folder, or a URL.
 class TileSource {
@@ -25,6 +32,8 @@ class TileSource {
   virtual std::string read(const std::string& address, const core::ProgressReporter& progress) = 0;
   /// What people call it, in errors.
   virtual std::string shown(const std::string& address) const = 0;
+  /// The same in ids of objects: short, and without keys.
+  virtual std::string name(const std::string& address) const { return address; }
 };
 
 /// Files of the folder that holds `tileset`, and of folders below it, links followed.

@@ -19,6 +19,7 @@ constexpr int kDeepest = 1'000;
 
 /// Whether no other file will be read better: then the walk ends.
 bool ends_all(const Error& error) {
+  if (dynamic_cast<const SourceClosed*>(&error)) return true;
   switch (error.code()) {
     case ErrorCode::cancelled:
     case ErrorCode::out_of_memory:

@@ -1,0 +1,204 @@
+// Tilesets over the network: a server on this machine that behaves as those of Google's tiles do.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/mesh_reading.h"
+#include "support/tile_files.h"
+#include "support/wording.h"
+#include "tiles/http_source.h"
+#include "vantage/tileset.h"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using testing::box_glb;
+using testing::expect_code;
+using testing::tile_json;
+using testing::tileset_json;
+
+struct Answer {
+  int status = 200;
+  std::string body;
+  std::string headers = {};
+};
+
+/// Answers one request after the other, on a port of its own.
+class Server {
+ public:
+  using Handler = std::function<Answer(const std::string& target)>;
+
+  explicit Server(Handler handler) : handler_(std::move(handler)) {
+    socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof address;
+    if (::bind(socket_, reinterpret_cast<sockaddr*>(&address), length) != 0 || ::listen(socket_, 16) != 0) return;
+    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &length);
+    port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~Server() {
+    is_over_ = true;
+    ::shutdown(socket_, SHUT_RDWR);
+    ::close(socket_);
+    if (thread_.joinable()) thread_.join();
+  }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  std::string url(const std::string& target) const { return "http://127.0.0.1:" + std::to_string(port_) + target; }
+  std::vector<std::string> asked() {
+    const std::lock_guard lock(mutex_);
+    return asked_;
+  }
+
+ private:
+  void serve() {
+    while (!is_over_) {
+      const int connection = ::accept(socket_, nullptr, nullptr);
+      if (connection < 0) return;
+      std::string request;
+      char buffer[4096];
+      while (request.find("\r\n\r\n") == std::string::npos) {
+        const ssize_t got = ::recv(connection, buffer, sizeof buffer, 0);
+        if (got <= 0) break;
+        request.append(buffer, static_cast<std::size_t>(got));
+      }
+      const std::size_t start = request.find(' ') + 1;
+      const std::string target = request.substr(start, request.find(' ', start) - start);
+      {
+        const std::lock_guard lock(mutex_);
+        asked_.push_back(target);
+      }
+      const Answer answer = handler_(target);
+      const std::string text = "HTTP/1.1 " + std::to_string(answer.status) +
+                               " x\r\nContent-Length: " + std::to_string(answer.body.size()) +
+                               "\r\nConnection: close\r\n" + answer.headers + "\r\n" + answer.body;
+      for (std::size_t sent = 0; sent < text.size();) {
+        const ssize_t more = ::send(connection, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+        if (more <= 0) break;
+        sent += static_cast<std::size_t>(more);
+      }
+      ::close(connection);
+    }
+  }
+
+  Handler handler_;
+  int socket_ = -1;
+  int port_ = 0;
+  std::atomic<bool> is_over_ = false;
+  std::mutex mutex_;
+  std::vector<std::string> asked_;
+  std::thread thread_;
+};
+
+bool has(const std::string& target, const std::string& part) { return target.find(part) != std::string::npos; }
+
+/// The root needs the key, and gives children with a session, which all below them need as well as the key.
+class Photorealistic {
+ public:
+  int files_in_session = 1000;
+
+  Answer answer(const std::string& target) {
+    if (!has(target, "key=SECRET")) return {403, "no key"};
+    if (has(target, "/v1/3dtiles/root.json")) {
+      json root = tile_json(1e6, "", 100);
+      root["children"] = {tile_json(1e3, "/v1/3dtiles/datasets/abc/files/top.json?session=S1")};
+      return {200, tileset_json(root).dump()};
+    }
+    if (!has(target, "session=S1") || files_in_session-- <= 0) return {403, "over"};
+    if (has(target, "top.json")) {
+      json root = tile_json(1e3, "coarse.glb");
+      root["children"] = {tile_json(1, "a.glb"), tile_json(1, "/v1/3dtiles/datasets/abc/files/b.glb")};
+      return {200, tileset_json(root).dump()};
+    }
+    return {200, box_glb({{}})};
+  }
+};
+
+/// Skips where there is no libcurl.
+#define VANTAGE_REQUIRE_CURL()           \
+  try {                                  \
+    internal::tiles::HttpClient("here"); \
+  } catch (const Error& error) {         \
+    GTEST_SKIP() << error.what();        \
+  }
+
+TEST(TilesetHttp, PassesTheKeyAndTheSessionOn) {
+  VANTAGE_REQUIRE_CURL();
+  Photorealistic tiles;
+  Server server([&](const std::string& target) { return tiles.answer(target); });
+  const TilesetScene read = read_tileset(server.url("/v1/3dtiles/root.json?key=SECRET"));
+  EXPECT_EQ(read.report.contents, 2u);
+  EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+  EXPECT_EQ(read.report.triangles, 24u);
+  for (const std::string& target : server.asked()) {
+    EXPECT_TRUE(has(target, "key=SECRET")) << target;
+    EXPECT_EQ(has(target, "session=S1"), !has(target, "root.json")) << target;
+    EXPECT_FALSE(has(target, "coarse")) << target;
+  }
+  EXPECT_EQ(server.asked().size(), 4u);
+  EXPECT_FALSE(has(read.scene.source.string(), "SECRET"));
+  for (const SceneObject& object : read.scene.objects) EXPECT_FALSE(has(display_name(object), "SECRET"));
+}
+
+TEST(TilesetHttp, AnEndedSessionIsOneError) {
+  VANTAGE_REQUIRE_CURL();
+  Photorealistic tiles;
+  tiles.files_in_session = 2;
+  Server server([&](const std::string& target) { return tiles.answer(target); });
+  const Error over = expect_code([&] { read_tileset(server.url("/v1/3dtiles/root.json?key=SECRET")); },
+                                 ErrorCode::file_unreadable, "127.0.0.1");
+  EXPECT_TRUE(has(over.problem(), "403")) << over.what();
+  EXPECT_FALSE(has(over.what(), "SECRET"));
+  const Error wrong = expect_code([&] { read_tileset(server.url("/v1/3dtiles/root.json?key=WRONG")); },
+                                  ErrorCode::file_unreadable, "root.json");
+  EXPECT_FALSE(has(wrong.what(), "WRONG"));
+}
+
+TEST(TilesetHttp, MissingFilesAreHolesAndOtherServersAreNotAsked) {
+  VANTAGE_REQUIRE_CURL();
+  std::atomic<int> busy = 1;
+  Server server([&](const std::string& target) -> Answer {
+    if (has(target, "gone")) return {404, "gone"};
+    if (has(target, "moved")) return {302, "", "Location: http://127.0.0.1:1/x\r\n"};
+    if (has(target, "busy") && busy-- > 0) return {503, "later"};
+    if (has(target, ".glb")) return {200, box_glb({{}})};
+    json root = tile_json(10);
+    root["refine"] = "ADD";
+    root["children"] = {tile_json(0, "gone.glb"), tile_json(0, "http://127.0.0.2:80/a.glb"), tile_json(0, "moved.glb"),
+                        tile_json(0, "file:///etc/passwd"), tile_json(0, "../../busy.glb")};
+    return {200, tileset_json(root).dump()};
+  });
+  const TilesetScene read = read_tileset(server.url("/x/tileset.json"));
+  EXPECT_EQ(read.report.contents, 1u);
+  EXPECT_EQ(read.report.holes, 4u);
+  EXPECT_EQ(server.asked().back(), "/busy.glb");
+}
+
+TEST(TilesetHttp, NobodyAnswers) {
+  VANTAGE_REQUIRE_CURL();
+  std::string url;
+  {
+    Server server([](const std::string&) { return Answer{}; });
+    url = server.url("/tileset.json");
+    expect_code([&] { read_tileset(url); }, ErrorCode::file_empty, "127.0.0.1");
+  }
+  expect_code([&] { read_tileset(url); }, ErrorCode::file_unreadable, "127.0.0.1");
+}
+
+}  // namespace
+}  // namespace vantage
