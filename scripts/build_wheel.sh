@@ -40,6 +40,8 @@ CMAKE_BUILD_PARALLEL_LEVEL=$jobs "$tools/bin/python" -m pip wheel --disable-pip-
   --config-settings=cmake.define.CMAKE_PREFIX_PATH="$deps/prefix" \
   --config-settings=cmake.define.PKG_CONFIG_ARGN=--static \
   --config-settings=cmake.define.VANTAGE_LINK_PROJ=ON \
+  --config-settings=cmake.define.VANTAGE_WITH_DRACO=OFF \
+  --config-settings=cmake.define.VANTAGE_WITH_MESHOPT=OFF \
   --config-settings=cmake.define.VANTAGE_WHEEL=ON \
   . >"$build/log" 2>&1 </dev/null || { tail -n 40 "$build/log" >&2; echo "the whole log: $build/log" >&2; exit 1; }
 grep -h '^licences:' "$build/log" || true

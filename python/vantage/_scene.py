@@ -40,6 +40,8 @@ def _reader_of(file: Any) -> str:
     """The function that reads files with such a name; empty where it says nothing."""
     name = os.fspath(file).lower() if isinstance(file, (str, os.PathLike)) else ""
     name = name if isinstance(name, str) else ""
+    if os.path.basename(name) == "tileset.json":
+        return "from_tiles"
     for reader, endings in (("from_osm", _MAPS), ("from_raster", _RASTERS)):
         if name.endswith(endings):
             return reader
@@ -146,6 +148,27 @@ class Scene(Triangles):
                           "origin": origin, "sea_level": sea_level}, progress)
 
     @classmethod
+    def from_tiles(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
+                   detail: float | None = None, ground: float | None = None, crs: str | None = None, sea_level: float | None = None,
+                   progress: Progress = None) -> Scene:
+        """Reads a tileset of 3D Tiles: docs/tilesets.md.
+
+        Args:
+            path: its tileset.json, or the address of one, "https://...".
+            center: (latitude, longitude) of the part that is read, with `radius` in metres. Default: all of it.
+            detail: the largest geometric error of a tile that is not refined, metres. Default: 1.
+            ground: z of a plane that is the ground. Default: none but what the tileset has.
+            crs: the coordinate reference system of a tileset in projected metres: "EPSG:3946".
+            sea_level: z of the mean sea level.
+            progress: called with stage and fraction; False stops.
+
+        Raises:
+            Error: the tileset cannot be read, or has nothing there. Files that are missing are holes: see `report`.
+        """
+        return cls._load({"tiles": path, "center": center, "radius": radius, "detail": detail, "ground": ground, "crs": crs,
+                          "sea_level": sea_level}, progress)
+
+    @classmethod
     def from_bytes(cls, data: bytes | bytearray | memoryview, format: str, **options: Any) -> Scene:
         """Reads a file that is in memory. `format`: the end of a name, "obj", "osm.pbf"; `options` are those of from_mesh or
         from_osm."""
@@ -206,9 +229,10 @@ class Scene(Triangles):
     def _load(cls, keys: Mapping[str, Any], progress: Progress) -> Scene:
         text = Text()
         given = {key: value for key, value in keys.items() if value is not None}
-        for key in ("mesh", "osm", "raster"):
+        for key in ("mesh", "osm", "raster", "tiles"):
             if key in keys:
-                given[key] = path(keys[key])
+                is_web = key == "tiles" and str(keys[key]).startswith(("http://", "https://"))
+                given[key] = str(keys[key]) if is_web else path(keys[key])
         if "terrain" in given:
             given["terrain"] = path(given["terrain"], "terrain")
         text.add("scene", given, "scene")
@@ -416,12 +440,13 @@ def _place(value: Any) -> Georeference | None:
 
 def _with_reader(error: Error, given: Mapping[str, Any]) -> Error:
     """Which function reads a file that another one was called with."""
-    asked = next(key for key in ("mesh", "osm", "raster") if key in given)
+    asked = next(key for key in ("mesh", "osm", "raster", "tiles") if key in given)
     reader = _reader_of(given[asked])
     is_told = error.kind == "input" and error.code not in ("file-not-found", "file-unreadable")
     if not is_told or reader in ("", f"from_{asked}"):
         return error
-    kind = {"from_osm": "a map", "from_raster": "a raster of heights", "from_mesh": "a mesh"}[reader]
+    kind = {"from_osm": "a map", "from_raster": "a raster of heights", "from_tiles": "a tileset of 3D Tiles",
+            "from_mesh": "a mesh"}[reader]
     return make(error.kind, error.code, error.problem, error.where,
                 f"by its name it is {kind}: call vt.Scene.{reader}", error.object)
 
