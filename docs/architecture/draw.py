@@ -20,7 +20,8 @@ MODULES = {  # name: (left, top, width, what it does)
     "maps/terrain": (190, 374, 150, "heights (GDAL)"),
     "solid": (360, 374, 240, "booleans (Manifold), cuts"),
     "target": (620, 374, 180, "frame, lift, range"),
-    "io": (20, 464, 320, "mesh formats, both directions (zlib)"),
+    "io": (20, 464, 215, "mesh formats (zlib, Draco)"),
+    "tiles": (250, 464, 90, "3D Tiles"),
     "arrangement": (360, 464, 240, "many solids at once"),
     "scene": (620, 464, 420, "weld, merge, hierarchy"),
     "geo": (20, 554, 210, "where on the earth (PROJ)"),
@@ -33,7 +34,7 @@ MODULES = {  # name: (left, top, width, what it does)
 USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"), ("cli", "prove"),
         ("cli", "simplify"), ("app", "maps/city"), ("app", "spheres"),
         ("query", "exact"), ("picture", "depth"), ("maps/city", "maps/osm"), ("maps/city", "maps/terrain"),
-        ("spheres", "solid"), ("solid", "arrangement"), ("exact", "target"), ("depth", "scene"), ("target", "scene"), ("io", "geo"),
+        ("spheres", "solid"), ("solid", "arrangement"), ("exact", "target"), ("depth", "scene"), ("target", "scene"), ("io", "geo"), ("tiles", "geo"),
         ("io", "camera"), ("scene", "core"), ("geo", "core"), ("camera", "core"),
         ("options", "core"), ("request", "core")]
 HEIGHT = 58
