@@ -80,6 +80,7 @@ SceneSource source_of(const SceneOptions& options) {
   source.tileset.center_deg = region.center_deg;
   if (region.center_deg) source.tileset.radius_m = region.radius_m;
   source.tileset.crs = options.crs;
+  if (!options.ground.empty()) source.tileset.ground_m = length_option("--ground", options.ground);
   if (!options.detail.empty()) source.tileset.detail_m = length_option("--detail", options.detail);
   if (!options.window.empty()) source.raster.region.pixels = window_of(options.window);
   if (!options.error.empty()) {
@@ -105,6 +106,7 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   };
   only_for(!options.center.empty(), "--center", {Kind::map, Kind::raster, Kind::tileset}, "maps, rasters and tilesets");
   only_for(!options.detail.empty(), "--detail", {Kind::tileset}, "tilesets");
+  only_for(!options.ground.empty(), "--ground", {Kind::tileset}, "tilesets");
   only_for(!options.bbox.empty(), "--bbox", {Kind::map, Kind::raster}, "maps and rasters");
   only_for(!options.error.empty(), "--error", {Kind::map, Kind::raster}, "terrain and rasters");
   only_for(!options.terrain.empty(), "--terrain", {Kind::map}, "maps");
@@ -150,6 +152,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->option_text("KIND");
   command.add_option("--detail", options.detail, "Largest geometric error of a tile of 3D Tiles (default 1)")
       ->option_text("METRES");
+  command.add_option("--ground", options.ground, "Height of a plane that is the ground of a tileset (default: none)")
+      ->option_text("Z");
   command.add_option("--lod", options.lod, "Level of detail of CityJSON (default: the highest)")->option_text("LOD");
   command
       .add_option("--crs", options.crs, "Reference system of the coordinates of a mesh or tileset, such as EPSG:28992")
