@@ -9,6 +9,7 @@
 #include "io/gltf_tile.h"
 #include "io/mesh_codecs.h"
 #include "support/mesh_reading.h"
+#include "support/random.h"
 #include "support/tile_files.h"
 
 namespace vantage::internal::io {
@@ -169,6 +170,30 @@ TEST(ReadGltfPacked, ReadsMeshopt) {
   expect_code([&] { read_as("a.glb", meshopt_glb(kVertices, kIndices, std::uint64_t{1} << 40)); },
               ErrorCode::mesh_syntax);
   expect_code([&] { read_as("a.glb", meshopt_glb(kIndices, kVertices)); }, ErrorCode::mesh_syntax);
+}
+
+TEST(ReadGltfPacked, SurvivesMutations) {
+  testing::Random random(20260713);
+  int read = 0, refused = 0;
+  for (const std::string& whole : {draco_glb(kSequential), draco_glb(kEdgebreaker), meshopt_glb(kVertices, kIndices)}) {
+    for (int i = 0; i < 1000; ++i) {
+      std::string bytes = whole;
+      for (int changes = random.integer(1, 4); changes > 0; --changes) {
+        const auto at = static_cast<std::size_t>(random.integer(0, static_cast<int>(bytes.size()) - 1));
+        bytes[at] = static_cast<char>(random.integer(0, 255));
+      }
+      try {
+        const RawMesh mesh = read_as("a.glb", bytes);
+        for (const Vec3& vertex : mesh.vertices) EXPECT_TRUE(vertex.allFinite());
+        ++read;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_EQ(read + refused, 3000);
+  EXPECT_GT(refused, 1000);
 }
 
 TEST(ReadGltfPacked, ReadsInstances) {

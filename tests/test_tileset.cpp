@@ -295,7 +295,7 @@ TEST(Tileset, NamesWhatIsWrong) {
   json garbled = tile_json(0, "a.glb");
   garbled["transform"] = {1, 2};
   refuse(tileset_json(garbled), ErrorCode::mesh_syntax);
-  refuse(tileset_json(tile_json(0)), ErrorCode::region_empty);
+  refuse(tileset_json(tile_json(0)), ErrorCode::mesh_empty);
   TilesetOptions options;
   options.radius_m = 5;
   refuse(tileset_json(tile_json(0, "a.glb")), ErrorCode::missing_key, options);

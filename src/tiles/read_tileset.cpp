@@ -118,7 +118,7 @@ void add_ground(Scene& scene, double z, const std::optional<double>& radius_m) {
   scene.notes.push_back(core::format("the ground is a plane at z = {:.6g} m, as asked for", z));
 }
 
-[[noreturn]] void fail_for_nothing(const TilesetReport& report, const std::string& where) {
+[[noreturn]] void fail_for_nothing(const TilesetReport& report, bool has_circle, const std::string& where) {
   if (report.objects_outside > 0) {
     throw Error(ErrorCode::region_empty,
                 "nothing of the tileset lies in the circle: the nearest tiles have " +
@@ -135,6 +135,9 @@ void add_ground(Scene& scene, double z, const std::optional<double>& radius_m) {
                 "the tiles hold no triangles (" + std::to_string(report.without_surfaces) +
                     " files of points or lines were passed over)",
                 where, "give a tileset of meshes");
+  }
+  if (!has_circle) {
+    throw Error(ErrorCode::mesh_empty, "no tile of the tileset has a content", where, "give a tileset of meshes");
   }
   throw Error(ErrorCode::region_empty, "no tile of the tileset with a content reaches into the circle", where,
               "give another center, or a larger radius");
@@ -153,10 +156,10 @@ TilesetScene read(TileSource& source, const std::filesystem::path& file, const T
 
   Collector collected;
   Walk(source, collected, reach, options.detail_m, result.report, progress, limits).run(document);
-  if (collected.triangles.empty()) fail_for_nothing(result.report, file.string());
+  if (collected.triangles.empty()) fail_for_nothing(result.report, reach.is_limited(), file.string());
   result.scene = placed_scene(world, std::move(collected), options, file);
   if (options.radius_m) result.report.objects_outside = keep_within(result.scene, *options.radius_m);
-  if (result.scene.mesh.triangles.empty()) fail_for_nothing(result.report, file.string());
+  if (result.scene.mesh.triangles.empty()) fail_for_nothing(result.report, reach.is_limited(), file.string());
   if (world == World::earth) measure_frame(result.scene, result.report);
   if (options.ground_m) add_ground(result.scene, *options.ground_m, options.radius_m);
   result.report.triangles = result.scene.mesh.triangles.size();
