@@ -12,6 +12,7 @@
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/result.h"
+#include "vantage/tileset.h"
 
 namespace vantage {
 
@@ -23,7 +24,9 @@ ResultRequest result_request(const Mission& mission, const Result& result, std::
   ResultRequest request{std::move(volumes), mission.scene().up, mission.scene().scale};
   ReportSource& source = request.source;
   source.mission = mission.as_written.file.string();
-  source.scene = mission.as_written.scene.file.string();
+  // A web address may hold a key: the scene's own does not.
+  const std::filesystem::path& file = mission.as_written.scene.file;
+  source.scene = (is_web_address(file) ? mission.scene().source : file).string();
   source.target = mission.target.name;
   if (result.spheres) source.spheres = SpheresRun{mission.as_written.spheres, *result.spheres};
   return request;

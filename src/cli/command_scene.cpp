@@ -77,7 +77,7 @@ int run_scene(const SceneArguments& options) {
   if (options.json) {
     print(json_text(loaded));
   } else if (!options.common.quiet) {
-    print(scene_table(loaded, source.file, written));
+    print(scene_table(loaded, is_web_address(source.file) ? loaded.scene.source : source.file, written));
   }
   return kSuccess;
 }

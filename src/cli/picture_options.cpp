@@ -10,6 +10,7 @@
 #include "common/input.h"
 #include "common/output.h"
 #include "vantage/error.h"
+#include "vantage/tileset.h"
 
 namespace vantage::cli {
 namespace {
@@ -107,7 +108,8 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   } else if (volume != nullptr) {
     text += dot + grouped(enclosed_volume(volume->mesh)) + "\u2009m\u00b3";
   }
-  return text + dot + mission.as_written.scene.file.filename().string();
+  const std::filesystem::path& file = mission.as_written.scene.file;  // a web address may hold a key
+  return text + dot + (is_web_address(file) ? mission.scene().source : file).filename().string();
 }
 
 }  // namespace vantage::cli
