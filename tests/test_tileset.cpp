@@ -160,6 +160,65 @@ TEST(Tileset, LeavesOutTilesAndObjectsBeyondTheRadius) {
   EXPECT_EQ(tiles.read(options).report.holes, 1u);
 }
 
+// Contents of some exporters do.
+TEST(Tileset, ReadsWhatSticksOutOfItsTile) {
+  json root = tile_json(10, "", 5000);
+  root["transform"] = testing::transform_at(52, 4.4);
+  root["children"] = {tile_json(0, "a.glb", 60)};
+  root["children"][0]["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 170, 0, 0, 1};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{{-120, 0, 0}, 1, 0}}));  // 50 m from the middle; the tile begins at 110 m
+  TilesetOptions options;
+  options.center_deg = {52, 4.4};
+  options.radius_m = 80;
+  EXPECT_EQ(tiles.read(options).report.triangles, 12u);
+}
+
+TEST(Tileset, IsOnTheEarthOrSaysSo) {
+  TilesetOptions options;
+  options.center_deg = {52, 4.4};
+  options.radius_m = 80;
+  const auto read_with = [](const json& volume, const TilesetOptions& how) {
+    json root = tile_json(0, "a.glb");
+    root["transform"] = testing::transform_at(52, 4.4);
+    root["boundingVolume"] = volume;
+    Tileset tiles(tileset_json(root));
+    tiles.add("a.glb", box_glb({{}}));
+    return tiles.read(how).report.triangles;
+  };
+  const json s2 = {{"extensions", {{"3DTILES_bounding_volume_S2", {{"token", "47c5"}}}}}};
+  const json below_the_pole = {{"region", {0, -1.75, 1, -1.66, 0, 100}}};
+  const json around_all = {{"sphere", {0, 0, 0, 1e7}}};
+  EXPECT_EQ(read_with(s2, options), 12u);
+  EXPECT_EQ(read_with(below_the_pole, options), 12u);
+  EXPECT_EQ(read_with(around_all, options), 12u);
+  expect_error([&] { read_with(json::object(), {}); }, ErrorCode::not_georeferenced, "tileset.json");
+  json local = tile_json(0, "a.glb");
+  local["boundingVolume"] = around_all;
+  Tileset lazy(tileset_json(local));
+  lazy.add("a.glb", box_glb({{}}));
+  expect_error([&] { lazy.read(); }, ErrorCode::not_georeferenced, "tileset.json");
+  json moon = tileset_json(tile_json(0, "a.glb"));
+  moon["extensions"]["3DTILES_ellipsoid"]["radii"] = {1737400, 1737400, 1737400};
+  Tileset of_moon(moon);
+  expect_error([&] { of_moon.read(); }, ErrorCode::mesh_unsupported, "tileset.json");
+}
+
+TEST(Tileset, AMeshMayBeNamedAsATileset) {
+  json root = tile_json(50, "a.json");
+  root["children"] = {tile_json(0, "fine.glb")};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.json", box_glb({{}}));
+  tiles.add("fine.glb", box_glb({{}}));
+  TilesetOptions options;
+  options.detail_m = 60;
+  EXPECT_EQ(ids_of(tiles.read(options)), std::set<std::string>{"a.json"});
+  options.detail_m = 1;
+  const TilesetScene fine = tiles.read(options);
+  EXPECT_EQ(ids_of(fine), std::set<std::string>{"fine.glb"});
+  EXPECT_EQ(fine.report.holes, 1u) << "nobody can tell what else it is";
+}
+
 TEST(Tileset, ObjectsAreFeaturesOfBatchTables) {
   json root = tile_json(0);
   root["refine"] = "ADD";

@@ -19,7 +19,7 @@ struct TilesetOptions {
   /// Latitude and longitude (WGS 84, degrees) of the middle, which becomes the origin of the scene frame. Empty: all is
   /// read, and the origin is the middle of that.
   std::optional<std::array<double, 2>> center_deg = std::nullopt;
-  std::optional<double> radius_m = std::nullopt;  ///< with a centre; > 0. Tiles beyond it are not read
+  std::optional<double> radius_m = std::nullopt;  ///< with a centre; > 0. Tiles 100 m beyond it are not read
 
   /// Metres of geometric error: a tile whose error is larger is refined, where it can be. >= 0.
   double detail_m = 1.0;

@@ -43,6 +43,12 @@ Volume parse_volume(const Json& described) {
     const std::vector<double> n = volume_numbers(*sphere, 4, "sphere");
     return Sphere{{n[0], n[1], n[2]}, std::abs(n[3])};
   }
+  // Cells of S2 are on the WGS 84 ellipsoid: which of it matters to those alone who have the library.
+  const auto extensions = described.find("extensions");
+  if (extensions != described.end() && extensions->is_object() && extensions->contains("3DTILES_bounding_volume_S2")) {
+    constexpr double kHalfTurn = std::numbers::pi;
+    return EarthRegion{-kHalfTurn, -kHalfTurn / 2, kHalfTurn, kHalfTurn / 2, -kTallestM, kTallestM};
+  }
   return Everywhere{};
 }
 
@@ -120,14 +126,13 @@ bool Reach::meets(const OrientedBox& box) const {
 }
 
 /// The nearest place of a region is near the one that has the nearest longitude and latitude: they differ by less than
-/// a thousandth of the distance, up to 100 km and 85 degrees.
+/// half a hundredth of the distance, up to 100 km and 85 degrees.
 bool Reach::meets(const EarthRegion& region) const {
-  constexpr double kSlack = 1 + 1e-3, kPolar = 85;
+  constexpr double kSlack = 1 + 5e-3, kPolar = 85;
   const double south = region.south * kRadian, north = region.north * kRadian;
   if (std::abs(place_.latitude_deg) > kPolar || !(south <= north)) return true;
-  const double latitude =
-      std::clamp(place_.latitude_deg, std::max(south, -90.0), std::max(std::min(north, 90.0), south));
-  if (std::abs(latitude) > 90) return true;
+  if (!(std::max(south, -90.0) <= std::min(north, 90.0))) return true;
+  const double latitude = std::clamp(place_.latitude_deg, std::max(south, -90.0), std::min(north, 90.0));
   const double west = region.west * kRadian, width = std::fmod(region.east * kRadian - west + 720, 360);
   const double beyond = std::fmod(place_.longitude_deg - west + 720, 360);  // from the west side, eastwards
   const bool is_all = region.east - region.west >= 2 * std::numbers::pi - 1e-9;

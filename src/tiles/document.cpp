@@ -6,12 +6,13 @@
 
 #include "io/json_text.h"
 #include "io/tileset.h"
+#include "tiles/ellipsoid.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {
 namespace {
 
-// Extensions that a tileset may require: what they add is read, or says nothing of shapes.
+// Extensions that a tileset may require: what they add is read, is checked, or says nothing of shapes.
 constexpr std::array<std::string_view, 7> kKnownExtensions = {
     "3DTILES_content_gltf",       "3DTILES_implicit_tiling", "3DTILES_multiple_contents",    "3DTILES_metadata",
     "3DTILES_bounding_volume_S2", "3DTILES_ellipsoid",       "3DTILES_batch_table_hierarchy"};
@@ -50,6 +51,7 @@ TilesetDocument::TilesetDocument(std::string address, std::string shown, std::st
   }
   if (!json_.is_object()) fail("its JSON is not an object");
   check_version(json_);
+  check_ellipsoid(json_);
   root_ = find_in(json_, "root");
   if (!root_ || !root_->is_object()) fail("it has no \"root\"");
   error_m_ = number(json_, "geometricError").value_or(0);
@@ -58,6 +60,21 @@ TilesetDocument::TilesetDocument(std::string address, std::string shown, std::st
 void TilesetDocument::fail(const std::string& problem) const {
   throw Error(ErrorCode::mesh_syntax, "not a valid tileset: " + problem, shown_,
               "export the tileset again; it is cut off or garbled");
+}
+
+/// Of the extension 3DTILES_ellipsoid: the earth's, or none is named.
+void TilesetDocument::check_ellipsoid(const Json& json) {
+  const Json* const ellipsoid = extension_of(json, "3DTILES_ellipsoid");
+  const Json* const radii = ellipsoid && ellipsoid->is_object() ? find_in(*ellipsoid, "radii") : nullptr;
+  if (!radii) return;
+  constexpr double kSame = 1;  // metres
+  const std::array<double, 3> earth{kEquatorM, kEquatorM, kEquatorM * (1 - kFlattening)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool is_number = radii->is_array() && radii->size() == 3 && (*radii)[i].is_number();
+    if (is_number && std::abs((*radii)[i].get<double>() - earth[i]) <= kSame) continue;
+    throw Error(ErrorCode::mesh_unsupported, "the tileset is about another ellipsoid than WGS 84", shown_,
+                "give a tileset of the earth");
+  }
 }
 
 void TilesetDocument::check_version(const Json& json) {

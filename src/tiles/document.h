@@ -51,6 +51,7 @@ class TilesetDocument {
 
  private:
   void check_version(const Json& json);
+  void check_ellipsoid(const Json& json);
   std::vector<ContentName> contents(const Json& described) const;
   std::optional<double> number(const Json& object, const char* key) const;
 

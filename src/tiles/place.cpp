@@ -15,6 +15,10 @@ namespace {
 // What lies on the earth is not farther from the ellipsoid, in metres: satellites and the middle of the earth are.
 constexpr double kFarthestHeightM = 100e3;
 
+// Contents should lie within the volumes of their tiles, but buildings stick out of those of some exporters by 65 m:
+// tiles are read that far beyond the circle.
+constexpr double kBeyondTileM = 100;
+
 geo::LonLat lon_lat(const std::array<double, 2>& latitude_longitude) {
   return {latitude_longitude[1], latitude_longitude[0]};
 }
@@ -27,7 +31,7 @@ Reach plane_reach(const TilesetOptions& options, const std::filesystem::path& fi
   double radius = 0;
   for (int i = 0; i < 16; ++i) {
     const double angle = i * std::numbers::pi / 8;
-    const Eigen::Vector2d rim(*options.radius_m * std::cos(angle), *options.radius_m * std::sin(angle));
+    const Eigen::Vector2d rim = (*options.radius_m + kBeyondTileM) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     radius = std::max(radius, (system.from_lonlat(frame.to_lonlat(rim)) - center).norm());
   }
   return {center, radius * 1.01};
@@ -42,9 +46,21 @@ Vec3 middle_of(const Collector& collected) {
   return (box.min + box.max) / 2;
 }
 
+bool is_on_earth(const Vec3& point) {
+  const double distance = point.norm();
+  return distance > kEquatorM * (1 - kFlattening) - kFarthestHeightM && distance < kEquatorM + kFarthestHeightM;
+}
+
 /// Turns the points into the frame that touches the ellipsoid.
-Georeference put_on_earth(Collector& collected, const TilesetOptions& options) {
-  const geo::LonLat origin = options.center_deg ? lon_lat(*options.center_deg) : from_ecef(middle_of(collected)).place;
+Georeference put_on_earth(Collector& collected, const TilesetOptions& options, const std::filesystem::path& file) {
+  const Vec3 middle = middle_of(collected);
+  if (!is_on_earth(middle)) {
+    throw Error(ErrorCode::not_georeferenced,
+                "the tileset's bounding volume is on the earth, but what it holds lies more than 100 km above or below "
+                "the ellipsoid",
+                file.string(), "name the coordinate system of its metres with crs, as in EPSG:28992, or crs: none");
+  }
+  const geo::LonLat origin = options.center_deg ? lon_lat(*options.center_deg) : from_ecef(middle).place;
   const TangentFrame frame(origin);
   for (Vec3& vertex : collected.vertices) vertex = frame.to_local(vertex);
   return {origin.latitude_deg, origin.longitude_deg, geo::kEllipsoidalHeight, "EPSG:4978"};
@@ -82,7 +98,8 @@ Reach reach_of(World world, const Volume& root, const TilesetOptions& options, c
   }
   const geo::LonLat center = lon_lat(*options.center_deg);
   const geo::LocalFrame frame(center);  // checks the place
-  const Reach reach = world == World::projected ? plane_reach(options, file) : Reach(center, *options.radius_m);
+  const Reach reach =
+      world == World::projected ? plane_reach(options, file) : Reach(center, *options.radius_m + kBeyondTileM);
   if (reach.meets(root)) return reach;
   std::string where_it_is;
   const auto ball = around(root);
@@ -98,7 +115,12 @@ Reach reach_of(World world, const Volume& root, const TilesetOptions& options, c
 Scene placed_scene(World world, Collector&& collected, const TilesetOptions& options,
                    const std::filesystem::path& file) {
   std::optional<Georeference> place;
-  if (world == World::earth) place = put_on_earth(collected, options);
+  if (world == World::earth) place = put_on_earth(collected, options, file);
+  if (world == World::nowhere && options.crs.empty() && is_on_earth(middle_of(collected))) {
+    throw Error(ErrorCode::not_georeferenced,
+                "the root of the tileset has no bounding volume on the earth, but what it holds lies there",
+                file.string(), "give the root tile a boundingVolume, or, if that is no mistake, crs: none");
+  }
   io::RawMesh raw = raw_mesh(std::move(collected));
   SceneReadOptions read;
   if (world == World::projected) read.crs = options.crs;

@@ -55,7 +55,7 @@ Walk::Walk(TileSource& source, Collector& collector, const Reach& reach, double 
 void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
   ++report_.documents;
   Visit root;
-  root.trail = std::make_shared<Trail>(Trail{document, nullptr, 0});
+  root.trail = std::make_shared<Trail>(Trail{document, nullptr, 0, 0});
   root.described = &document->root();
   root.parent = Transform::Identity();
   root.error_m = document->error_m();
@@ -108,6 +108,8 @@ void Walk::visit(const Visit& visit) {
   if (visit.depth > kDeepest) visit.trail->document->fail("its tiles are nested deeper than 1000 levels");
   if (visit.described) {
     visit_explicit(visit);
+  } else if (!visit.external.empty()) {
+    visit_external(visit);
   } else {
     visit_implicit(visit);
   }
@@ -144,6 +146,7 @@ void Walk::visit_explicit(const Visit& visit) {
 /// Reads what a tile holds where it is wanted. Returns whether the tile's children are wanted, too.
 bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
   const auto is_document = [](const ContentName& content) { return is_named_json(content.uri); };
+  const TilesetDocument& document = *visit.trail->document;
   const bool has_own = std::any_of(here.contents.begin(), here.contents.end(),
                                    [&](const ContentName& content) { return !is_document(content); });
   // A tile without content is finer only in its children, whatever it says.
@@ -157,7 +160,12 @@ bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
     if (!is_taken && !is_document(content)) continue;
     if (!reach_.meets(moved(content.bounds, here.into_world))) continue;
     try {
-      read_content(visit, here, content);
+      const std::string address = source_.resolve(document.address(), content.uri);
+      if (is_document(content)) {
+        wait_for(visit, here, address, is_taken);
+      } else {
+        read_content(visit, here, address);
+      }
     } catch (const Error& error) {
       if (ends_all(error)) throw;
       count_hole(error);
@@ -166,42 +174,68 @@ bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
   return goes_on;
 }
 
-void Walk::read_content(const Visit& visit, const Here& here, const ContentName& content) {
-  const TilesetDocument& document = *visit.trail->document;
-  const std::string address = source_.resolve(document.address(), content.uri);
+void Walk::read_content(const Visit& visit, const Here& here, const std::string& address) {
   const std::string bytes = read_file(address);
   if (is_tileset_text(bytes)) {
-    enter_document(visit, here, address, bytes);
-    return;
+    wait_for(visit, here, address, true);
+  } else {
+    read_mesh(address, bytes, here.into_world, *visit.trail);
   }
-  if (contents_.read(address, bytes, {here.into_world, document.gltf_up()})) {
+}
+
+void Walk::read_mesh(const std::string& address, const std::string& bytes, const Transform& into_world,
+                     const Trail& trail) {
+  if (contents_.read(address, bytes, {into_world, trail.document->gltf_up()})) {
     ++report_.contents;
   } else {
     ++report_.without_surfaces;
   }
 }
 
-void Walk::enter_document(const Visit& visit, const Here& here, const std::string& address, std::string_view text) {
+void Walk::wait_for(const Visit& visit, const Here& here, const std::string& address, bool is_taken) {
+  Visit next;
+  next.trail = visit.trail;
+  next.external = address;
+  next.is_taken = is_taken;
+  next.parent = here.into_world;
+  next.refinement = here.refinement;
+  next.depth = visit.depth + 1;
+  waiting_.push_back(std::move(next));
+}
+
+void Walk::visit_external(const Visit& visit) {
+  constexpr std::size_t kMostText = std::size_t{1} << 29;  // bytes, of all tilesets that contain each other
+  const std::string& address = visit.external;
+  const auto refuse = [&](const std::string& problem, const std::string& fix) {
+    throw Error(ErrorCode::mesh_syntax, problem, source_.shown(address), fix);
+  };
   for (const Trail* above = visit.trail.get(); above; above = above->parent.get()) {
     if (above->document->address() == address) {
-      throw Error(ErrorCode::mesh_syntax, "the tileset contains itself", source_.shown(address),
-                  "remove the tile of " + visit.trail->document->shown() + " that refers to it");
+      refuse("the tileset contains itself",
+             "remove the tile of " + visit.trail->document->shown() + " that refers to it");
     }
   }
   if (visit.trail->depth >= kMostNested) {
-    throw Error(ErrorCode::mesh_syntax,
-                "tilesets contain each other more than " + std::to_string(kMostNested) + " levels deep",
-                source_.shown(address), "export the tileset again");
+    refuse("tilesets contain each other more than " + std::to_string(kMostNested) + " levels deep",
+           "export the tileset again");
   }
+  const std::string text = read_file(address);
+  if (!is_tileset_text(text)) {
+    if (!visit.is_taken) refuse("the file is no tileset, though its name says so", "name it as what it is");
+    read_mesh(address, text, visit.parent, *visit.trail);
+    return;
+  }
+  const std::size_t text_bytes = visit.trail->text_bytes + text.size();
+  if (text_bytes > kMostText) refuse("tilesets that contain each other take more than 512 MiB", "export them in parts");
   ++report_.documents;
   const auto document = std::make_shared<TilesetDocument>(address, source_.shown(address), text, progress_, limits_);
   Visit next;
-  next.trail = std::make_shared<Trail>(Trail{document, visit.trail, visit.trail->depth + 1});
+  next.trail = std::make_shared<Trail>(Trail{document, visit.trail, visit.trail->depth + 1, text_bytes});
   next.described = &document->root();
-  next.parent = here.into_world;
-  next.refinement = here.refinement;
+  next.parent = visit.parent;
+  next.refinement = visit.refinement;
   next.error_m = document->error_m();
-  next.depth = visit.depth + 1;
+  next.depth = visit.depth;
   waiting_.push_back(std::move(next));
 }
 

@@ -28,6 +28,7 @@ class Walk {
     std::shared_ptr<const TilesetDocument> document;
     std::shared_ptr<const Trail> parent;
     int depth = 0;
+    std::size_t text_bytes = 0;  ///< of all these files
   };
   struct LoadedSubtree {
     std::shared_ptr<const ImplicitTree> tree;
@@ -40,7 +41,9 @@ class Walk {
     const Json* described = nullptr;  ///< or else `subtree` and `index`
     std::shared_ptr<const LoadedSubtree> subtree;
     TileIndex index;
-    Transform parent;  ///< of the tile's parent, into the world; of an implicit tile the tree's own
+    std::string external = {};  ///< or else the address of a tileset. It is read when its turn comes: many may wait
+    bool is_taken = false;      ///< .. and what to do with it where it is a mesh, whatever its name says
+    Transform parent;           ///< of the tile's parent, into the world; of an implicit tile the tree's own
     Refinement refinement = Refinement::replace;
     double error_m = 0;  ///< of the parent
     int depth = 0;
@@ -58,8 +61,10 @@ class Walk {
   void visit_explicit(const Visit& visit);
   void visit_implicit(const Visit& visit);
   bool take(const Visit& visit, const Here& here, bool has_children);
-  void read_content(const Visit& visit, const Here& here, const ContentName& content);
-  void enter_document(const Visit& visit, const Here& here, const std::string& address, std::string_view text);
+  void read_content(const Visit& visit, const Here& here, const std::string& address);
+  void read_mesh(const std::string& address, const std::string& bytes, const Transform& into_world, const Trail& trail);
+  void wait_for(const Visit& visit, const Here& here, const std::string& address, bool is_taken);
+  void visit_external(const Visit& visit);
   void enter_tree(const Visit& visit, const Tile& tile, const Here& here);
   void enter_subtree(const Visit& visit, const std::shared_ptr<const ImplicitTree>& tree, const TileIndex& root,
                      const Transform& into_world, Refinement refinement);
