@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/gltf_tile.h"
 #include "io/mesh_codecs.h"
@@ -99,6 +100,13 @@ std::string meshopt_glb(const std::string& vertices, const std::string& indices,
   return glb_with(gltf, vertices + indices);
 }
 
+/// The JSON and the buffer of a GLB.
+std::pair<json, std::string> parts_of(const std::string& glb) {
+  std::uint32_t text = 0;
+  std::memcpy(&text, glb.data() + 12, sizeof text);
+  return {json::parse(glb.substr(20, text)), glb.substr(28 + text)};
+}
+
 /// Skips the test where this build lacks the library.
 template <class Read>
 RawMesh read_or_skip(const Read& read, bool& is_missing) {
@@ -161,6 +169,46 @@ TEST(ReadGltfPacked, RefusesDracoThatIsCutOrLies) {
   }
 }
 
+TEST(ReadGltfPacked, BoundsTheAttributesOfDraco) {
+  core::ReadLimits limits;
+  const auto decode = [&](const std::string& data) { return decode_draco(data, {0, 1}, 4, limits); };
+  for (const std::string& data : {kSequential, kEdgebreaker}) {
+    limits.decompressed_bytes = 1000;
+    try {
+      EXPECT_EQ(decode(data).points, 8u);
+    } catch (const CodecProblem& problem) {
+      if (problem.library_missing) GTEST_SKIP() << "vantage was built without Draco";
+      ADD_FAILURE() << problem.text;
+    }
+    limits.decompressed_bytes = 50;
+    try {
+      decode(data);
+      ADD_FAILURE() << "read beyond the limit";
+    } catch (const CodecProblem& problem) {
+      EXPECT_NE(problem.text.find("attributes of more than 50 bytes"), std::string::npos) << problem.text;
+    }
+  }
+}
+
+TEST(ReadGltfPacked, ReadsDracoOfStripsAndOfSharedData) {
+  bool is_missing = false;
+  read_or_skip([&] { return read_as("a.glb", draco_glb(kSequential)); }, is_missing);
+  if (is_missing) GTEST_SKIP() << "vantage was built without Draco";
+  const auto parts = parts_of(draco_glb(kSequential));
+  const json& gltf = parts.first;
+  const std::string& binary = parts.second;
+  json strip = gltf;  // four triangles are a strip of six corners, but Draco gives a list
+  strip["meshes"][0]["primitives"][0]["mode"] = 5;
+  strip["accessors"][1]["count"] = 6;
+  expect_tetrahedron(read_as("a.glb", glb_with(strip, binary)), 0.03);
+  json shared = gltf;
+  json other = gltf["meshes"][0]["primitives"][0];
+  other["attributes"].erase("_BATCHID");
+  other["extensions"]["KHR_draco_mesh_compression"]["attributes"].erase("_BATCHID");
+  shared["meshes"][0]["primitives"].push_back(other);
+  EXPECT_EQ(read_as("a.glb", glb_with(shared, binary)).triangles.size(), 8u);
+}
+
 TEST(ReadGltfPacked, ReadsMeshopt) {
   bool is_missing = false;
   const RawMesh mesh = read_or_skip([&] { return read_as("a.glb", meshopt_glb(kVertices, kIndices)); }, is_missing);
@@ -196,27 +244,77 @@ TEST(ReadGltfPacked, SurvivesMutations) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(ReadGltfPacked, ReadsInstances) {
+/// Boxes at (10, 0, 0) and (0, 20, 0), which the attributes of the instances may give as accessor 3; accessor 4 is two
+/// bytes.
+std::string instanced_glb(const json& attributes) {
   json extra;
   std::string places;
   for (const float value : {10.f, 0.f, 0.f, 0.f, 20.f, 0.f}) places += bytes_of(value);
-  extra["more"] = {places};
+  extra["more"] = {places, std::string("ab")};
   extra["extensionsUsed"] = extra["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
   extra["nodes"] = {{{"mesh", 0},
                      {"name", "tree"},
                      {"scale", {2, 2, 2}},
-                     {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", 3}}}}}}}}};
-  const std::string glb = testing::box_glb({{}}, "", extra);
-  std::size_t text = 0;
-  std::memcpy(&text, glb.data() + 12, 4);
-  json gltf = json::parse(glb.substr(20, text));
+                     {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}}};
+  auto [gltf, binary] = parts_of(testing::box_glb({{}}, "", extra));
   gltf["accessors"].push_back({{"bufferView", 3}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
-  const RawMesh mesh = read_as("a.glb", glb_with(gltf, glb.substr(28 + text)));
+  gltf["accessors"].push_back({{"bufferView", 4}, {"componentType", 5121}, {"count", 2}, {"type", "SCALAR"}});
+  return glb_with(gltf, binary);
+}
+
+TEST(ReadGltfPacked, ReadsInstances) {
+  const RawMesh mesh = read_as("a.glb", instanced_glb({{"TRANSLATION", 3}}));
   EXPECT_EQ(mesh.triangles.size(), 24u);
   ASSERT_EQ(mesh.objects.size(), 2u);
   Box box;
   for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
   EXPECT_EQ(box.max, Vec3(22, 42, 2));  // the node's scale moves its instances, too
+}
+
+TEST(ReadGltfPacked, CountsInstancesByAnyAttribute) {
+  EXPECT_EQ(read_as("a.glb", instanced_glb({{"_ID", 4}})).triangles.size(), 24u);
+  EXPECT_EQ(read_as("a.glb", instanced_glb({{"_ID", 4}, {"TRANSLATION", 3}})).triangles.size(), 24u);
+  expect_code([] { read_as("a.glb", instanced_glb(json::object())); }, ErrorCode::mesh_syntax, "a.glb");
+  expect_code([] { read_as("a.glb", instanced_glb({{"_ID", 1}, {"TRANSLATION", 3}})); }, ErrorCode::mesh_syntax);
+}
+
+TEST(ReadGltfPacked, SparseAccessorsMayBeginAsZeros) {
+  json extra;
+  std::string corners;
+  for (const float value : {3.f, 0.f, 0.f, 0.f, 3.f, 0.f}) corners += bytes_of(value);
+  extra["more"] = {std::string("\1\2"), corners};
+  auto parts = parts_of(testing::box_glb({{}}, "", extra));
+  json& gltf = parts.first;
+  const std::string& binary = parts.second;
+  json& accessor = gltf["accessors"][0];
+  accessor.erase("bufferView");
+  accessor["count"] = 3;
+  accessor["sparse"] = {
+      {"count", 2}, {"indices", {{"bufferView", 3}, {"componentType", 5121}}}, {"values", {{"bufferView", 4}}}};
+  gltf["meshes"][0]["primitives"][0].erase("indices");
+  const RawMesh mesh = read_as("a.glb", glb_with(gltf, binary));
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.vertices[mesh.triangles[0][0]], Vec3(0, 0, 0));
+  EXPECT_EQ(mesh.vertices[mesh.triangles[0][2]], Vec3(0, 3, 0));
+  accessor["count"] = std::uint64_t{1} << 40;
+  expect_code([&] { read_as("a.glb", glb_with(gltf, binary)); }, ErrorCode::mesh_syntax, "a.glb");
+}
+
+TEST(ReadGltfPacked, BoundsTheFilesOfATile) {
+  auto parts = parts_of(testing::box_glb({{}}));
+  json& gltf = parts.first;
+  const std::string bytes = parts.second;
+  gltf["buffers"] = {{{"byteLength", bytes.size()}, {"uri", "a.bin?1"}},
+                     {{"byteLength", bytes.size()}, {"uri", "a.bin?2"}}};
+  gltf["bufferViews"][1]["buffer"] = 1;
+  TileContext tile;
+  tile.read_file = [&bytes](const std::string&) { return bytes; };
+  core::ReadLimits limits;
+  const MeshSource source("a.gltf", gltf.dump());
+  limits.decompressed_bytes = 2 * bytes.size();
+  EXPECT_EQ(read_gltf_tile(source, {}, limits, tile).mesh.triangles.size(), 12u);
+  --limits.decompressed_bytes;
+  expect_code([&] { read_gltf_tile(source, {}, limits, tile); }, ErrorCode::mesh_too_large, "a.gltf");
 }
 
 TEST(ReadGltfPacked, OnlyTilesHaveACentre) {

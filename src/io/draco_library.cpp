@@ -1,11 +1,14 @@
 // Draco (Google, "Draco bitstream specification", version 2.2), by its library.
 #include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/compression/point_cloud/point_cloud_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "io/mesh_codecs.h"
 
@@ -20,6 +23,8 @@ constexpr std::uint64_t kPointsPerByte = 64, kFreePoints = 10'000;
 
 struct DracoSize {
   std::uint64_t points = 0, triangles = 0;
+  std::uint64_t seams = 0;  ///< attributes that have a table of all corners of their own
+  bool is_edgebreaker = false;
 };
 
 /// What the data says of its size, before anything is allocated for it (sections 4 and 5 of the specification).
@@ -37,16 +42,23 @@ DracoSize stated_size(draco::DecoderBuffer buffer) {
     if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &ignored)) fail_broken("its metadata");
   }
   std::uint32_t first = 0, second = 0;
-  std::uint8_t traversal = 0;
+  std::uint8_t traversal = 0, seams = 0;
   const bool is_edgebreaker = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING;
+  if (!is_edgebreaker && header.encoder_method != draco::MESH_SEQUENTIAL_ENCODING) fail_broken("an unknown method");
   if ((is_edgebreaker && !buffer.Decode(&traversal)) || !draco::DecodeVarint(&first, &buffer) ||
-      !draco::DecodeVarint(&second, &buffer)) {
+      !draco::DecodeVarint(&second, &buffer) || (is_edgebreaker && !buffer.Decode(&seams))) {
     fail_broken("it ends in its header");
   }
-  return is_edgebreaker ? DracoSize{first, second} : DracoSize{second, first};
+  if (is_edgebreaker) return DracoSize{first, second, seams, true};
+  return DracoSize{second, first, 0, false};
 }
 
-void check_size(const DracoSize& stated, std::size_t bytes, std::uint64_t most_triangles) {
+[[noreturn]] void fail_large(std::size_t bytes, std::uint64_t most) {
+  throw CodecProblem{"its Draco data of " + std::to_string(bytes) + " bytes announces attributes of more than " +
+                     std::to_string(most) + " bytes"};
+}
+
+void check_size(const DracoSize& stated, std::size_t bytes, std::uint64_t most_triangles, std::uint64_t most_bytes) {
   if (stated.triangles > most_triangles) {
     throw CodecProblem{"its Draco data holds " + std::to_string(stated.triangles) + " triangles, and its accessor " +
                        std::to_string(most_triangles)};
@@ -57,6 +69,43 @@ void check_size(const DracoSize& stated, std::size_t bytes, std::uint64_t most_t
                        std::to_string(stated.points) + " points and " + std::to_string(stated.triangles) +
                        " triangles"};
   }
+  constexpr std::uint64_t kSeamBytes = 3 * sizeof(std::uint32_t);  // for each triangle
+  if (stated.seams * stated.triangles * kSeamBytes > most_bytes) fail_large(bytes, most_bytes);
+}
+
+/// Decodes as `Base` does, but stops before the values of the attributes if these would take more than `most_bytes`.
+/// How many points there are is known only then: where attributes have seams there are more than the header says.
+template <class Base>
+class BoundedDecoder final : public Base {
+ public:
+  explicit BoundedDecoder(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+  bool is_too_large() const { return is_too_large_; }
+
+ protected:
+  bool DecodeAllAttributes() override {
+    const draco::PointCloud& cloud = *this->point_cloud();
+    std::uint64_t bytes = 0;
+    for (std::int32_t i = 0; i < cloud.num_attributes() && bytes <= most_bytes_; ++i) {
+      const draco::PointAttribute& attribute = *cloud.attribute(i);
+      const std::uint64_t size = static_cast<std::uint64_t>(draco::DataTypeLength(attribute.data_type()));
+      bytes += std::uint64_t{cloud.num_points()} * static_cast<std::uint64_t>(attribute.num_components()) * size;
+    }
+    is_too_large_ = bytes > most_bytes_;
+    return !is_too_large_ && Base::DecodeAllAttributes();
+  }
+
+ private:
+  std::uint64_t most_bytes_;
+  bool is_too_large_ = false;
+};
+
+template <class Base>
+void decode_bounded(draco::DecoderBuffer& buffer, std::size_t bytes, std::uint64_t most_bytes, draco::Mesh& mesh) {
+  BoundedDecoder<Base> decoder(most_bytes);
+  const draco::DecoderOptions options;
+  const draco::Status status = decoder.Decode(options, &buffer, &mesh);
+  if (decoder.is_too_large()) fail_large(bytes, most_bytes);
+  if (!status.ok()) fail_broken(status.error_msg_string());
 }
 
 DracoMesh::Attribute values_of(const draco::Mesh& mesh, std::uint32_t id) {
@@ -80,14 +129,18 @@ DracoMesh::Attribute values_of(const draco::Mesh& mesh, std::uint32_t id) {
 }  // namespace
 
 DracoMesh decode_draco(std::string_view data, const std::vector<std::uint32_t>& attributes,
-                       std::uint64_t most_triangles) {
+                       std::uint64_t most_triangles, const core::ReadLimits& limits) {
   draco::DecoderBuffer buffer;
   buffer.Init(data.data(), data.size());
-  check_size(stated_size(buffer), data.size(), most_triangles);
-  draco::Decoder decoder;
-  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) fail_broken(decoded.status().error_msg_string());
-  const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
+  const DracoSize stated = stated_size(buffer);
+  const std::uint64_t most_bytes = limits.most_decompressed(data.size());
+  check_size(stated, data.size(), most_triangles, most_bytes);
+  const auto mesh = std::make_unique<draco::Mesh>();
+  if (stated.is_edgebreaker) {
+    decode_bounded<draco::MeshEdgebreakerDecoder>(buffer, data.size(), most_bytes, *mesh);
+  } else {
+    decode_bounded<draco::MeshSequentialDecoder>(buffer, data.size(), most_bytes, *mesh);
+  }
 
   DracoMesh result;
   result.points = mesh->num_points();

@@ -4,7 +4,7 @@
 namespace vantage::internal::io {
 
 DracoMesh decode_draco(std::string_view /*data*/, const std::vector<std::uint32_t>& /*attributes*/,
-                       std::uint64_t /*most_triangles*/) {
+                       std::uint64_t /*most_triangles*/, const core::ReadLimits& /*limits*/) {
   throw CodecProblem{"it is compressed with Draco, and vantage was built without that library", true};
 }
 

@@ -178,12 +178,7 @@ class GltfReader {
     const auto positions = instance_values(*attributes, "TRANSLATION", 3);
     const auto rotations = instance_values(*attributes, "ROTATION", 4);
     const auto scales = instance_values(*attributes, "SCALE", 3);
-    std::uint64_t count = 0;
-    for (const auto* values : {&positions, &rotations, &scales}) {
-      if (!*values) continue;
-      if (count > 0 && (*values)->count() != count) document_.fail("the attributes of instances differ in length");
-      count = (*values)->count();
-    }
+    const std::uint64_t count = instance_count(*attributes);
     for (std::uint64_t i = 0; i < count; ++i) {
       const auto value = [i](const std::optional<Accessor>& values, int component, double otherwise) {
         return values ? values->number(i, component) : otherwise;
@@ -203,6 +198,22 @@ class GltfReader {
       add_mesh(mesh, world * placed);
       progress_.tick(visited_, nodes_);
     }
+  }
+
+  /// Every attribute has a value for each instance, also one that moves nothing.
+  std::uint64_t instance_count(const Json& attributes) {
+    if (attributes.empty()) document_.fail("instances have no attributes, which would tell how many there are");
+    std::optional<std::uint64_t> count;
+    bool is_backed = false;  // by a buffer that is known to be long enough
+    for (const auto& [name, index] : attributes.items()) {
+      const std::uint64_t accessor = document_.as_whole(index, "attributes");
+      const std::uint64_t own = document_.required_whole(document_.item("accessors", accessor), "count");
+      if (count && *count != own) document_.fail("the attributes of instances differ in length");
+      count = own;
+      is_backed = is_backed || name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
+    }
+    if (!is_backed) document_.accessor(document_.as_whole(*attributes.begin(), "attributes"));
+    return *count;
   }
 
   std::optional<Accessor> instance_values(const Json& attributes, const char* name, int components) {
@@ -252,6 +263,7 @@ class GltfReader {
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object()) document_.fail("a primitive has no \"attributes\"");
     const auto packed = document_.draco(primitive);
+    if (packed) mode = kTriangleList;  // Draco gives a list, whatever the triangles were before
     const auto position_index = document_.whole(*attributes, "POSITION");
     if (!position_index) return;  // the specification allows it; there is nothing to draw
     if (packed && !packed->attributes.contains("POSITION")) document_.fail("its Draco data has no positions");

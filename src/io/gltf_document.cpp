@@ -311,7 +311,8 @@ Accessor Document::accessor(std::uint64_t index) {
   const std::uint64_t count = required_whole(object, "count");
 
   Accessor accessor;
-  accessor.base_ = elements(object, type, components, count, name);
+  const bool is_zeros = object.contains("sparse") && !object.contains("bufferView");
+  accessor.base_ = is_zeros ? zeros(type, components, count, name) : elements(object, type, components, count, name);
   accessor.normalized_ = object.value("normalized", Json(false)) == Json(true);
   const auto sparse = object.find("sparse");
   if (sparse == object.end()) return accessor;
@@ -328,6 +329,15 @@ Accessor Document::accessor(std::uint64_t index) {
   accessor.sparse_indices_ = elements(part("indices"), index_type, 1, replaced, name);
   accessor.sparse_values_ = elements(part("values"), type, components, replaced, name);
   return accessor;
+}
+
+/// What a sparse accessor is without a buffer view (glTF 2.0, section 3.6.2.3).
+Accessor::Elements Document::zeros(std::uint64_t component_type, int components, std::uint64_t count,
+                                   const std::string& name) const {
+  static constexpr std::array<char, 16> kZeros = {};
+  constexpr std::uint64_t kMost = 1'000'000;  // they cost the file nothing
+  if (count > kMost) fail(name + " has more than " + std::to_string(kMost) + " elements, and no buffer view");
+  return {kZeros.data(), 0, count, component_type, components};
 }
 
 /// The elements that `view`, an object with "bufferView" and "byteOffset", describes.
@@ -400,7 +410,9 @@ std::string_view Document::external_file(const std::string& uri) {
   if (use_.read_file) {
     const auto known = contents_.find("file " + uri);
     if (known != contents_.end()) return known->second;
-    return contents_.emplace("file " + uri, use_.read_file(uri)).first->second;
+    std::string bytes = use_.read_file(uri);
+    count_held(bytes.size());
+    return contents_.emplace("file " + uri, std::move(bytes)).first->second;
   }
   const std::filesystem::path path = file_below(relative, uri);
   const std::string key = "file " + path.string();
@@ -410,6 +422,15 @@ std::string_view Document::external_file(const std::string& uri) {
     progress_.begin("parse glTF");
   }
   return known->second;
+}
+
+/// A small tile may name one large file by many URIs, or unpack the same data many times.
+void Document::count_held(std::uint64_t bytes) {
+  held_bytes_ += bytes;
+  if (held_bytes_ > limits_.decompressed_bytes) {
+    fail_as(ErrorCode::mesh_too_large,
+            "its buffers take more than " + std::to_string(limits_.decompressed_bytes) + " bytes together");
+  }
 }
 
 /// The file that a URI means, without links. It must lie below the folder of the glTF file, which others may have made:

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/mesh_codecs.h"
 #include "io/mesh_source.h"
@@ -107,6 +108,8 @@ class Document {
 
   Accessor::Elements elements(const Json& view, std::uint64_t component_type, int components, std::uint64_t count,
                               const std::string& name);
+  Accessor::Elements zeros(std::uint64_t component_type, int components, std::uint64_t count,
+                           const std::string& name) const;
   bool is_required(std::string_view extension) const;
   std::string_view unpacked_view(std::uint64_t index, const Json& packed);
   const DracoMesh& unpacked_mesh(std::uint64_t view, const std::vector<std::uint32_t>& ids,
@@ -114,6 +117,7 @@ class Document {
   [[noreturn]] void fail_for_codec(const CodecProblem& problem, const std::string& where) const;
   std::string_view buffer(std::uint64_t index);
   std::string_view external_file(const std::string& uri);
+  void count_held(std::uint64_t bytes);
   std::filesystem::path file_below(const std::string& relative, const std::string& uri) const;
 
   const MeshSource& source_;
@@ -126,8 +130,9 @@ class Document {
   std::map<std::uint64_t, std::string_view> buffers_;    // by index
   std::map<std::string, std::string> contents_;          // of external files by path, of data URIs by index
   std::map<std::uint64_t, std::string> unpacked_views_;  // by index
-  std::map<std::uint64_t, DracoMesh> unpacked_meshes_;   // by buffer view
+  std::map<std::pair<std::uint64_t, std::vector<std::uint32_t>>, DracoMesh> unpacked_meshes_;  // by view, attributes
   std::uint64_t buffer_bytes_ = 0;
+  std::uint64_t held_bytes_ = 0;  // of a tile's files and of unpacked meshes
 };
 
 }  // namespace vantage::internal::io::gltf

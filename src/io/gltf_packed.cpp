@@ -40,6 +40,7 @@ std::string_view Document::unpacked_view(std::uint64_t index, const Json& packed
                               text(packed, "mode"), text(packed, "filter")};
   try {
     std::string unpacked = decode_meshopt(bytes.substr(start, length), described, limits_);
+    count_held(unpacked.size());
     buffer_bytes_ += unpacked.size();
     return unpacked_views_[index] = std::move(unpacked);
   } catch (const CodecProblem& problem) {
@@ -49,11 +50,16 @@ std::string_view Document::unpacked_view(std::uint64_t index, const Json& packed
 
 const DracoMesh& Document::unpacked_mesh(std::uint64_t view_index, const std::vector<std::uint32_t>& ids,
                                          std::uint64_t most_triangles) {
-  if (const auto known = unpacked_meshes_.find(view_index); known != unpacked_meshes_.end()) return known->second;
+  const std::pair<std::uint64_t, std::vector<std::uint32_t>> key(view_index, ids);
+  if (const auto known = unpacked_meshes_.find(key); known != unpacked_meshes_.end()) return known->second;
   try {
-    DracoMesh mesh = decode_draco(view(view_index), ids, most_triangles);
-    buffer_bytes_ += 4 * mesh.indices.size();
-    return unpacked_meshes_[view_index] = std::move(mesh);
+    DracoMesh mesh = decode_draco(view(view_index), ids, most_triangles, limits_);
+    const std::uint64_t index_bytes = sizeof(std::uint32_t) * mesh.indices.size();
+    std::uint64_t bytes = index_bytes;
+    for (const DracoMesh::Attribute& attribute : mesh.attributes) bytes += sizeof(double) * attribute.values.size();
+    count_held(bytes);
+    buffer_bytes_ += index_bytes;
+    return unpacked_meshes_[key] = std::move(mesh);
   } catch (const CodecProblem& problem) {
     fail_for_codec(problem, "buffer view " + std::to_string(view_index));
   }
@@ -61,7 +67,7 @@ const DracoMesh& Document::unpacked_mesh(std::uint64_t view_index, const std::ve
 
 std::optional<DracoAccessors> Document::draco(const Json& primitive) {
   constexpr const char* kName = "KHR_draco_mesh_compression";
-  constexpr std::uint64_t kIdLimit = 1U << 16U, kDoubles = 5130, kWholes = 5125;
+  constexpr std::uint64_t kIdLimit = 1U << 16U, kDoubles = 5130, kWholes = 5125, kList = 4;
   const Json* const packed = extension(primitive, kName);
   if (!packed || !is_required(kName)) return std::nullopt;
   const auto named = packed->find("attributes");
@@ -73,10 +79,10 @@ std::optional<DracoAccessors> Document::draco(const Json& primitive) {
     names.push_back(name);
     ids.push_back(static_cast<std::uint32_t>(std::min(as_whole(id, "attributes"), kIdLimit)));
   }
-  const Json& corners = item("accessors", required_whole(primitive, "indices"));
-  const DracoMesh& mesh =
-      unpacked_mesh(required_whole(*packed, "bufferView"), ids, required_whole(corners, "count") / 3);
-  if (mesh.attributes.size() != names.size()) fail("two primitives share Draco data, but not its attributes");
+  const std::uint64_t corners = required_whole(item("accessors", required_whole(primitive, "indices")), "count");
+  const bool is_list = whole(primitive, "mode").value_or(kList) == kList;
+  const std::uint64_t most_triangles = is_list ? corners / 3 : corners < 3 ? 0 : corners - 2;
+  const DracoMesh& mesh = unpacked_mesh(required_whole(*packed, "bufferView"), ids, most_triangles);
   DracoAccessors accessors;
   accessors.indices.base_ = {reinterpret_cast<const char*>(mesh.indices.data()), sizeof(std::uint32_t),
                              mesh.indices.size(), kWholes, 1};

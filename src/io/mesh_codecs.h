@@ -29,9 +29,10 @@ struct DracoMesh {
 };
 
 /// Unpacks the attributes with these unique ids. Throws CodecProblem for what cannot be unpacked, for a mesh of more
-/// triangles or for so few bytes of so many points that it is no honest one, and where there is no Draco.
+/// triangles or for so few bytes of so many points that it is no honest one, for attributes of more bytes than the
+/// limits let `data` become, and where there is no Draco.
 DracoMesh decode_draco(std::string_view data, const std::vector<std::uint32_t>& attributes,
-                       std::uint64_t most_triangles);
+                       std::uint64_t most_triangles, const core::ReadLimits& limits);
 
 /// EXT_meshopt_compression's description of one buffer view.
 struct MeshoptView {
