@@ -1,6 +1,8 @@
 // Tilesets of 3D Tiles that are made here: which tiles are read, where their contents come to lie, who the objects are.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -9,6 +11,8 @@
 #include "support/objects.h"
 #include "support/temporary_directory.h"
 #include "support/tile_files.h"
+#include "tiles/content.h"
+#include "tiles/instances.h"
 #include "vantage/scene_source.h"
 #include "vantage/tileset.h"
 
@@ -305,6 +309,131 @@ TEST(Tileset, ReadsImplicitTrees) {
   EXPECT_EQ(ids_of(read), (std::set<std::string>{"c/1_1_0.glb", "c/2_1_2.glb"}));
   EXPECT_EQ(read.report.largest_error_m, 8);
   EXPECT_EQ(read.report.documents, 3u);
+}
+
+TEST(Tileset, GarbledAvailabilityIsAHole) {
+  json implicit = tile_json(16, "c/{level}.glb", 8);
+  implicit["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                                {"subtreeLevels", 1},
+                                {"availableLevels", 1},
+                                {"subtrees", {{"uri", "s.subtree"}}}};
+  json root = tile_json(50);
+  root["refine"] = "ADD";
+  root["children"] = {implicit, tile_json(0, "a.glb")};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  tiles.add("c/0.glb", box_glb({{}}));
+  const auto holes_of = [&](const json& contents, const json& extensions = {}) {
+    json all = {{"tileAvailability", {{"constant", 1}}}, {"childSubtreeAvailability", {{"constant", 0}}}};
+    if (!contents.is_discarded()) all["contentAvailability"] = contents;
+    if (!extensions.empty()) all["extensions"] = extensions;
+    tiles.add("s.subtree", subtree(all));
+    const TilesetScene read = tiles.read();
+    EXPECT_EQ(read.report.contents + read.report.holes, 2u) << contents << extensions;
+    return read.report.holes;
+  };
+  const json missing(json::value_t::discarded), available = {{"constant", 1}};
+  EXPECT_EQ(holes_of(json::array({available})), 0u);
+  EXPECT_EQ(holes_of(available), 0u);  // 1.0
+  EXPECT_EQ(holes_of(missing, {{"3DTILES_multiple_contents", {{"contentAvailability", json::array({available})}}}}),
+            0u);
+  EXPECT_EQ(holes_of(missing), 1u);
+  EXPECT_EQ(holes_of(nullptr), 1u);
+  EXPECT_EQ(holes_of(json::array()), 1u);
+  EXPECT_EQ(holes_of(json::array({nullptr})), 1u);
+  EXPECT_EQ(holes_of(json::array({{{"constant", true}}})), 1u);
+  EXPECT_EQ(holes_of(json::array({{{"constant", 2}}})), 1u);
+}
+
+TEST(Tileset, TablesWithoutLengthsAreHoles) {
+  json root = tile_json(50);
+  root["refine"] = "ADD";
+  root["children"] = {tile_json(0, "a.glb"), tile_json(0, "b")};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  const auto holes_of = [&](const std::string& bytes) {
+    tiles.add("b", bytes);
+    return tiles.read().report.holes;
+  };
+  const std::string numbers(24, '\0'), box = box_glb({{}});
+  json features = {{"INSTANCES_LENGTH", 1}, {"POSITION", {{"byteOffset", 0}}}};
+  EXPECT_EQ(holes_of(i3dm(box, features, numbers)), 0u);
+  features["NORMAL_UP"] = {{"byteOffset", 12}};
+  EXPECT_EQ(holes_of(i3dm(box, features, numbers)), 1u);
+  features.erase("NORMAL_UP");
+  features["NORMAL_RIGHT"] = {{"byteOffset", 12}};
+  EXPECT_EQ(holes_of(i3dm(box, features, numbers)), 1u);
+  EXPECT_EQ(holes_of(i3dm(box, {{"POSITION", {{"byteOffset", 0}}}}, numbers)), 1u);
+  EXPECT_EQ(holes_of(b3dm(box, json::object())), 0u);  // no table at all
+  EXPECT_EQ(holes_of(b3dm(box, {{"RTC_CENTER", {0, 0, 0}}})), 1u);
+}
+
+/// Files in memory, which counts how often each was read.
+class CountingSource : public internal::tiles::TileSource {
+ public:
+  std::string root() const override { return "tileset.json"; }
+  std::string resolve(const std::string& /*base*/, const std::string& uri) const override { return uri; }
+  std::string read(const std::string& address, const internal::core::ProgressReporter& /*progress*/) override {
+    ++reads[address];
+    return files.at(address);
+  }
+  std::string shown(const std::string& address) const override { return address; }
+
+  std::map<std::string, std::string> files;
+  std::map<std::string, int> reads;
+};
+
+TEST(Tileset, ReadsTheModelOfInstancesOnceAndOnlyIfThereAreAny) {
+  CountingSource source;
+  source.files["tree.glb"] = box_glb({{}});
+  const internal::core::ProgressReporter progress;
+  const internal::core::ReadLimits limits;
+  internal::tiles::Collector collector;
+  internal::tiles::ContentReader reader(source, collector, progress, limits);
+  const internal::tiles::Placement placement{Eigen::Affine3d::Identity()};
+  const auto trees = [](int count, const std::string& model) {
+    return i3dm(model, {{"INSTANCES_LENGTH", count}, {"POSITION", {{"byteOffset", 0}}}}, std::string(24, '\0'), {},
+                false);
+  };
+  EXPECT_FALSE(reader.read("a.cmpt", cmpt({trees(0, "gone.glb")}), placement));
+  EXPECT_TRUE(reader.read("a.cmpt", cmpt({trees(2, "tree.glb"), trees(1, "tree.glb")}), placement));
+  EXPECT_EQ(collector.triangles.size(), 36u);
+  EXPECT_EQ(source.reads, (std::map<std::string, int>{{"tree.glb", 1}}));
+}
+
+TEST(Tileset, BoundsTheTrianglesOfInstances) {
+  CountingSource source;
+  const internal::core::ProgressReporter progress;
+  internal::core::ReadLimits limits;
+  limits.repeated_triangles = 0;
+  internal::tiles::Collector collector;
+  internal::tiles::ContentReader reader(source, collector, progress, limits);
+  const std::string model = box_glb({{}});
+  // The least that is said of an instance is two bytes for each of three numbers.
+  const std::string many = i3dm(model,
+                                {{"INSTANCES_LENGTH", 1000},
+                                 {"POSITION_QUANTIZED", {{"byteOffset", 0}}},
+                                 {"QUANTIZED_VOLUME_OFFSET", {0, 0, 0}},
+                                 {"QUANTIZED_VOLUME_SCALE", {1, 1, 1}}},
+                                std::string(6000, '\0'));
+  const internal::tiles::Placement placement{Eigen::Affine3d::Identity()};
+  expect_error([&] { reader.read("a.i3dm", many, placement); }, ErrorCode::mesh_too_large, "a.i3dm");
+  EXPECT_TRUE(collector.triangles.empty());
+}
+
+TEST(Tileset, InstancesThatStandOnTheEarthKeepTheScaleOfTheirTile) {
+  const json numbers = testing::transform_at(50, 8);
+  Eigen::Affine3d on_earth;
+  for (Eigen::Index i = 0; i < 16; ++i) on_earth.matrix()(i % 4, i / 4) = numbers[static_cast<std::size_t>(i)];
+  const Eigen::Affine3d turned = on_earth * Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()) * Eigen::Scaling(2.5);
+  const std::string text =
+      json{{"INSTANCES_LENGTH", 1}, {"POSITION", {{"byteOffset", 0}}}, {"EAST_NORTH_UP", true}}.dump();
+  const std::string place(12, '\0');
+  const internal::tiles::Table features(text, place, {}, {});
+  const auto instances = internal::tiles::instances_of(features, turned);
+  ASSERT_EQ(instances.size(), 1u);
+  const Eigen::Matrix3d placed = (turned * instances[0].transform).linear();
+  EXPECT_LT((placed - 2.5 * on_earth.linear()).norm(), 1e-9) << placed;
 }
 
 TEST(Tileset, CountsHolesAndGoesOn) {

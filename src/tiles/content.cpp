@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/gltf_tile.h"
 #include "tiles/instances.h"
 #include "tiles/tables.h"
 #include "vantage/error.h"
@@ -59,8 +58,13 @@ void ContentReader::fail(const std::string& address, const std::string& problem)
 }
 
 bool ContentReader::read(const std::string& address, const std::string& bytes, const Placement& placement) {
+  models_.clear();
+  repeated_ = 0;
+  most_repeated_ = limits_.repeated_triangles + bytes.size() / 3;
   try {
-    return read_part(address, bytes, placement, 0);
+    const bool any = read_part(address, bytes, placement, 0);
+    models_.clear();
+    return any;
   } catch (const std::string& problem) {
     fail(address, problem);
   }
@@ -141,7 +145,9 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
   const std::vector<double> about = features.global("RTC_CENTER", 3).value_or(std::vector<double>{0, 0, 0});
   const io::MeshSource source(source_.shown(address), std::string(parts.rest));
   io::TileContext context{source_.name(address), {}, {}};
-  if (features.whole("BATCH_LENGTH") > 0) context.batch = [&batch](std::uint64_t id) { return batch.identity(id); };
+  if (!features.is_empty() && features.whole("BATCH_LENGTH") > 0) {
+    context.batch = [&batch](std::uint64_t id) { return batch.identity(id); };
+  }
   context.read_file = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
   const auto mesh = surfaces_of(source, progress_, limits_, context);
   if (!mesh) return false;
@@ -151,20 +157,46 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
   return true;
 }
 
+/// The model of an i3dm that is another file. The parts of a composite may share one: it is read once.
+const std::optional<io::TileMesh>& ContentReader::model(const std::string& address, const std::string& uri) {
+  constexpr std::size_t kMostKept = 16;
+  const std::string file = source_.resolve(address, uri);
+  if (const auto known = models_.find(file); known != models_.end()) return known->second;
+  const io::MeshSource source(source_.shown(file), source_.read(file, progress_));
+  const auto from_model = [&](const std::string& name) { return source_.read(source_.resolve(file, name), progress_); };
+  auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_model});
+  if (models_.size() >= kMostKept) models_.clear();
+  return models_[file] = std::move(mesh);
+}
+
+/// Instances repeat their model: a small file can describe more triangles than there is memory.
+void ContentReader::count_repeated(const std::string& address, std::uint64_t instances, std::uint64_t triangles) {
+  if (triangles > 0 && instances > (most_repeated_ - repeated_) / triangles) {
+    throw Error(ErrorCode::mesh_too_large,
+                "its instances repeat their models to more than " + std::to_string(most_repeated_) + " triangles",
+                source_.shown(address), "export the tileset with fewer instances in a tile, or with simpler models");
+  }
+  repeated_ += instances * triangles;
+}
+
 bool ContentReader::read_instanced(const std::string& address, std::string_view bytes, const Placement& placement) {
   const Parts parts = split(address, bytes, kInstancedHeader);
   const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
   const BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
-  std::string model = address;
-  std::string content(parts.rest);
-  if (load_word(bytes, 28) == 0) {  // the model is another file
-    model = source_.resolve(address, without_end(content));
-    content = source_.read(model, progress_);
+  const std::size_t count = instance_count(features);
+  if (count == 0) return false;
+  std::optional<io::TileMesh> own;
+  const bool is_apart = load_word(bytes, 28) == 0;  // the model is another file
+  if (!is_apart) {
+    const io::MeshSource source(source_.shown(address), std::string(parts.rest));
+    const auto from_here = [&](const std::string& uri) {
+      return source_.read(source_.resolve(address, uri), progress_);
+    };
+    own = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here});
   }
-  const io::MeshSource source(source_.shown(model), std::move(content));
-  const auto from_model = [&](const std::string& uri) { return source_.read(source_.resolve(model, uri), progress_); };
-  const auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_model});
+  const std::optional<io::TileMesh>& mesh = is_apart ? model(address, without_end(std::string(parts.rest))) : own;
   if (!mesh) return false;
+  count_repeated(address, count, mesh->mesh.triangles.size());
   const Transform shape = Eigen::Translation3d(mesh->center) * upright(placement.gltf_up);
   for (const Instance& instance : instances_of(features, placement.into_world)) {
     progress_.check();

@@ -1,9 +1,13 @@
 // Contents of tiles: glTF and GLB, b3dm, i3dm and cmpt (3D Tiles 1.0 and 1.1).
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "io/gltf_tile.h"
 #include "tiles/collector.h"
 #include "tiles/document.h"
 #include "tiles/tile_source.h"
@@ -33,6 +37,8 @@ class ContentReader {
   bool read_composite(const std::string& address, std::string_view bytes, const Placement& placement, int depth);
   bool read_batched(const std::string& address, std::string_view bytes, const Placement& placement);
   bool read_instanced(const std::string& address, std::string_view bytes, const Placement& placement);
+  const std::optional<io::TileMesh>& model(const std::string& address, const std::string& uri);
+  void count_repeated(const std::string& address, std::uint64_t instances, std::uint64_t triangles);
   bool read_gltf(const std::string& address, std::string_view bytes, const Placement& placement);
   Parts split(const std::string& address, std::string_view bytes, std::size_t header) const;
   [[noreturn]] void fail(const std::string& address, const std::string& problem) const;
@@ -41,6 +47,9 @@ class ContentReader {
   Collector& collector_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
+  // Of the content that is being read:
+  std::map<std::string, std::optional<io::TileMesh>> models_;  // other files, by address
+  std::uint64_t repeated_ = 0, most_repeated_ = 0;             // triangles of instances
 };
 
 }  // namespace vantage::internal::tiles

@@ -44,16 +44,21 @@ struct Subtree::Parts {
   Json json;
   std::string binary;
   const ReadFile& read_file;
-  std::map<std::uint64_t, std::string> buffers;
+  std::uint64_t room;                          // for further bytes of other files
+  std::map<std::string, std::string> buffers;  // by URI
 
   const std::string& buffer(std::uint64_t index) {
-    if (const auto known = buffers.find(index); known != buffers.end()) return known->second;
     const Json& all = member_of(json, "buffers");
     if (!all.is_array() || index >= all.size() || !all[index].is_object()) throw std::string("a buffer is missing");
     const auto uri = all[index].find("uri");
     if (uri == all[index].end()) return binary;
     if (!uri->is_string()) throw std::string("the \"uri\" of a buffer is not a text");
-    return buffers[index] = read_file(uri->get<std::string>());
+    const std::string name = uri->get<std::string>();
+    if (const auto known = buffers.find(name); known != buffers.end()) return known->second;
+    std::string bytes = read_file(name);
+    if (bytes.size() > room) throw std::string("its buffers are too large together");
+    room -= bytes.size();
+    return buffers[name] = std::move(bytes);
   }
 
   std::string view(std::uint64_t index) {
@@ -73,8 +78,8 @@ struct Subtree::Parts {
 Subtree::Bits Subtree::bits(const Json& described, std::uint64_t count, Parts& parts) {
   if (!described.is_object()) throw std::string("an availability is not an object");
   Bits bits;
-  if (const auto constant = described.find("constant"); constant != described.end()) {
-    bits.all = *constant == 1;
+  if (described.contains("constant")) {
+    bits.all = whole_of(described, "constant", 0, 1) == 1;
     return bits;
   }
   const char* const key = described.contains("bitstream") ? "bitstream" : "bufferView";
@@ -89,7 +94,7 @@ Subtree::Subtree(std::string bytes, const Shape& shape, const ReadFile& read_fil
                  const core::ProgressReporter& progress, const core::ReadLimits& limits)
     : shape_(shape) {
   constexpr std::size_t kHeader = 24;
-  Parts parts{{}, {}, read_file, {}};
+  Parts parts{{}, {}, read_file, limits.decompressed_bytes, {}};
   std::string_view text = bytes;
   if (bytes.starts_with("subt")) {
     if (bytes.size() < kHeader) throw std::string("it ends in its header");
@@ -107,11 +112,30 @@ Subtree::Subtree(std::string bytes, const Shape& shape, const ReadFile& read_fil
   const std::uint64_t inside = before(shape.levels);
   tiles_ = bits(member_of(parts.json, "tileAvailability"), inside, parts);
   children_ = bits(member_of(parts.json, "childSubtreeAvailability"), before(shape.levels + 1) - inside, parts);
-  const auto contents = parts.json.find("contentAvailability");
-  if (contents == parts.json.end()) return;
-  if (contents->is_object()) contents_.push_back(bits(*contents, inside, parts));
-  if (!contents->is_array()) return;
-  for (const Json& content : *contents) contents_.push_back(bits(content, inside, parts));
+  read_contents(inside, parts);
+}
+
+/// One availability for each content that the tile names: an array (1.1) or, of a single one, an object (1.0). The
+/// array may be in the extension of 1.0. To take what is missing for "no content" would lose surfaces unseen.
+void Subtree::read_contents(std::uint64_t count, Parts& parts) {
+  if (shape_.contents == 0) return;
+  const Json* holder = &parts.json;
+  if (const auto extensions = parts.json.find("extensions"); extensions != parts.json.end()) {
+    const auto multiple = extensions->is_object() ? extensions->find("3DTILES_multiple_contents") : extensions->end();
+    if (multiple != extensions->end() && multiple->contains("contentAvailability")) holder = &*multiple;
+  }
+  const Json& described = member_of(*holder, "contentAvailability");
+  if (described.is_object()) {
+    contents_.push_back(bits(described, count, parts));
+  } else if (described.is_array()) {
+    for (std::size_t i = 0; i < described.size() && i < shape_.contents; ++i) {
+      contents_.push_back(bits(described[i], count, parts));
+    }
+  }
+  if (contents_.size() < shape_.contents) {
+    throw "it has the availability of " + std::to_string(contents_.size()) + " of " + std::to_string(shape_.contents) +
+        " contents";
+  }
 }
 
 std::uint64_t Subtree::before(std::uint32_t level) const {
@@ -126,7 +150,7 @@ std::uint64_t Subtree::before(std::uint32_t level) const {
 bool Subtree::has_tile(std::uint32_t level, std::uint64_t morton) const { return tiles_.has(before(level) + morton); }
 
 bool Subtree::has_content(std::size_t content, std::uint32_t level, std::uint64_t morton) const {
-  return content < contents_.size() && contents_[content].has(before(level) + morton);
+  return contents_[content].has(before(level) + morton);
 }
 
 ImplicitTree::ImplicitTree(std::shared_ptr<const TilesetDocument> of, const Tile& root, double root_error_m)
@@ -137,6 +161,7 @@ ImplicitTree::ImplicitTree(std::shared_ptr<const TilesetDocument> of, const Tile
     is_octree = scheme == "OCTREE";
     if (!is_octree && scheme != "QUADTREE") throw std::string("\"subdivisionScheme\" is neither QUADTREE nor OCTREE");
     shape.children = is_octree ? 8 : 4;
+    shape.contents = contents.size();
     shape.levels = static_cast<std::uint32_t>(whole_of(described, "subtreeLevels", 0, kMostLevels));
     const bool is_older = !described.contains("availableLevels") && described.contains("maximumLevel");
     levels = static_cast<std::uint32_t>(is_older ? whole_of(described, "maximumLevel", 0, kMostLevels - 1) + 1

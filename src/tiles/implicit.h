@@ -21,10 +21,11 @@ struct TileIndex {
 /// Which tiles of some levels below a tile exist.
 class Subtree {
  public:
-  /// Of how many levels, with how many children for a tile (4 or 8).
+  /// Of how many levels, with how many children (4 or 8) and contents for a tile.
   struct Shape {
     std::uint32_t levels = 0;
     std::uint32_t children = 4;
+    std::size_t contents = 0;
   };
   /// Reads what another file holds.
   using ReadFile = std::function<std::string(const std::string& uri)>;
@@ -53,6 +54,7 @@ class Subtree {
 
   std::uint64_t before(std::uint32_t level) const;  ///< tiles of the levels above
   static Bits bits(const Json& described, std::uint64_t count, Parts& parts);
+  void read_contents(std::uint64_t count, Parts& parts);
 
   Shape shape_;
   Bits tiles_, children_;

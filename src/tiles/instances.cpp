@@ -50,25 +50,38 @@ std::vector<Vec3> positions(const Table& features, std::size_t count) {
   return result;
 }
 
-/// East, north and up at a place on the earth, in the tile's coordinates. `into_world` turns but does not stretch.
-Eigen::Matrix3d upright_at(const Vec3& position, const Transform& into_world) {
+/// East, north and up at a place on the earth, in the tile's coordinates. `turn`: how the tile is turned into the
+/// world, without its scale, which is to enlarge an instance as it does all else.
+Eigen::Matrix3d upright_at(const Vec3& position, const Transform& into_world, const Eigen::Matrix3d& turn) {
   const TangentFrame frame(from_ecef(into_world * position).place);
-  return into_world.linear().inverse() * frame.axes.transpose();
+  return turn.transpose() * frame.axes.transpose();
+}
+
+/// Whether "EAST_NORTH_UP" is set.
+bool stands_on_earth(const Table& features) {
+  const auto upright = features.json().find("EAST_NORTH_UP");
+  return upright != features.json().end() && *upright == true;
 }
 
 }  // namespace
 
+std::size_t instance_count(const Table& features) {
+  return static_cast<std::size_t>(features.whole("INSTANCES_LENGTH"));
+}
+
 std::vector<Instance> instances_of(const Table& features, const Transform& into_world) {
-  const auto count = static_cast<std::size_t>(features.whole("INSTANCES_LENGTH"));
+  const std::size_t count = instance_count(features);
   const std::vector<Vec3> places = positions(features, count);
   const std::vector<Vec3> up = directions(features, "NORMAL_UP", count);
   const std::vector<Vec3> right = directions(features, "NORMAL_RIGHT", count);
+  if (up.empty() != right.empty()) throw std::string("its instances have only one of two directions");
   const Numbers scale = features.per_instance("SCALE", 1, count, "FLOAT");
   const Numbers scales = features.per_instance("SCALE_NON_UNIFORM", 3, count, "FLOAT");
   const Numbers batch = features.per_instance("BATCH_ID", 1, count, "UNSIGNED_SHORT");
   const Numbers about = features.global("RTC_CENTER", 3);
-  const auto upright = features.json().find("EAST_NORTH_UP");
-  const bool on_earth = upright != features.json().end() && *upright == true;
+  const bool on_earth = stands_on_earth(features);
+  if (on_earth && !into_world.matrix().allFinite()) throw std::string("its transform is not finite");
+  const Eigen::Matrix3d tile_turn = on_earth ? into_world.rotation() : Eigen::Matrix3d::Identity().eval();
 
   std::vector<Instance> result;
   for (std::size_t i = 0; i < count; ++i) {
@@ -77,7 +90,7 @@ std::vector<Instance> instances_of(const Table& features, const Transform& into_
     if (!up.empty() && !right.empty()) {
       turn << right[i], up[i], right[i].cross(up[i]);
     } else if (on_earth) {
-      turn = upright_at(position, into_world);
+      turn = upright_at(position, into_world, tile_turn);
     }
     Vec3 stretch = scales ? vector_at(*scales, i) : Vec3::Ones().eval();
     if (scale) stretch *= (*scale)[i];

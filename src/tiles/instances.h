@@ -13,6 +13,9 @@ struct Instance {
   std::uint64_t batch = 0;
 };
 
+/// How many there are. Throws std::string where the table does not say.
+std::size_t instance_count(const Table& features);
+
 /// Throws std::string, what is wrong. `into_world`: of the tile, for instances that stand upright on the earth.
 std::vector<Instance> instances_of(const Table& features, const Transform& into_world);
 

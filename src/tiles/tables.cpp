@@ -61,7 +61,8 @@ std::string type_named(const Json& property, const char* otherwise) {
 Table::Table(std::string_view json, std::string_view binary, const core::ProgressReporter& progress,
              const core::ReadLimits& limits)
     : json_(Json::object()), binary_(binary) {
-  if (json.find_first_not_of(std::string_view(" \t\r\n\0", 5)) == std::string_view::npos) return;
+  is_empty_ = json.find_first_not_of(std::string_view(" \t\r\n\0", 5)) == std::string_view::npos;
+  if (is_empty_) return;
   try {
     json_ = io::parse_json(json.substr(0, json.find('\0')), progress, limits);
   } catch (const io::JsonProblem& problem) {
@@ -89,7 +90,7 @@ std::optional<std::vector<double>> Table::global(const char* name, std::size_t c
 
 std::uint64_t Table::whole(const char* name) const {
   const auto found = json_.find(name);
-  if (found == json_.end()) return 0;
+  if (found == json_.end()) throw std::string("\"") + name + "\" is missing";
   const double value = found->is_number()   ? found->get<double>()
                        : found->is_object() ? value_at<std::uint32_t>(element(*found, binary_, 0, 4))
                                             : -1;

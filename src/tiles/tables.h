@@ -22,9 +22,10 @@ class Table {
         const core::ReadLimits& limits);
 
   const Json& json() const { return json_; }
+  bool is_empty() const { return is_empty_; }  ///< without any JSON
   /// Values of a global property, as RTC_CENTER; nothing without it.
   std::optional<std::vector<double>> global(const char* name, std::size_t count) const;
-  std::uint64_t whole(const char* name) const;  ///< 0 without it
+  std::uint64_t whole(const char* name) const;  ///< throws without it
 
   /// A property that has `components` numbers for each of `count` instances: the numbers of all. `type`: as in a
   /// batch table ("FLOAT"), where the property does not say.
@@ -33,6 +34,7 @@ class Table {
 
  private:
   Json json_;
+  bool is_empty_ = true;
   std::string_view binary_;
 };
 
