@@ -24,6 +24,7 @@ using testing::b3dm;
 using testing::box_glb;
 using testing::bytes_of;
 using testing::cmpt;
+using testing::expect_code;
 using testing::expect_error;
 using testing::i3dm;
 using testing::subtree;
@@ -417,7 +418,7 @@ TEST(Tileset, BoundsTheTrianglesOfInstances) {
                                  {"QUANTIZED_VOLUME_SCALE", {1, 1, 1}}},
                                 std::string(6000, '\0'));
   const internal::tiles::Placement placement{Eigen::Affine3d::Identity()};
-  expect_error([&] { reader.read("a.i3dm", many, placement); }, ErrorCode::mesh_too_large, "a.i3dm");
+  expect_code([&] { reader.read("a.i3dm", many, placement); }, ErrorCode::mesh_too_large, "a.i3dm");
   EXPECT_TRUE(collector.triangles.empty());
 }
 
