@@ -90,7 +90,7 @@ Subtree::Bits Subtree::bits(const Json& described, std::uint64_t count, Parts& p
   return bits;
 }
 
-Subtree::Subtree(std::string bytes, const Shape& shape, const ReadFile& read_file,
+Subtree::Subtree(const std::string& bytes, const Shape& shape, const ReadFile& read_file,
                  const core::ProgressReporter& progress, const core::ReadLimits& limits)
     : shape_(shape) {
   constexpr std::size_t kHeader = 24;

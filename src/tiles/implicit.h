@@ -31,8 +31,8 @@ class Subtree {
   using ReadFile = std::function<std::string(const std::string& uri)>;
 
   /// Throws std::string, what is wrong, and whatever `read_file` throws.
-  Subtree(std::string bytes, const Shape& shape, const ReadFile& read_file, const core::ProgressReporter& progress,
-          const core::ReadLimits& limits);
+  Subtree(const std::string& bytes, const Shape& shape, const ReadFile& read_file,
+          const core::ProgressReporter& progress, const core::ReadLimits& limits);
 
   /// `level`: below the subtree's root; `morton`: its number among the tiles of that level.
   bool has_tile(std::uint32_t level, std::uint64_t morton) const;

@@ -98,7 +98,7 @@ Reach reach_of(World world, const Volume& root, const TilesetOptions& options, c
   }
   const geo::LonLat center = lon_lat(*options.center_deg);
   const geo::LocalFrame frame(center);  // checks the place
-  const Reach reach =
+  Reach reach =
       world == World::projected ? plane_reach(options, file) : Reach(center, *options.radius_m + kBeyondTileM);
   if (reach.meets(root)) return reach;
   std::string where_it_is;

@@ -41,7 +41,7 @@ std::string FolderSource::resolve(const std::string& base, const std::string& ur
     fail(ErrorCode::mesh_unsupported, "the tileset refers to " + in_quotes(uri) + ", which is no file beside it",
          "download the whole tileset");
   }
-  const std::string path = without_percents(std::string_view(uri).substr(0, uri.find_first_of("?#")));
+  const std::string path = without_percents(std::string_view{uri}.substr(0, uri.find_first_of("?#")));
   if (path.empty() || path.find('\0') != std::string::npos) {
     fail(ErrorCode::mesh_syntax, "the tileset refers to a file without a name", "export the tileset again");
   }

@@ -249,10 +249,10 @@ void Walk::enter_subtree(const Visit& visit, const std::shared_ptr<const Implici
   const std::string address = source_.resolve(tree->document->address(), tree->uri_of(tree->subtrees, root));
   const auto read_buffer = [&](const std::string& uri) { return read_file(source_.resolve(address, uri)); };
   auto loaded = std::make_shared<LoadedSubtree>(LoadedSubtree{tree, root, nullptr});
-  std::string bytes = read_file(address);
+  const std::string bytes = read_file(address);
   ++report_.documents;
   try {
-    loaded->bits = std::make_shared<Subtree>(std::move(bytes), tree->shape, read_buffer, progress_, limits_);
+    loaded->bits = std::make_shared<Subtree>(bytes, tree->shape, read_buffer, progress_, limits_);
   } catch (const std::string& problem) {
     throw Error(ErrorCode::mesh_syntax, "not a valid subtree: " + problem, source_.shown(address),
                 "export the tileset again; the file is cut off or garbled");
