@@ -44,7 +44,6 @@ bool is_named_json(const std::string& uri) {
 Walk::Walk(TileSource& source, Collector& collector, const Reach& reach, double detail_m, TilesetReport& report,
            const core::ProgressReporter& progress, const core::ReadLimits& limits)
     : source_(source),
-      collector_(collector),
       reach_(reach),
       detail_m_(detail_m),
       report_(report),

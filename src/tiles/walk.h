@@ -73,7 +73,6 @@ class Walk {
   void count_hole(const Error& error);
 
   TileSource& source_;
-  Collector& collector_;
   const Reach& reach_;
   double detail_m_;
   TilesetReport& report_;
