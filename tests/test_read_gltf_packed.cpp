@@ -308,7 +308,7 @@ TEST(ReadGltfPacked, BoundsTheFilesOfATile) {
                      {{"byteLength", bytes.size()}, {"uri", "a.bin?2"}}};
   gltf["bufferViews"][1]["buffer"] = 1;
   TileContext tile;
-  tile.read_file = [&bytes](const std::string&) { return bytes; };
+  tile.read_file = [&bytes](const std::string&) { return std::string(bytes); };
   core::ReadLimits limits;
   const MeshSource source("a.gltf", gltf.dump());
   limits.decompressed_bytes = 2 * bytes.size();

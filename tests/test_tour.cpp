@@ -83,7 +83,8 @@ TEST(Tour, TouchesConvexVolumesWhereItIsShortest) {
     Vec3 low = Vec3::Constant(-inner), high = Vec3::Constant(inner), best = Vec3::Zero();
     for (int round = 0; round < 14; ++round) {
       for (int k = 0; k < 343; ++k) {
-        const Vec3 share(k % 7 / 6.0, k / 7 % 7 / 6.0, k / 49 / 6.0);
+        const int across = k % 7, along = k / 7 % 7, up = k / 49;
+        const Vec3 share = Vec3(across, along, up) / 6;
         const Vec3 p = low + share.cwiseProduct(high - low);
         const double way = (a - p).norm() + (p - b).norm();
         if (way < least) {
