@@ -77,9 +77,9 @@ elseif(PROJECT STREQUAL "embedder")
   message(STATUS "built in ${seconds} s")
   run(${scratch}/build/embedder ${examples}/plaza.obj ${scratch}/volume.ply)
   if(MODE STREQUAL "add_subdirectory")
-    check_few_libraries(${scratch}/build/embedder 2)  # oneTBB and zlib
+    check_few_libraries(${scratch}/build/embedder 4)  # oneTBB, zlib, Draco and meshoptimizer
   else()
-    check_few_libraries(${scratch}/build/embedder 5)  # and yaml-cpp, Expat and Embree
+    check_few_libraries(${scratch}/build/embedder 7)  # and yaml-cpp, Expat and Embree
     run(${CMAKE_COMMAND} --build ${scratch}/build --target missions --parallel 2)
     run(${scratch}/build/missions ${examples} ${scratch}/mission.ply)
   endif()
