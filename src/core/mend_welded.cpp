@@ -20,6 +20,14 @@
 namespace vantage::internal::core {
 namespace {
 
+inline bool is_flat(const Triangle& t, const std::vector<Vec3>& vertices, double flat) {
+  const Vec3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
+  const Vec3 to_b = b - a, to_c = c - a, normal = to_b.cross(to_c);
+  if (flat == 0) return normal.isZero(0);
+  const double longest = std::max({to_b.squaredNorm(), (c - b).squaredNorm(), to_c.squaredNorm()});
+  return normal.squaredNorm() <= flat * flat * longest;
+}
+
 class Mender {
  public:
   Mender(LabelledMesh& labelled, double flat)
@@ -30,7 +38,8 @@ class Mender {
         owner_sets_(labelled.mesh.vertices.size()) {}
 
   bool run();
-  bool has_flaws() const;
+  // A facet with two corners in one place is flat too. So a mesh without flaws is told without sorting its vertices.
+  bool has_flaws() const { return has_narrow_facets(labelled_.mesh, flat_); }
 
  private:
   struct Waiting {
@@ -42,7 +51,7 @@ class Mender {
   };
 
   bool is_collapsed(const Triangle& t) const { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-  bool is_flat(const Triangle& t) const;
+  bool is_flat(const Triangle& t) const { return core::is_flat(t, vertices_, flat_); }
   void weld(const std::vector<std::uint32_t>& first);
   void cancel_facing();
   void remove(std::uint32_t t);
@@ -67,19 +76,6 @@ class Mender {
   std::vector<char> gone_;
   std::priority_queue<Waiting> flat_facets_;
 };
-
-bool Mender::is_flat(const Triangle& t) const {
-  const Vec3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
-  const Vec3 normal = (b - a).cross(c - a);
-  if (flat_ == 0) return normal.isZero(0);
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return normal.squaredNorm() <= flat_ * flat_ * longest;
-}
-
-// A facet with two corners in one place is flat too. So a mesh without flaws is told without sorting its vertices.
-bool Mender::has_flaws() const {
-  return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) { return is_flat(t); });
-}
 
 void Mender::remove(std::uint32_t t) {
   gone_[t] = 1;
@@ -310,11 +306,20 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
   return moved + split_on_grid(labelled, [](const Vec3& middle) { return middle; });
 }
 
+bool has_narrow_facets(const Mesh& mesh, double flat_m) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const Triangle& t) { return is_flat(t, mesh.vertices, flat_m); });
+}
+
 double flat_width(const Mesh& mesh) {
   constexpr double kSteps = 4;
-  const Box box = bounding_box(mesh);
-  if (box.empty()) return 0;
-  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  if (mesh.empty()) return 0;
+  double largest = 0;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      for (const double coordinate : mesh.vertices[v]) largest = std::max(largest, std::abs(coordinate));
+    }
+  }
   int exponent = 0;
   std::frexp(largest, &exponent);  // largest < 2^exponent
   return kSteps * std::ldexp(1.0, exponent - std::numeric_limits<double>::digits);

@@ -42,6 +42,9 @@ double split_on_grid(LabelledMesh& labelled, const std::function<Vec3(const Vec3
 /// four of those steps; nothing where nothing was changed.
 std::optional<double> mend_for_doubles(LabelledMesh& labelled);
 
+/// Whether a facet is flat, as of mend_welded().
+bool has_narrow_facets(const Mesh& mesh, double flat_m);
+
 /// A facet narrower than this has no area for who reads its coordinates as doubles: four steps of the largest of them,
 /// the rounding of the area's own terms. Metres; 0 for an empty mesh.
 double flat_width(const Mesh& mesh);

@@ -36,18 +36,24 @@ void check(const PreparedTarget& target, const ExactOptions& options) {
 
 void set_mesh(HalfSpaceVolume side, const TargetFrame& frame, Volume& volume) {
   volume.counts = side.counts;
+  for (Vec3& v : side.mesh.vertices) v = frame.to_scene(v);
+  volume.causes = std::move(side.causes);
+  if (!internal::core::has_narrow_facets(side.mesh, internal::core::flat_width(side.mesh))) {
+    volume.mesh = std::move(side.mesh);
+    volume.cause_of = std::move(side.cause_of);
+    volume.polygon_of = std::move(side.polygon_of);
+    return;
+  }
+  // At map coordinates rounding leaves narrow facets without area.
   std::vector<std::uint32_t> facets(side.cause_of.size());
   std::iota(facets.begin(), facets.end(), 0u);
   internal::core::LabelledMesh labelled{std::move(side.mesh), std::move(facets)};
-  for (Vec3& v : labelled.mesh.vertices) v = frame.to_scene(v);
-  // At map coordinates rounding leaves narrow facets without area.
   internal::core::mend_for_doubles(labelled);
   volume.mesh = std::move(labelled.mesh);
   for (const std::uint32_t facet : labelled.labels) {
     volume.cause_of.push_back(side.cause_of[facet]);
     volume.polygon_of.push_back(side.polygon_of[facet]);
   }
-  volume.causes = std::move(side.causes);
 }
 
 /// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.

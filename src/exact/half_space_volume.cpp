@@ -33,13 +33,18 @@ class Causes {
         of_limit_(limits ? limits->causes.size() : 0, kNone) {}
 
   void add(const Boundary& boundary) {
-    side_.cause_of.reserve(boundary.blocker_of.size());
-    side_.polygon_of.reserve(boundary.blocker_of.size());
-    for (std::size_t i = 0; i < boundary.blocker_of.size(); ++i) {
-      std::uint32_t polygon = kNoPolygon;
-      const std::uint32_t cause = cause_of(boundary.blocker_of[i], polygon);
-      side_.cause_of.push_back(cause);
-      side_.polygon_of.push_back(polygon);
+    const std::size_t facets = boundary.blocker_of.size();
+    side_.cause_of.resize(facets);
+    side_.polygon_of.resize(facets);
+    std::uint32_t cause = kNone, polygon = kNoPolygon;
+    for (std::size_t i = 0; i < facets; ++i) {
+      // Most facets have the blocker of the one before.
+      if (i == 0 || boundary.blocker_of[i] != boundary.blocker_of[i - 1]) {
+        polygon = kNoPolygon;
+        cause = cause_of(boundary.blocker_of[i], polygon);
+      }
+      side_.cause_of[i] = cause;
+      side_.polygon_of[i] = polygon;
       side_.causes[cause].area_m2 += area_of(boundary.mesh, boundary.mesh.triangles[i]);
     }
   }

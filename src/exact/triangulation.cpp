@@ -80,6 +80,7 @@ class BoundaryBuilder {
     result_.mesh.triangles = std::move(cells_.triangles);
     result_.blocker_of.assign(result_.mesh.triangles.size(), Boundary::kRange);
     base_ = std::move(cells_.base);
+    reserve_quadrants();
     lift_graph();
     for (const QuadrantMesh& quadrant : quadrants_) add(quadrant);
     if (envelope_.floor) {
@@ -115,6 +116,20 @@ class BoundaryBuilder {
         }
       }
     });
+  }
+
+  void reserve_quadrants() {
+    std::size_t vertices = result_.mesh.vertices.size() + 1, base = base_.size(),
+                facets = result_.mesh.triangles.size();
+    for (const QuadrantMesh& quadrant : quadrants_) {
+      vertices += quadrant.added.size();
+      base += quadrant.base.size();
+      facets += quadrant.triangles.size();
+    }
+    base_.reserve(base);
+    result_.mesh.vertices.reserve(vertices);
+    result_.mesh.triangles.reserve(facets + base);
+    result_.blocker_of.reserve(facets + base);
   }
 
   // The mesh has the vertices of the graph first, then those of the cells, then those that refinement added. On the
