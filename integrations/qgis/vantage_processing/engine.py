@@ -25,13 +25,22 @@ else:
 """PROBLEM: why the algorithms cannot run, and what to do about it; empty if they can."""
 
 
+_STOPPED = "Stopped, as was asked: nothing was written."
+
+
+def stop_if_canceled(feedback):
+    """Before something is written: short calls of vantage end without asking whether to go on."""
+    if feedback.isCanceled():
+        raise QgsProcessingException(_STOPPED)
+
+
 @contextlib.contextmanager
 def told():
     """Errors of vantage become those of QGIS, with all that they say."""
     try:
         yield
     except vt.CancelledError as error:
-        raise QgsProcessingException("Stopped, as was asked: nothing was written.") from error
+        raise QgsProcessingException(_STOPPED) from error
     except vt.Error as error:
         raise QgsProcessingException(str(error)) from error
 

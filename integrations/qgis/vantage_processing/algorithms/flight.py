@@ -7,7 +7,7 @@ from qgis.core import (QgsGeometry, QgsLineString, QgsPoint, QgsProcessing, QgsP
                        QgsProcessingParameterFileDestination, QgsProcessingParameterNumber,
                        QgsProcessingParameterPoint, QgsProcessingParameterString, QgsWkbTypes)
 
-from ..engine import Progress, tell_notes, vt
+from ..engine import Progress, stop_if_canceled, tell_notes, vt
 from ..places import Frame
 from .base import VantageAlgorithm, fields_of, is_given
 from .request import place_of
@@ -91,6 +91,7 @@ class FlightAlgorithm(VantageAlgorithm):
         else:
             tour = vt.tour(mission, bound=self.parameterAsBool(parameters, "BOUND", context), progress=progress)
             flight, check = tour.flight, tour.check(progress=progress)
+        stop_if_canceled(feedback)
         tell_scene(feedback, mission.scene, crs)
         _tell(feedback, flight, tour, check)
         out = self.write(parameters, "LEGS", context, (fields_of(LEGS), QgsWkbTypes.LineStringZ, crs),

@@ -6,7 +6,7 @@ from qgis.core import (QgsFeature, QgsFeatureSink, QgsProcessing, QgsProcessingE
                        QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
                        QgsProcessingParameterNumber, QgsProcessingUtils, QgsWkbTypes)
 
-from ..engine import Progress, tell_notes
+from ..engine import Progress, stop_if_canceled, tell_notes
 from .base import VantageAlgorithm, fields_of, is_given
 from .request import add_request, read_request
 from .volume import tell_scene
@@ -51,11 +51,12 @@ class QueryAlgorithm(VantageAlgorithm):
         mission, frame = read_request(self, parameters, context, progress)
         features, places = self._places(parameters, context, source, frame)
         tell_notes(feedback, mission.notes)
-        tell_scene(feedback, mission.scene, source.sourceCrs())
+        tell_scene(feedback, mission.scene, source.sourceCrs() if source.sourceCrs().isValid() else frame.crs)
         answers = mission.query(places, progress=progress)
         shares = None
         if self.parameterAsBool(parameters, "SHARE", context):
             shares = mission.fraction(places, progress=progress).tolist()
+        stop_if_canceled(feedback)
         added = fields_of(ANSWERS if shares is None else {**ANSWERS, "share": float})
         fields = QgsProcessingUtils.combineFields(source.fields(), added)
         sink, made = self.parameterAsSink(parameters, "OUTPUT", context, fields, source.wkbType(), source.sourceCrs())

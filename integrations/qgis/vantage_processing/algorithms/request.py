@@ -3,7 +3,7 @@
 import os
 
 import numpy as np
-from qgis.core import (QgsCoordinateReferenceSystem, QgsProcessing, QgsProcessingException,
+from qgis.core import (QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsProcessing, QgsProcessingException,
                        QgsProcessingFeatureSource, QgsProcessingParameterCrs, QgsProcessingParameterEnum,
                        QgsProcessingParameterFeatureSource, QgsProcessingParameterField, QgsProcessingParameterFile,
                        QgsProcessingParameterNumber, QgsProcessingParameterPoint, QgsWkbTypes)
@@ -165,7 +165,7 @@ def _targets(algorithm, parameters, context, frame):
         raise QgsProcessingException("Both TARGET_Z and TARGET_Z_FIELD are given.\n  what to do: give one of them")
     targets = []
     # Upright polygons are not valid in plan, and may be targets: vantage judges them.
-    for feature in source.getFeatures(flags=QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks):
+    for feature in source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks):
         where = f"Targets, feature {feature.id()}"
         z = z_of_all if not z_field else _number_of(feature, z_field, where)
         name = str(feature[name_field]) if name_field and feature[name_field] else f"feature {feature.id()}"

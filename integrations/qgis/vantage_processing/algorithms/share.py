@@ -9,7 +9,7 @@ from qgis.core import (Qgis, QgsProcessingException, QgsProcessingParameterBoole
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterDestination, QgsRasterBlock,
                        QgsRasterFileWriter, QgsRectangle, QgsUnitTypes)
 
-from ..engine import Progress, tell_notes
+from ..engine import Progress, stop_if_canceled, tell_notes
 from .base import VantageAlgorithm, is_given
 from .request import add_request, read_request
 from .volume import add_crs, tell_scene
@@ -46,13 +46,11 @@ class ShareAlgorithm(VantageAlgorithm):
         progress = Progress(feedback)
         mission, frame = read_request(self, parameters, context, progress)
         crs = frame.chosen(self.parameterAsCrs(parameters, "CRS", context))
-        if crs.isValid() and crs.mapUnits() != QgsUnitTypes.DistanceMeters:
+        if crs.mapUnits() != QgsUnitTypes.DistanceMeters:
             raise QgsProcessingException(f"CRS: {crs.userFriendlyIdentifier()} is not in metres, and cells are.\n  what to do: "
                                          "choose a projected CRS in metres, or none")
-        z, cell = self.number(parameters, "Z", context), self.number(parameters, "CELL", context)
-        wanted = (self.parameterAsExtent(parameters, "EXTENT", context, crs) if is_given(parameters, "EXTENT")
-                  else _about(mission, frame, crs))
-        grid = Grid(wanted, cell)
+        z, cell = (self.parameterAsDouble(parameters, name, context) for name in ("Z", "CELL"))
+        grid = Grid(self._extent(parameters, context, mission, frame, crs), cell)
         tell_notes(feedback, mission.notes)
         tell_scene(feedback, mission.scene, crs)
         limits = self.parameterAsBool(parameters, "LIMITS", context)
@@ -69,6 +67,14 @@ class ShareAlgorithm(VantageAlgorithm):
         file = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
         _write(file, grid, crs, lambda write: _fill(grid, shares_of, write, progress))
         return {"OUTPUT": file}
+
+    def _extent(self, parameters, context, mission, frame, crs):
+        if not is_given(parameters, "EXTENT"):
+            return _about(mission, frame, crs)
+        text = parameters["EXTENT"]
+        if not (isinstance(text, str) and "[" not in text):  # four numbers alone are in the CRS of the results
+            frame.check(self.parameterAsExtentCrs(parameters, "EXTENT", context), "the extent has")
+        return self.parameterAsExtent(parameters, "EXTENT", context, crs)
 
 
 class Grid:
@@ -109,6 +115,7 @@ def _fill(grid, shares_of, write, progress):
     at_once = max(1, _CELLS_AT_ONCE // grid.columns)
     for first in range(0, grid.rows, at_once):
         count = min(at_once, grid.rows - first)
+        stop_if_canceled(progress.feedback)
         part = progress.part(first / grid.rows, (first + count) / grid.rows)
         write(first, count, shares_of(grid.centres(first, count), part))
 

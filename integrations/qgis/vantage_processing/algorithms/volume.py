@@ -8,7 +8,7 @@ from qgis.core import (QgsGeometry, QgsLineString, QgsMultiPolygon, QgsPolygon, 
                        QgsProcessingOutputNumber, QgsProcessingParameterCrs, QgsProcessingParameterFeatureSink,
                        QgsProcessingParameterString, QgsWkbTypes)
 
-from ..engine import Progress, tell_notes
+from ..engine import Progress, stop_if_canceled, tell_notes
 from ..styles import ByCause
 from .base import VantageAlgorithm, fields_of
 from .request import add_request, read_request
@@ -50,6 +50,7 @@ class VolumeAlgorithm(VantageAlgorithm):
         mission, frame = read_request(self, parameters, context, progress)
         crs = frame.chosen(self.parameterAsCrs(parameters, "CRS", context))
         results = mission.run_each(progress=progress)
+        stop_if_canceled(feedback)
         tell_scene(feedback, mission.scene, crs)
         for result in results:
             tell_notes(feedback, result.notes)
@@ -92,9 +93,11 @@ def tell_scene(feedback, scene, crs):
     """Where the results lie, and whom maps of them have to name."""
     place = scene.georeference
     if place is None:
-        feedback.pushWarning("It is not known where on the earth the scene lies: the results have no CRS, and are in its metres.")
+        feedback.pushWarning("It is not known where on the earth the scene lies: the results have a "
+                             f"local CRS ({crs.description()}), in its metres.")
     else:
-        feedback.pushInfo(f"Results are in {crs.authid() or crs.toProj()}; heights are metres above the zero of the scene"
+        where = crs.authid() or crs.toProj() or "the scene's frame"
+        feedback.pushInfo(f"Results are in {where}; heights are metres above the zero of the scene"
                           + (f" ({place.vertical})" if place.vertical else ""))
     if scene.attribution:
         feedback.pushInfo(f"Maps of it have to name: {scene.attribution}")
