@@ -10,11 +10,13 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
-from qgis.core import (QgsCoordinateReferenceSystem, QgsCoordinateTransform, QgsCoordinateTransformContext,
-                       QgsRasterLayer)
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsCoordinateTransform,
+                       QgsCoordinateTransformContext, QgsProcessingAlgRunnerTask, QgsProcessingContext,
+                       QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer)
 
 import support
 import vantage as vt
@@ -97,6 +99,26 @@ class Volumes(Checked):
             self.assertAlmostEqual(sum(areas), cause.area_m2, places=6)
         self.assertTrue(any(self.result.scene.attribution in text for text in feedback.told))
         self.assertTrue(feedback.stages)
+
+    def test_in_a_thread_of_its_own_as_the_toolbox_runs_it_and_with_a_style(self):
+        project, context, feedback, ended = QgsProject.instance(), QgsProcessingContext(), Feedback(), []
+        context.setProject(project)
+        algorithm = QgsApplication.processingRegistry().createAlgorithmById("vantage:volume")
+        task = QgsProcessingAlgRunnerTask(algorithm, {
+            "MISSION": str(TOWN / "mission.yaml"),
+            "FACETS": QgsProcessingOutputLayerDefinition("TEMPORARY_OUTPUT", project)}, context, feedback)
+        task.executed.connect(lambda is_good, results: ended.append((is_good, results)))
+        QgsApplication.taskManager().addTask(task)
+        begin = time.monotonic()
+        while not ended and time.monotonic() - begin < 120:
+            QgsApplication.processEvents()
+        is_good, results = ended[0]
+        self.assertTrue(is_good, feedback.warned)
+        self.assertEqual(results["FACET_COUNT"], len(self.result.faces))
+        made = QgsProcessingUtils.mapLayerFromString(results["FACETS"], context)
+        context.layersToLoadOnCompletion()[results["FACETS"]].postProcessor().postProcessLayer(made, context, feedback)
+        coloured = {category.value() for category in made.renderer().categories()}
+        self.assertLessEqual({cause.kind for cause in self.result.causes}, coloured)
 
     def test_facets_in_another_crs_are_within_a_millimetre(self):
         facets = run("volume", MISSION=TOWN / "mission.yaml", CRS=QgsCoordinateReferenceSystem(UTM))["FACETS"]

@@ -1,6 +1,6 @@
 """What all algorithms have in common."""
 
-from qgis.core import (QgsFeatureSink, QgsField, QgsFields, QgsProcessingAlgorithm, QgsProcessingException,
+from qgis.core import (QgsFeature, QgsFeatureSink, QgsField, QgsFields, QgsProcessingAlgorithm, QgsProcessingException,
                        QgsProcessingParameterDefinition)
 from qgis.PyQt.QtCore import QVariant
 from qgis.PyQt.QtGui import QIcon
@@ -87,8 +87,6 @@ class VantageAlgorithm(QgsProcessingAlgorithm):
         Returns:
             {name: the layer}, or nothing.
         """
-        from qgis.core import QgsFeature
-
         sink, made = self.parameterAsSink(parameters, name, context, *layer)
         if sink is None:
             if is_given(parameters, name):

@@ -1,7 +1,7 @@
 """Which points see the target, and what hides it from the others."""
 
 import numpy as np
-from qgis.core import (QgsFeature, QgsFeatureSink, QgsProcessing, QgsProcessingException, QgsProcessingOutputNumber,
+from qgis.core import (QgsProcessing, QgsProcessingException, QgsProcessingOutputNumber,
                        QgsProcessingParameterBoolean, QgsProcessingParameterFeatureSink,
                        QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
                        QgsProcessingParameterNumber, QgsProcessingUtils, QgsWkbTypes)
@@ -59,18 +59,11 @@ class QueryAlgorithm(VantageAlgorithm):
         stop_if_canceled(feedback)
         added = fields_of(ANSWERS if shares is None else {**ANSWERS, "share": float})
         fields = QgsProcessingUtils.combineFields(source.fields(), added)
-        sink, made = self.parameterAsSink(parameters, "OUTPUT", context, fields, source.wkbType(), source.sourceCrs())
-        if sink is None:
-            raise QgsProcessingException(self.invalidSinkError(parameters, "OUTPUT"))
-        rows = []
-        for number, feature in enumerate(features):
-            row = QgsFeature(fields)
-            row.setGeometry(feature.geometry())
-            row.setAttributes([*feature.attributes(), *_values(answers, number), *([] if shares is None else [shares[number]])])
-            rows.append(row)
-        if not sink.addFeatures(rows, QgsFeatureSink.FastInsert):
-            raise QgsProcessingException(f"Points with answers: not all could be written: {sink.lastError()}")
-        return {"OUTPUT": made, "INSIDE_COUNT": int(answers.inside.sum())}
+        rows = ((feature.geometry(), [*feature.attributes(), *_values(answers, number),
+                                      *([] if shares is None else [shares[number]])])
+                for number, feature in enumerate(features))
+        out = self.write(parameters, "OUTPUT", context, (fields, source.wkbType(), source.sourceCrs()), rows)
+        return out | {"INSIDE_COUNT": int(answers.inside.sum())}
 
     def _places(self, parameters, context, source, frame):
         """The features, and where they are in the frame: (n, 3)."""
