@@ -70,10 +70,10 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, builds, attack
+nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, QGIS, builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
-	@$(MAKE) --no-print-directory tsan wheelcheck
+	@$(MAKE) --no-print-directory tsan wheelcheck qgis
 	ctest --preset release --parallel $(JOBS) --label-regex nightly
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
@@ -136,6 +136,14 @@ web:  ## the page, in web/dist/index.html: one file
 .PHONY: webtest
 webtest: web build  ## the page's tests: its engine beside the program, and the page in Chromium
 	cd web && npm test
+
+# Debian's QGIS runs Debian's Python, which the package in build/python is for.
+.PHONY: qgis
+qgis: package  ## the plugin of QGIS: its zip, in dist/, and its tests in QGIS without a screen
+	@scripts/install_packages.sh --qgis
+	/usr/bin/python3 integrations/qgis/build_zip.py
+	@status=0; for test in integrations/qgis/tests/test_*.py; do echo "== $$test"; \
+	  PYTHONPATH=$(CURDIR)/build/python QT_QPA_PLATFORM=offscreen /usr/bin/python3 $$test || status=1; done; exit $$status
 
 .PHONY: gallery
 gallery: web build  ## reports of the real scenes of docs/gallery, in build/gallery

@@ -16,12 +16,18 @@ from qgis.PyQt.QtGui import QColor
 import manhattan
 import support
 import vantage as vt
-from support import corners_of, run
+from support import corners_of, layer, run
 
 
 def nearest(places, others):
     """Of each place the distance to the nearest of the others."""
     return np.array([np.linalg.norm(others - place, axis=1).min() for place in places])
+
+
+def geometry_of(cut):
+    """Of a vantage.Slice, in its own coordinates."""
+    return QgsGeometry.fromMultiPolygonXY([[[QgsPointXY(x, y) for x, y in [*ring.tolist(), ring[0].tolist()]] for ring in rings]
+                                           for rings in cut.polygons])
 
 
 @unittest.skipUnless(manhattan.MAP.is_file(), f"needs {manhattan.MAP}: set VANTAGE_SHARED to the folder that holds data/")
@@ -62,9 +68,7 @@ class Manhattan(unittest.TestCase):
         for row in made.getFeatures():
             cut = self.result.slice(row["z_m"])
             self.assertAlmostEqual(row["area_m2"] / cut.area_m2, 1, places=6)
-            there = cut.to_crs(manhattan.UTM.authid())
-            wanted = QgsGeometry.fromMultiPolygonXY([[[QgsPointXY(x, y) for x, y in [*ring.tolist(), ring[0].tolist()]]
-                                                      for ring in rings] for rings in there.polygons])
+            wanted = geometry_of(cut.to_crs(manhattan.UTM.authid()))
             self.assertLess(row.geometry().symDifference(wanted).area(), 1e-3 * wanted.length())
 
     def test_points_see_what_vantage_says(self):
@@ -121,6 +125,28 @@ class Manhattan(unittest.TestCase):
         # The target lies over some.
         self.assertGreaterEqual(seen["inside"], self.results["query"]["INSIDE_COUNT"] - 3)
         self.assertGreater(seen["outside"], 500)
+
+
+CITY = support.SHARED / "data" / "cityjson" / "delft.city.json"
+
+
+@unittest.skipUnless(CITY.is_file(), f"needs {CITY}: set VANTAGE_SHARED to the folder that holds data/")
+class Delft(unittest.TestCase):
+    def test_a_city_model_in_its_own_crs(self):
+        scene, crs = vt.Scene.from_mesh(CITY), "EPSG:28992"
+        middle, z = scene.bounds.mean(axis=0)[:2], float(scene.bounds[1, 2]) + 2  # a deck above all roofs
+        square = middle + np.array([[-6, -4], [6, -4], [6, 4], [-6, 4]])
+        place = scene.georeference
+        there = vt.Slice([[square]], z, place, scene.crs).to_crs(crs).polygons[0][0]
+        ring = ", ".join(f"{x!r} {y!r} {z!r}" for x, y in [*there.tolist(), there[0].tolist()])
+        made = run("volume", SCENE=CITY, TARGETS=layer("PolygonZ", [f"POLYGON Z(({ring}))"], crs), RANGE=50,
+                   CRS=QgsCoordinateReferenceSystem(crs), SLICE_HEIGHTS=f"{z + 10}")
+        result = vt.compute(scene, np.column_stack([square, np.full(4, z)]), max_range=50)
+        # PROJ's way into this CRS and back is off by 0.4 mm.
+        self.assertAlmostEqual(made["VOLUME_M3"] / result.volume_m3, 1, places=5)
+        wanted = geometry_of(result.slice(z + 10).to_crs(crs))
+        made_there = next(made["SLICES"].getFeatures()).geometry()
+        self.assertLess(made_there.symDifference(wanted).area(), 1e-3 * wanted.length())
 
 
 if __name__ == "__main__":

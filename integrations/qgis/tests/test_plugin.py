@@ -241,6 +241,12 @@ class Queries(Checked):
         for wrong in ({}, {"Z": 1.0, "Z_FIELD": "flown"}):
             self.refused("query", MISSION=TOWN / "mission.yaml", POINTS=points, **wrong)
 
+    def test_no_points_and_heights_that_are_missing(self):
+        made = run("query", MISSION=TOWN / "mission.yaml", POINTS=layer("PointZ", []))
+        self.assertEqual((made["INSIDE_COUNT"], made["OUTPUT"].featureCount()), (0, 0))
+        without = layer("Point", ["POINT(0 0)"], flown=[None])
+        self.assertIn("feature 1", self.refused("query", MISSION=TOWN / "mission.yaml", POINTS=without, Z_FIELD="flown"))
+
     def test_a_point_that_is_none_is_named(self):
         for kind, wkt in (("MultiPointZ", "MULTIPOINT Z((0 0 9), (1 1 9))"), ("PointZ", "POINT Z EMPTY"), ("PointZ", "")):
             self.assertIn("feature 1", self.refused("query", MISSION=TOWN / "mission.yaml", POINTS=layer(kind, [wkt])))
