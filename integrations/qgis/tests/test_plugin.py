@@ -7,6 +7,8 @@ import configparser
 import os
 import pathlib
 import re
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -298,6 +300,18 @@ class Shares(Checked):
         self.assertEqual(os.listdir(self.file.parent), [self.file.name])
 
 
+    def test_a_full_disk_is_told_and_costs_nothing(self):
+        self.file.write_bytes(b"before")
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+        try:
+            self.refused("share", MISSION=TOWN / "mission.yaml", Z=20, CELL=2, OUTPUT=self.file)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        self.assertEqual(self.file.read_bytes(), b"before")
+
+
 class Flights(Checked):
     def test_a_new_flight_sees_all_and_reads_back_from_its_plan(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -352,6 +366,8 @@ class Refused(Checked):
             with self.assertRaises(vt.Error) as expected:
                 vt.Mission.read(mission)
             self.assertEqual(self.refused("volume", MISSION=mission, FACETS=before), str(expected.exception))
+            elsewhere = QgsCoordinateReferenceSystem.fromProj("+proj=gnom +lat_0=-48 +lon_0=-169")  # the other half of the earth
+            self.refused("volume", MISSION=TOWN / "mission.yaml", FACETS=before, CRS=elsewhere)
             self.assertEqual(before.read_bytes(), b"before")
 
     def test_what_does_not_go_together(self):

@@ -51,7 +51,7 @@ class Frame:
         """Refuses CRSs on the earth for scenes without a place. `what` has this CRS: "the layer has"."""
         if not self.is_placed and not self.has(crs):
             raise QgsProcessingException(
-                f"It is not known where on the earth the scene lies, and {what} the CRS {crs.userFriendlyIdentifier()}.\n"
+                f"It is not known where on the earth the scene lies, and {what} the CRS {name_of(crs)}.\n"
                 "  what to do: give the scene's ORIGIN or SCENE_CRS, or work in the scene's metres, without a CRS")
 
     def _moved(self, xy, source, destination, what):
@@ -62,11 +62,16 @@ class Frame:
         return transformed(xy, QgsCoordinateTransform(source, destination, self.context.transformContext()), what)
 
 
+def name_of(crs):
+    """For messages."""
+    return crs.authid() or crs.toProj() or crs.description()
+
+
 def transformed(xy, transform, what):
     """(n, 2) positions by a QgsCoordinateTransform, all at once."""
     if not transform.isValid():
-        raise QgsProcessingException(f"{what}: there is no way from the CRS {transform.sourceCrs().userFriendlyIdentifier()} to "
-                                     f"{transform.destinationCrs().userFriendlyIdentifier()}.\n  what to do: take another CRS")
+        raise QgsProcessingException(f"{what}: there is no way from the CRS {name_of(transform.sourceCrs())} to "
+                                     f"{name_of(transform.destinationCrs())}.\n  what to do: take another CRS")
     line = QgsLineString(xy[:, 0].tolist(), xy[:, 1].tolist())
     try:
         line.transform(transform)
@@ -75,6 +80,6 @@ def transformed(xy, transform, what):
     moved = np.frombuffer(bytes(line.asWkb()), "<f8", offset=9).reshape(-1, 2)
     if moved.shape != xy.shape or not np.isfinite(moved).all():
         raise QgsProcessingException(
-            f"{what}: some positions cannot be converted from {transform.sourceCrs().userFriendlyIdentifier()} to "
-            f"{transform.destinationCrs().userFriendlyIdentifier()}.\n  what to do: take a CRS that is made for that place")
+            f"{what}: some positions cannot be converted from {name_of(transform.sourceCrs())} to "
+            f"{name_of(transform.destinationCrs())}.\n  what to do: take a CRS that is made for that place")
     return moved

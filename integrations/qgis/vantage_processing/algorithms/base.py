@@ -87,17 +87,17 @@ class VantageAlgorithm(QgsProcessingAlgorithm):
         Returns:
             {name: the layer}, or nothing.
         """
-        sink, made = self.parameterAsSink(parameters, name, context, *layer)
-        if sink is None:
-            if is_given(parameters, name):
-                raise QgsProcessingException(self.invalidSinkError(parameters, name))
-            return {}
         rows = []
         for geometry, values in features:
             feature = QgsFeature(layer[0])
             feature.setGeometry(geometry)
             feature.setAttributes(values)
             rows.append(feature)
+        sink, made = self.parameterAsSink(parameters, name, context, *layer)
+        if sink is None:
+            if is_given(parameters, name):
+                raise QgsProcessingException(self.invalidSinkError(parameters, name))
+            return {}
         if not sink.addFeatures(rows, QgsFeatureSink.FastInsert):
             raise QgsProcessingException(f"{self.parameterDefinition(name).description()}: not all could be written: "
                                          f"{sink.lastError()}")

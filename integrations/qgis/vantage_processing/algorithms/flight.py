@@ -94,12 +94,13 @@ class FlightAlgorithm(VantageAlgorithm):
         stop_if_canceled(feedback)
         tell_scene(feedback, mission.scene, crs)
         _tell(feedback, flight, tour, check)
-        out = self.write(parameters, "LEGS", context, (fields_of(LEGS), QgsWkbTypes.LineStringZ, crs),
-                         _legs(flight, check, frame, crs))
-        out |= self.write(parameters, "WAYPOINTS", context, (fields_of(WAYPOINTS), QgsWkbTypes.PointZ, crs),
-                          _waypoints(flight, check, frame, crs))
-        out |= self.write(parameters, "STRETCHES", context, (fields_of(STRETCHES), QgsWkbTypes.LineStringZ, crs),
-                          _stretches(flight, check, frame, crs))
+        layers = [(name, (fields_of(columns), kind, crs), list(rows_of(flight, check, frame, crs)))
+                  for name, columns, kind, rows_of in (("LEGS", LEGS, QgsWkbTypes.LineStringZ, _legs),
+                                                       ("WAYPOINTS", WAYPOINTS, QgsWkbTypes.PointZ, _waypoints),
+                                                       ("STRETCHES", STRETCHES, QgsWkbTypes.LineStringZ, _stretches))]
+        out = {}
+        for name, layer, rows in layers:
+            out |= self.write(parameters, name, context, layer, rows)
         out |= self._write_plan(parameters, context, feedback, tour)
         bound = None if tour is None or tour.bound is None else tour.bound.length_m
         return out | {"LENGTH_M": flight.length_m, "BOUND_M": bound,

@@ -3,13 +3,15 @@
 import math
 import os
 import tempfile
+import zlib
 
 import numpy as np
 from qgis.core import (Qgis, QgsProcessingException, QgsProcessingParameterBoolean, QgsProcessingParameterExtent,
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterDestination, QgsRasterBlock,
-                       QgsRasterFileWriter, QgsRectangle, QgsUnitTypes)
+                       QgsRasterFileWriter, QgsRasterLayer, QgsRectangle, QgsUnitTypes)
 
 from ..engine import Progress, stop_if_canceled, tell_notes
+from ..places import name_of
 from .base import VantageAlgorithm, is_given
 from .request import add_request, read_request
 from .volume import add_crs, tell_scene
@@ -47,7 +49,7 @@ class ShareAlgorithm(VantageAlgorithm):
         mission, frame = read_request(self, parameters, context, progress)
         crs = frame.chosen(self.parameterAsCrs(parameters, "CRS", context))
         if crs.mapUnits() != QgsUnitTypes.DistanceMeters:
-            raise QgsProcessingException(f"CRS: {crs.userFriendlyIdentifier()} is not in metres, and cells are.\n  what to do: "
+            raise QgsProcessingException(f"CRS: {name_of(crs)} is not in metres, and cells are.\n  what to do: "
                                          "choose a projected CRS in metres, or none")
         z, cell = (self.parameterAsDouble(parameters, name, context) for name in ("Z", "CELL"))
         grid = Grid(self._extent(parameters, context, mission, frame, crs), cell)
@@ -130,24 +132,47 @@ def _write(file, grid, crs, fill):
         raise QgsProcessingException(f"{file}: the folder does not exist.\n  what to do: make it first")
     with tempfile.TemporaryDirectory(dir=folder, prefix=".vantage-") as scratch:
         draft = os.path.join(scratch, "draft" + ending)
-        writer = QgsRasterFileWriter(draft)
-        writer.setOutputFormat(driver)
-        if driver == "GTiff":
-            writer.setCreateOptions(["COMPRESS=DEFLATE"])
-        provider = writer.createOneBandRaster(Qgis.Float64, grid.columns, grid.rows, grid.extent, crs)
-        if provider is None or not provider.isValid():
-            raise QgsProcessingException(f"{file}: cannot be written: {provider.error().summary() if provider else driver}")
-        provider.setEditable(True)
-
-        def write(first, count, shares):
-            block = QgsRasterBlock(Qgis.Float64, grid.columns, count)
-            block.setData(shares.astype("<f8").tobytes())
-            if not provider.writeBlock(block, 1, 0, first):
-                raise QgsProcessingException(f"{file}: cannot be written: {provider.error().summary()}")
-
-        try:
-            fill(write)
-        finally:
-            provider.setEditable(False)
-            del provider  # closes the file
+        written = _fill_draft(draft, driver, grid, crs, fill)
+        read = QgsRasterLayer(draft)  # a full disk shows when the file is closed, or not at all
+        if not read.isValid() or any(_sum_of(_rows(read.dataProvider(), grid, first, count)) != known
+                                     for first, count, known in written):
+            raise QgsProcessingException(f"{file}: cannot be written: what was written reads otherwise.\n  what to do: look "
+                                         "whether the disk is full")
+        del read
         os.replace(draft, file)
+
+
+def _fill_draft(draft, driver, grid, crs, fill):
+    """Returns first row, number of rows and a sum of each piece that was written."""
+    writer = QgsRasterFileWriter(draft)
+    writer.setOutputFormat(driver)
+    if driver == "GTiff":
+        writer.setCreateOptions(["COMPRESS=DEFLATE"])
+    provider = writer.createOneBandRaster(Qgis.Float64, grid.columns, grid.rows, grid.extent, crs)
+    if provider is None or not provider.isValid():
+        raise QgsProcessingException(f"{draft}: cannot be made: {provider.error().summary() if provider else driver}")
+    provider.setEditable(True)
+    written = []
+
+    def write(first, count, shares):
+        block = QgsRasterBlock(Qgis.Float64, grid.columns, count)
+        block.setData(shares.astype("<f8").tobytes())
+        if not provider.writeBlock(block, 1, 0, first):
+            raise QgsProcessingException(f"{draft}: cannot be written: {provider.error().summary()}")
+        written.append((first, count, _sum_of(block)))
+
+    try:
+        fill(write)
+    finally:
+        provider.setEditable(False)
+        provider = None  # closes the file
+    return written
+
+
+def _rows(provider, grid, first, count):
+    north = grid.north - first * grid.cell
+    return provider.block(1, QgsRectangle(grid.west, north - count * grid.cell, grid.extent.xMaximum(), north), grid.columns, count)
+
+
+def _sum_of(block):
+    return zlib.crc32(bytes(block.data()))

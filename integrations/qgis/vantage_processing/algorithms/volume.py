@@ -9,6 +9,7 @@ from qgis.core import (QgsGeometry, QgsLineString, QgsMultiPolygon, QgsPolygon, 
                        QgsProcessingParameterString, QgsWkbTypes)
 
 from ..engine import Progress, stop_if_canceled, tell_notes
+from ..places import name_of
 from ..styles import ByCause
 from .base import VantageAlgorithm, fields_of
 from .request import add_request, read_request
@@ -56,13 +57,12 @@ class VolumeAlgorithm(VantageAlgorithm):
             tell_notes(feedback, result.notes)
             if result.empty:
                 feedback.pushWarning(f"{result.mission.target_name}: the volume is empty: {result.reason}")
-        out = self.write(parameters, "FACETS", context, (fields_of(FACETS), QgsWkbTypes.PolygonZ, crs),
-                         _facets(results, frame, crs))
+        facets, slices = list(_facets(results, frame, crs)), list(_slices(results, heights, frame, crs))
+        out = self.write(parameters, "FACETS", context, (fields_of(FACETS), QgsWkbTypes.PolygonZ, crs), facets)
         if "FACETS" in out and context.willLoadLayerOnCompletion(out["FACETS"]):
             context.layerToLoadOnCompletionDetails(out["FACETS"]).setPostProcessor(ByCause.kept())
         if heights:
-            out |= self.write(parameters, "SLICES", context, (fields_of(SLICES), QgsWkbTypes.MultiPolygonZ, crs),
-                              _slices(results, heights, frame, crs))
+            out |= self.write(parameters, "SLICES", context, (fields_of(SLICES), QgsWkbTypes.MultiPolygonZ, crs), slices)
         return out | {"VOLUME_M3": sum(result.volume_m3 for result in results),
                       "FACET_COUNT": sum(len(result.faces) for result in results)}
 
@@ -96,8 +96,7 @@ def tell_scene(feedback, scene, crs):
         feedback.pushWarning("It is not known where on the earth the scene lies: the results have a "
                              f"local CRS ({crs.description()}), in its metres.")
     else:
-        where = crs.authid() or crs.toProj() or "the scene's frame"
-        feedback.pushInfo(f"Results are in {where}; heights are metres above the zero of the scene"
+        feedback.pushInfo(f"Results are in {name_of(crs)}; heights are metres above the zero of the scene"
                           + (f" ({place.vertical})" if place.vertical else ""))
     if scene.attribution:
         feedback.pushInfo(f"Maps of it have to name: {scene.attribution}")
