@@ -33,7 +33,7 @@ python=(python3-dev python3-venv)
 wheel=("${python[@]}" patch xz-utils bzip2 libexpat1-dev libsqlite3-dev proj-data)
 web=(emscripten node-acorn chromium)
 command -v npm >/dev/null || web+=(nodejs npm)  # there may be a newer one, of another source
-qgis=(qgis python3-qgis qgis-providers python3-numpy)
+qgis=(qgis python3-qgis qgis-providers python3-numpy xvfb)
 tools=(libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0

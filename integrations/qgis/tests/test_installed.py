@@ -4,19 +4,13 @@
 """
 
 import json
-import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
-import zipfile
 
-FOLDER = pathlib.Path(__file__).resolve().parent.parent
-# The script of Debian 12 hands an option of the desktop program to qgis_process, which refuses it.
-QGIS_PROCESS = shutil.which("qgis_process.bin") or "qgis_process"
-TOWN = FOLDER.parent.parent / "examples" / "town"
+from installed_profile import FOLDER, TOWN, Profile
 
 
 class Installed(unittest.TestCase):
@@ -24,31 +18,17 @@ class Installed(unittest.TestCase):
     def setUpClass(cls):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
-        cls.home = pathlib.Path(scratch.name)
-        cls.environment = {**os.environ, "HOME": scratch.name, "QT_QPA_PLATFORM": "offscreen", "XDG_RUNTIME_DIR": scratch.name}
-        for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME"):
-            cls.environment.pop(name, None)
-        subprocess.run([sys.executable, FOLDER / "build_zip.py", scratch.name], check=True, capture_output=True)
-        plugins = cls.home / ".local/share/QGIS/QGIS3/profiles/default/python/plugins"
-        with zipfile.ZipFile(next(cls.home.glob("*.zip"))) as archive:
-            cls.names = archive.namelist()
-            archive.extractall(plugins)
-        cls.qgis("plugins", "enable", "vantage_processing")
-
-    @classmethod
-    def qgis(cls, *arguments, without=False):
-        """What qgis_process prints. `without`: without the package vantage."""
-        environment = {**cls.environment, "PYTHONPATH": ""} if without else cls.environment
-        return subprocess.run([QGIS_PROCESS, *map(str, arguments)], env=environment, capture_output=True, text=True, timeout=300)
+        cls.profile = Profile(scratch.name)
+        cls.home, cls.qgis = cls.profile.home, cls.profile.process
 
     def test_the_zip_is_one_folder_and_the_same_each_time(self):
-        self.assertEqual({name.split("/")[0] for name in self.names}, {"vantage_processing"})
+        self.assertEqual({name.split("/")[0] for name in self.profile.names}, {"vantage_processing"})
         for name in ("metadata.txt", "__init__.py", "icon.svg", "LICENSE"):
-            self.assertIn(f"vantage_processing/{name}", self.names)
+            self.assertIn(f"vantage_processing/{name}", self.profile.names)
         with tempfile.TemporaryDirectory() as other:
             subprocess.run([sys.executable, FOLDER / "build_zip.py", other], check=True, capture_output=True)
-            first, second = (next(pathlib.Path(folder).glob("*.zip")).read_bytes() for folder in (self.home, other))
-        self.assertEqual(first, second)
+            again = next(pathlib.Path(other).glob("*.zip")).read_bytes()
+        self.assertEqual(self.profile.zip.read_bytes(), again)
 
     def test_qgis_process_lists_describes_and_runs(self):
         listed = self.qgis("list")

@@ -16,7 +16,7 @@ import time
 import unittest
 
 import numpy as np
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsCoordinateTransform,
+from qgis.core import (NULL, QgsApplication, QgsCoordinateReferenceSystem, QgsCoordinateTransform,
                        QgsCoordinateTransformContext, QgsProcessingAlgRunnerTask, QgsProcessingContext,
                        QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer)
 
@@ -380,6 +380,11 @@ class Refused(Checked):
         run("volume", **good)
         for parameters in wrong:
             self.refused("volume", **parameters)
+
+    def test_what_dialogs_leave_empty_is_not_given(self):
+        empty = {"SCENE": NULL, "TARGETS": None, "SCENE_CRS": QgsCoordinateReferenceSystem(), "CENTER": "", "RANGE": None,
+                 "TARGET_Z_FIELD": NULL, "CRS": QgsCoordinateReferenceSystem()}
+        self.assertGreater(run("volume", MISSION=TOWN / "mission.yaml", **empty)["FACET_COUNT"], 0)
 
     def test_cancelling_stops(self):
         points = layer("PointZ", ["POINT Z(0 0 9)"])

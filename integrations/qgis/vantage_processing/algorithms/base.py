@@ -1,7 +1,7 @@
 """What all algorithms have in common."""
 
-from qgis.core import (QgsFeature, QgsFeatureSink, QgsField, QgsFields, QgsProcessingAlgorithm, QgsProcessingException,
-                       QgsProcessingParameterDefinition)
+from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureSink, QgsField, QgsFields,
+                       QgsProcessingAlgorithm, QgsProcessingException, QgsProcessingParameterDefinition)
 from qgis.PyQt.QtCore import QVariant
 from qgis.PyQt.QtGui import QIcon
 
@@ -105,5 +105,8 @@ class VantageAlgorithm(QgsProcessingAlgorithm):
 
 
 def is_given(parameters, name):
-    """Whether a parameter has a value."""
-    return parameters.get(name) not in (None, "")
+    """Whether a parameter has a value: dialogs give empty ones too."""
+    value = parameters.get(name)
+    if isinstance(value, QgsCoordinateReferenceSystem):
+        return value.isValid()
+    return not (value is None or value == NULL or value == "")
