@@ -32,8 +32,9 @@ class Desktop(unittest.TestCase):
                     display = f":{number.readline().strip()}"
                 environment = {**profile.environment, "DISPLAY": display, "QT_QPA_PLATFORM": "xcb", "VANTAGE_TOWN": str(TOWN),
                                "VANTAGE_TOLD": str(told), **({"PYTHONPATH": ""} if without else {})}
-                ran = subprocess.run([QGIS, "--noversioncheck", "--nologo", "--code", pathlib.Path(__file__).parent / "in_desktop.py"],
-                                     env=environment, capture_output=True, text=True, timeout=600)
+                script = pathlib.Path(__file__).parent / "in_desktop.py"
+                ran = subprocess.run([QGIS, "--noversioncheck", "--nologo", "--code", script], env=environment,
+                                     capture_output=True, text=True, timeout=600)
             finally:
                 screen.terminate()
                 screen.wait()

@@ -288,6 +288,14 @@ class Shares(Checked):
             self.assertTrue((values == 1).any() and (values == 0).any() and ((values > 0) & (values < 1)).any())
             self.assertEqual(raster.crs().authid() if crs else raster.crs().isValid(), crs or True)
 
+    def test_cells_whose_size_is_no_binary_number(self):
+        run("share", MISSION=TOWN / "mission.yaml", Z=20, CELL=0.37, OUTPUT=self.file, EXTENT="-60.1,37.3,-50.7,41.9")
+        raster, values, centres = self.cells()
+        self.assertEqual((raster.width(), raster.height()), (264, 251))  # of more than one piece
+        mission = vt.Mission.read(TOWN / "mission.yaml")
+        places = np.column_stack([centres.reshape(-1, 2), np.full(values.size, 20.0)])
+        np.testing.assert_allclose(values.ravel(), mission.fraction(places), atol=1e-9)
+
     def test_a_raster_that_was_there_survives_what_fails(self):
         self.file.write_bytes(b"before")
         wrong = [{"CRS": QgsCoordinateReferenceSystem("EPSG:4326")}, {"CELL": 1e-3}, {"EXTENT": "5,5,5,5"},

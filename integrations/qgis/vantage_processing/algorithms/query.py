@@ -32,7 +32,7 @@ class QueryAlgorithm(VantageAlgorithm):
         self.add(QgsProcessingParameterField("Z_FIELD", "Field with the height of each point (m)", None, "POINTS",
                                              QgsProcessingParameterField.Numeric, optional=True),
                  "The same, for each point: metres above the zero of the scene's heights.")
-        add_request(self, with_each=False)
+        add_request(self, combine=("all", "any"))
         self.add(QgsProcessingParameterBoolean("SHARE", "Also which share of the target is seen", defaultValue=False),
                  "Adds the field share: which part of the target's area is seen, 0 to 1, by line of sight alone.")
         self.add(QgsProcessingParameterFeatureSink("OUTPUT", "Points with answers", QgsProcessing.TypeVectorPoint),

@@ -26,8 +26,8 @@ def _optional_number(name, text, *, least=None):
     return QgsProcessingParameterNumber(name, text, QgsProcessingParameterNumber.Double, optional=True, **limits)
 
 
-def add_request(algorithm, *, with_each):
-    """The parameters that say what is asked. `with_each`: whether there may be a volume for each target."""
+def add_request(algorithm, *, combine):
+    """The parameters that say what is asked. `combine`: what can be asked of several targets, the first of COMBINE."""
     add = algorithm.add
     add(QgsProcessingParameterFile("MISSION", "Mission file", extension="yaml", optional=True),
         "A mission file of vantage (.yaml), which says all of the scene, the target and the limits. Instead of the scene file "
@@ -47,9 +47,9 @@ def add_request(algorithm, *, with_each):
         "The same, for each target: metres above the zero of the scene's heights.", advanced=True)
     add(QgsProcessingParameterField("TARGET_NAME_FIELD", "Field with the name of each target", None, "TARGETS", optional=True),
         "For the results and for messages. Empty: the number of the feature.", advanced=True)
-    count = 3 if with_each else 2
-    add(QgsProcessingParameterEnum("COMBINE", "Several targets", _COMBINE_TEXT[:count], defaultValue=0),
-        "What is asked of several targets. It does not count with a mission file, which says it itself.")
+    if len(combine) > 1:
+        add(QgsProcessingParameterEnum("COMBINE", "Several targets", _COMBINE_TEXT[:len(combine)], defaultValue=0),
+            "What is asked of several targets. It does not count with a mission file, which says it itself.")
     add(_optional_number("RANGE", "Range of the sensor (m)", least=0.0),
         "Metres from the viewpoint to every point of the target, at most. Required without a mission file.")
     add(_optional_number("LOWEST", "Lowest height (m)"),
@@ -103,7 +103,8 @@ def read_request(algorithm, parameters, context, progress):
     scene = _scene(algorithm, parameters, context, progress)
     frame = Frame(scene, context)
     targets = _targets(algorithm, parameters, context, frame)
-    combine = COMBINE[algorithm.parameterAsEnum(parameters, "COMBINE", context)]
+    has_choice = algorithm.parameterDefinition("COMBINE") is not None
+    combine = COMBINE[algorithm.parameterAsEnum(parameters, "COMBINE", context)] if has_choice else "all"
     mission = vt.Mission.of(scene, targets, max_range=algorithm.number(parameters, "RANGE", context),
                             navigation=_navigation(algorithm, parameters, context),
                             combine=combine if len(targets) > 1 else "all", progress=progress)

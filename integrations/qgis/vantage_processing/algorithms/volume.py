@@ -28,7 +28,7 @@ class VolumeAlgorithm(VantageAlgorithm):
             "of triangles. Each facet says what bounds the volume there. Slices are the positions at one height.")
 
     def initAlgorithm(self, configuration=None):  # noqa: N802
-        add_request(self, with_each=True)
+        add_request(self, combine=("all", "any", "each"))
         self.add(QgsProcessingParameterString("SLICE_HEIGHTS", "Heights of slices (m)", optional=True),
                  "Metres above the zero of the scene's heights, with semicolons or blanks between them: 20; 40; 60.")
         add_crs(self)
