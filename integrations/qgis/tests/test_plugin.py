@@ -198,6 +198,31 @@ class Volumes(Checked):
         self.refused("volume", SCENE=plaza, TARGETS=layer("PolygonZ", [wall], UTM), RANGE=40)
         self.refused("volume", SCENE=plaza, TARGETS=layer("PolygonZ", [wall]), RANGE=40, CRS=QgsCoordinateReferenceSystem(UTM))
 
+    def test_slices_have_holes(self):
+        plate = "".join(f"v {x} {y} 15\n" for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))  # over the target
+        square = layer("PolygonZ", ["POLYGON Z((-5 -4 0, 6 -4 0, 6 5 0, -5 5 0, -5 -4 0))"])
+        with tempfile.TemporaryDirectory() as scratch:
+            scene = pathlib.Path(scratch) / "plate.obj"
+            scene.write_text(plate + "f 1 2 3 4\n")
+            made = run("volume", SCENE=scene, TARGETS=square, RANGE=60, SLICE_HEIGHTS="17")
+            cut = vt.compute(vt.Scene.from_mesh(scene), [[-5, -4, 0], [6, -4, 0], [6, 5, 0], [-5, 5, 0]], max_range=60).slice(17)
+        self.assertEqual([len(rings) for rings in cut.polygons], [2])
+        row = next(made["SLICES"].getFeatures())
+        self.assertAlmostEqual(row.geometry().area(), cut.area_m2, places=6)
+        self.assertEqual(len(corners_of(row.geometry())), sum(len(ring) + 1 for ring in cut.polygons[0]))
+
+    def test_heights_above_a_ground_that_is_not_at_zero(self):
+        ground = "o ground\n" + "".join(f"v {x} {y} 7\n" for x, y in ((-99, -99), (99, -99), (99, 99), (-99, 99)))
+        square = layer("Polygon", ["POLYGON((-5 -4, 6 -4, 6 5, -5 5, -5 -4))"])
+        with tempfile.TemporaryDirectory() as scratch:
+            scene = pathlib.Path(scratch) / "meadow.obj"
+            scene.write_text(ground + "f 1 2 3 4\n")
+            for level, lowest in ((0, 10.0), (1, 17.0)):
+                made = run("volume", SCENE=scene, TARGETS=square, RANGE=60, LOWEST=10, HIGHEST=20, HEIGHTS_FROM=level)
+                corners = np.concatenate([corners_of(row.geometry()) for row in made["FACETS"].getFeatures()])
+                self.assertAlmostEqual(corners[:, 2].min(), lowest)
+                self.assertAlmostEqual(corners[:, 2].max(), lowest + 10)
+
     def test_an_empty_volume_says_why(self):
         square = layer("Polygon", ["POLYGON((-5 -4, 6 -4, 6 5, -5 5, -5 -4))"])
         feedback = Feedback()
