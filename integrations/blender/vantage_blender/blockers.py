@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What may hide the target: objects of the view layer as triangles, modifiers and instances applied, in metres."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .package import AddonError
+
+VOLUME = "vantage_volume"
+"""The property of objects that are volumes: they hide nothing."""
+
+SURFACES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+
+
+class Blockers(NamedTuple):
+    """The triangles, in the order of Blender's objects."""
+
+    vertices: np.ndarray  # (n, 3) float64, metres
+    faces: np.ndarray  # (m, 3) uint32
+    object_of: np.ndarray  # (m,) uint32, an index into names
+    names: list
+
+    def equals(self, other):
+        return self is other or (
+            other is not None and self.names == other.names and
+            all(np.array_equal(mine, theirs) for mine, theirs in zip(self[:3], other[:3])))
+
+
+def gather(depsgraph, unit_m, collection=None, without=None):
+    """The objects that are visible in the viewport, but for volumes and the object `without`.
+
+    `collection`: only what is in it or in a collection inside of it. `unit_m`: metres in a unit of Blender.
+    """
+    allowed = None if collection is None else {thing.name_full for thing in collection.all_objects}
+    known, points, triangles, owners, names = {}, [], [], [], {}
+    count = 0
+    for instance in depsgraph.object_instances:
+        thing = instance.object
+        owner = (instance.parent if instance.is_instance else thing).original
+        if (thing.type not in SURFACES or not instance.show_self or owner == without or VOLUME in thing or
+                (allowed is not None and owner.name_full not in allowed)):
+            continue
+        key = thing.original.name_full
+        if key not in known:
+            known[key] = _triangles(thing)
+        local, corners = known[key]
+        if not len(corners):
+            continue
+        matrix = np.array(instance.matrix_world)
+        world = (local @ matrix[:3, :3].T + matrix[:3, 3]) * unit_m
+        if not np.isfinite(world).all():
+            number = int(np.flatnonzero(~np.isfinite(world).all(axis=1))[0])
+            raise AddonError(f"vertex {number} of '{thing.name}' has coordinates that are no numbers",
+                             "delete the vertex, or leave the object out: hide it, or choose a collection without it")
+        points.append(world)
+        triangles.append(corners + np.uint32(count))
+        owners.append(np.full(len(corners), len(names), np.uint32))
+        names[_free_name(owner.name_full if owner == thing.original else f"{owner.name_full}/{key}", names)] = None
+        count += len(local)
+    if not triangles:
+        where = f"the collection '{collection.name}'" if collection is not None else "the scene"
+        raise AddonError(f"{where} has no visible mesh that may hide the target",
+                         "show the buildings, or choose their collection")
+    return Blockers(np.concatenate(points), np.concatenate(triangles), np.concatenate(owners), list(names))
+
+
+def _free_name(name, taken):
+    number, free = 1, name
+    while free in taken:
+        number += 1
+        free = f"{name} #{number}"
+    return free
+
+
+def _triangles(thing):
+    """The vertices (n, 3) of an evaluated object in its own axes, and its triangles (m, 3)."""
+    mesh = thing.to_mesh()
+    if mesh is None:  # a curve without a surface
+        return np.empty((0, 3)), np.empty((0, 3), np.uint32)
+    try:
+        mesh.calc_loop_triangles()
+        points = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.vertices.foreach_get("co", points)
+        corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
+        mesh.loop_triangles.foreach_get("vertices", corners)
+        return points.reshape(-1, 3).astype(np.float64), corners.reshape(-1, 3).astype(np.uint32)
+    finally:
+        thing.to_mesh_clear()

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Follows changes: a handler notes them, a timer reads the scene and hands it to a thread, and shows what comes back.
+
+Blender's data is touched in Blender's thread alone. A change waits DELAY_S for others; while a volume is computed the next
+one waits, so the volume follows a drag as fast as it can be computed.
+"""
+
+import threading
+import time
+
+import bpy
+from bpy.app.handlers import persistent
+
+from . import computation, package, volume_mesh
+from .blockers import VOLUME
+
+DELAY_S = 0.05
+TICK_S = 0.02
+
+
+class Follower:
+    """The state of `Live`, of one scene at a time."""
+
+    def __init__(self):
+        self.forget()
+        self.shown_count = 0
+
+    def forget(self):
+        self.scene_name = ""
+        self.due = None
+        self.job = None
+        self.shown = None  # the Inputs of the volume that is shown
+        self.result = None  # the vantage.Result
+        self.is_stale = False
+        self.status = []
+        self.blockers = None
+        self.is_scene_known = False  # nothing but the target has changed since the blockers were read
+
+    def request(self, scene, only_target=False):
+        self.scene_name = scene.name
+        self.is_scene_known = self.is_scene_known and only_target
+        if self.due is None:
+            self.due = time.monotonic() + DELAY_S
+        if not bpy.app.timers.is_registered(tick):
+            bpy.app.timers.register(tick, first_interval=DELAY_S)
+
+    def tick(self):
+        """One step. Returns the seconds to the next one, or None where nothing is left to do."""
+        if self.job is not None and not self.job.is_alive():
+            job, self.job = self.job, None
+            self._show(job)
+        if self.due is not None and self.job is None and time.monotonic() >= self.due:
+            self.due = None
+            self._start()
+        return TICK_S if self.job is not None or self.due is not None else None
+
+    def _scene(self):
+        scene = bpy.data.scenes.get(self.scene_name)
+        return scene if scene is not None and scene.vantage.live else None
+
+    def _start(self):
+        scene = self._scene()
+        if scene is None:
+            return
+        try:
+            package.load()
+            depsgraph = bpy.context.evaluated_depsgraph_get()  # may tell of changes that were not evaluated yet
+            inputs = computation.read_inputs(scene, depsgraph, self.blockers if self.is_scene_known else None)
+            self.blockers, self.is_scene_known = inputs.blockers, True
+        except package.AddonError as error:
+            self._fail(scene, error)
+            return
+        if inputs.equals(self.shown):
+            self.is_stale = False
+            return
+        self.job = Job(inputs)
+        self.job.start()
+
+    def _show(self, job):
+        scene = self._scene()
+        if scene is None:
+            return
+        if job.error is not None:
+            self._fail(scene, job.error)
+        else:
+            try:
+                self.note(scene, job.result, job.inputs, volume_mesh.show(job.result, scene, job.inputs.unit_m))
+            except package.AddonError as error:
+                self.status = str(error).splitlines()
+        _redraw()
+
+    def finish(self):
+        """Waits for a computation that runs, and drops it: what is asked now is newer."""
+        if self.job is not None:
+            self.job.join()
+            self.job = None
+
+    def note(self, scene, result, inputs, moved_m):
+        """What was shown, for the panel."""
+        self.scene_name, self.shown, self.result, self.is_stale = scene.name, inputs, result, False
+        self.shown_count += 1
+        self.status = status_of(result, moved_m)
+
+    def _fail(self, scene, error):
+        self.shown, self.result, self.status = None, None, package.message_of(error).splitlines()
+        volume_mesh.clear(scene)  # it would claim what no longer holds
+        _redraw()
+
+
+class Job(threading.Thread):
+    """One computation, of inputs that nobody changes."""
+
+    def __init__(self, inputs):
+        super().__init__(daemon=True)
+        self.inputs, self.result, self.error = inputs, None, None
+
+    def run(self):
+        try:
+            self.result = computation.shared.run(self.inputs)
+            self.result.volume_m3  # measured here, not in Blender's thread
+        except Exception as error:  # it must reach the panel, whatever it is
+            self.error = error
+
+
+def status_of(result, moved_m):
+    if result.empty:
+        return [f"No position sees all of the target ({result.outcome}).", *result.reason.splitlines()]
+    lines = [f"{result.volume_m3:,.1f} m3, {len(result.faces):,} facets",
+             f"shown in single precision: corners moved by up to {moved_m * 1000:.2g} mm"]
+    return lines + [f"note: {note.text}" for note in result.notes]
+
+
+follower = Follower()
+
+
+def request(scene, is_sure=True, only_target=False):
+    """Asks for a new volume where `Live` is on; else notes that what is shown is of something else, if that is sure."""
+    if scene.vantage.live:
+        follower.request(scene, only_target)
+    elif follower.shown is not None and is_sure and scene.name == follower.scene_name:
+        follower.is_stale = True
+
+
+def switched(settings, context):
+    if settings.live:
+        follower.request(context.scene)
+
+
+def tick():
+    return follower.tick()
+
+
+def _redraw():
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+def _is_moved(update):
+    thing = update.id
+    return (isinstance(thing, bpy.types.Object) and VOLUME not in thing and
+            (update.is_updated_geometry or update.is_updated_transform))
+
+
+@persistent
+def after_update(scene, depsgraph):
+    """Blender calls it after changes."""
+    settings = scene.vantage
+    if any(_is_moved(update) for update in depsgraph.updates):
+        mine = () if settings.target is None or settings.target_hides else (settings.target, settings.target.data)
+        request(scene, only_target=all(update.id.original in mine or VOLUME in update.id for update in depsgraph.updates))
+    # Of objects that are hidden, or leave a collection, Blender tells no more than of a selection.
+    elif any(isinstance(update.id, (bpy.types.Collection, bpy.types.Scene)) for update in depsgraph.updates):
+        request(scene, is_sure=False)
+
+
+@persistent
+def after_jump(scene, *_):
+    """Another frame, or undo: Blender names no object."""
+    request(scene)
+
+
+@persistent
+def after_load(_file, *_):
+    follower.forget()
+
+
+def _handlers():
+    handlers = bpy.app.handlers
+    return [(handlers.depsgraph_update_post, after_update), (handlers.load_post, after_load),
+            (handlers.frame_change_post, after_jump), (handlers.undo_post, after_jump), (handlers.redo_post, after_jump)]
+
+
+def register():
+    for called, handler in _handlers():
+        called.append(handler)
+
+
+def unregister():
+    for called, handler in _handlers():
+        called.remove(handler)
+    if bpy.app.timers.is_registered(tick):
+        bpy.app.timers.unregister(tick)
