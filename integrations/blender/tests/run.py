@@ -8,6 +8,7 @@ With --zip that file is installed, as a user does; tests/run.sh gives Blender a 
 """
 
 import argparse
+import importlib
 import json
 import os
 import pathlib
@@ -18,9 +19,10 @@ import time
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
+sys.path.insert(0, str(HERE))
 
 import bpy  # noqa: E402  (as a module it brings bmesh)
+import addon_utils  # noqa: E402
 import bmesh  # noqa: E402
 import numpy as np  # noqa: E402
 import vantage as vt  # noqa: E402
@@ -35,18 +37,26 @@ OPTIONS = PARSER.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.a
 
 
 def enable():
-    """Installs the zip, or takes the sources."""
-    import addon_utils
-    if OPTIONS.zip:
+    """Installs the zip, or takes the sources. Returns the name of the add-on's module."""
+    if not OPTIONS.zip:
+        sys.path.insert(0, str(HERE.parent))
+        name = "vantage_blender"
+    elif bpy.app.version >= (4, 2, 0):
+        bpy.ops.extensions.package_install_files(filepath=OPTIONS.zip, repo="user_default", enable_on_install=False)
+        name = "bl_ext.user_default.vantage_blender"
+    else:
         bpy.ops.preferences.addon_install(filepath=OPTIONS.zip, overwrite=True)
-    module = addon_utils.enable("vantage_blender", default_set=True)
-    assert module is not None, "the add-on could not be enabled"
-    if OPTIONS.zip:
-        assert not module.__file__.startswith(str(HERE.parent)), module.__file__
+        name = "vantage_blender"
+    module = addon_utils.enable(name, default_set=True)
+    assert module is not None, name
+    assert module.__file__.startswith(str(HERE.parent)) != bool(OPTIONS.zip), module.__file__
+    return name
 
 
-enable()
-from vantage_blender import blockers, computation, live, package, target, volume_mesh  # noqa: E402
+ADDON = enable()
+blockers, computation, live, package, target, volume_mesh = (
+    importlib.import_module(f"{ADDON}.{name}")
+    for name in ("blockers", "computation", "live", "package", "target", "volume_mesh"))
 
 
 class Case(unittest.TestCase):
@@ -495,10 +505,9 @@ class Speed(Case):
 
 class Registration(unittest.TestCase):
     def test_it_can_be_switched_off_and_on(self):
-        import addon_utils
-        addon_utils.disable("vantage_blender")
+        addon_utils.disable(ADDON)
         self.assertFalse(hasattr(bpy.types.Scene, "vantage"))
-        addon_utils.enable("vantage_blender")
+        addon_utils.enable(ADDON)
         self.assertTrue(hasattr(bpy.types.Scene, "vantage"))
 
 

@@ -10,7 +10,7 @@ bl_info = {
     "name": "Vantage",
     "description": "Every position from which whole faces can be seen, as a closed mesh",
     "author": "the authors of vantage",
-    "version": (0, 2, 0),
+    "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Vantage",
     "category": "Mesh",
