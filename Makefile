@@ -70,10 +70,10 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, QGIS, builds, attack
+nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, QGIS, Blender, builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
-	@$(MAKE) --no-print-directory tsan wheelcheck qgis
+	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender
 	ctest --preset release --parallel $(JOBS) --label-regex nightly
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
@@ -112,6 +112,11 @@ lint: tools  ## formatting, and clang-tidy over what recent commits changed (ALL
 .PHONY: python
 python: package  ## build the Python package in build/python, and run its tests
 	PYTHONPATH=build/python .deps/python/bin/python -m pytest -q python/tests
+
+.PHONY: blender
+blender: package  ## the Blender add-on, dist/vantage_blender.zip, and its tests in Debian's Blender
+	@scripts/install_packages.sh --blender
+	integrations/blender/tests/run.sh
 
 .PHONY: site
 site: package  ## the documentation as a site, in build/site; its tutorials are run

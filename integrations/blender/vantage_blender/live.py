@@ -176,8 +176,17 @@ def after_update(scene, depsgraph):
 
 
 @persistent
-def after_jump(scene, *_):
-    """Another frame, or undo: Blender names no object."""
+def after_frame(scene, *_):
+    """Blender names no object that is animated."""
+    request(scene)
+
+
+@persistent
+def after_undo(scene, *_):
+    """The volume's mesh is as it was then, too: it need not be that of the target."""
+    if follower.shown is not None:
+        follower.shown, follower.result = None, None
+        follower.status = ["Undone: the volume may be of something else."]
     request(scene)
 
 
@@ -189,7 +198,7 @@ def after_load(_file, *_):
 def _handlers():
     handlers = bpy.app.handlers
     return [(handlers.depsgraph_update_post, after_update), (handlers.load_post, after_load),
-            (handlers.frame_change_post, after_jump), (handlers.undo_post, after_jump), (handlers.redo_post, after_jump)]
+            (handlers.frame_change_post, after_frame), (handlers.undo_post, after_undo), (handlers.redo_post, after_undo)]
 
 
 def register():

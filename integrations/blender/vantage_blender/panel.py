@@ -7,7 +7,7 @@ import bpy
 
 from . import live, package, volume_mesh
 
-LINE = 44
+LINE = 34
 """Characters in a line of the sidebar; Blender's labels don't wrap."""
 
 CAUSES = 12
@@ -47,6 +47,7 @@ class VANTAGE_PT_main(_Panel, bpy.types.Panel):
         layout.prop(settings, "collection")
         layout.prop(settings, "max_range")
         row = layout.row(align=True)
+        row.use_property_split = False
         row.operator("vantage.compute", icon="HIDE_OFF")
         row.prop(settings, "live", toggle=True, icon="FILE_REFRESH")
         if live.follower.scene_name in ("", context.scene.name):

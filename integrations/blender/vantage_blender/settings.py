@@ -36,15 +36,15 @@ class VantageSettings(bpy.types.PropertyGroup):
     collection: PointerProperty(type=bpy.types.Collection, name="What hides", update=_changed,
                                 description="Objects of this collection may hide the target. Empty: all visible ones")
 
-    max_range: _metres("Maximum distance", 100.0, "From the camera to every point of the target", low=0.001)
-    min_range: _metres("Minimum distance", 0.0, "From the camera to every point of the target. 0: none")
-    use_incidence: BoolProperty(name="Limit the slant of the view", default=False, update=_changed)
-    incidence: FloatProperty(name="Largest angle (degrees)", default=60.0, min=0.01, max=89.99, update=_changed,
+    max_range: _metres("Distance", 100.0, "The largest, from the camera to every point of the target", low=0.001)
+    min_range: _metres("Nearest", 0.0, "The smallest distance, from the camera to every point of the target. 0: none")
+    use_incidence: BoolProperty(name="Slant of the view", default=False, update=_changed)
+    incidence: FloatProperty(name="Largest (degrees)", default=60.0, min=0.01, max=89.99, update=_changed,
                              description="Between the target's normal and the line to the camera")
-    visible: FloatProperty(name="Share that must be seen", default=1.0, min=0.001, max=1.0, update=_changed,
+    visible: FloatProperty(name="Share seen", default=1.0, min=0.001, max=1.0, update=_changed,
                            description="Of the target's area. 1: all of it")
 
-    use_heights: BoolProperty(name="Limit the height", default=False, update=_changed)
+    use_heights: BoolProperty(name="Heights", default=False, update=_changed)
     min_height: _metres("Lowest", 2.0, "Of the camera", low=-1e9)
     max_height: _metres("Highest", 120.0, "Of the camera", low=-1e9)
     ground: PointerProperty(type=bpy.types.Object, name="Ground", update=_changed,
@@ -60,7 +60,7 @@ class VantageSettings(bpy.types.PropertyGroup):
                              description="Horizontal and vertical")
     camera_model: StringProperty(name="Model", default="", update=_changed,
                                  description="A name that `vantage cameras` lists: dji_mavic_3e")
-    pixel_size: _metres("Size of a pixel", 0.0, "How much of the target one pixel may cover. 0: any", step=1)
+    pixel_size: _metres("Pixel", 0.0, "How much of the target one pixel may cover. 0: any", step=1)
 
     live: BoolProperty(name="Live", default=False, update=live.switched,
                        description="Compute again whenever the target, what hides it, or a limit changes")
