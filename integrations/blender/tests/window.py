@@ -78,7 +78,7 @@ def story():
     first = volume_m3()
     assert first > 0
     if OPTIONS.picture:
-        bpy.context.view_layer.objects.active = square
+        bpy.context.view_layer.objects.active = None  # else Blender shows its own panel of it
         yield lambda: True
         bpy.ops.screen.screenshot(filepath=OPTIONS.picture)
 
@@ -89,7 +89,7 @@ def story():
         bpy.context.view_layer.objects.active = square
         bpy.ops.ed.undo_push(message="before the drag")
     yield is_idle
-    shown = live.follower.shown_count
+    shown, read = live.follower.shown_count, live.follower.read_count
     x, y = region.x + region.width // 3, region.y + region.height // 2
     window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
     window.event_simulate(type="G", value="PRESS", x=x, y=y)
@@ -106,7 +106,9 @@ def story():
     yield is_idle
     dragged = volume_m3()
     assert dragged in seen and dragged != first
-    print(f"window: the volume followed {len(seen)} moves of the mouse: {first:.0f} m3 to {dragged:.0f} m3")
+    read = live.follower.read_count - read
+    print(f"window: the volume followed {len(seen)} moves of the mouse, and the scene was read {read} times: "
+          f"{first:.0f} m3 to {dragged:.0f} m3")
 
     with bpy.context.temp_override(window=window, area=area, region=region):
         bpy.ops.ed.undo()

@@ -8,7 +8,7 @@ import numpy as np
 from .package import AddonError
 
 VOLUME = "vantage_volume"
-"""The property of objects that are volumes: they hide nothing."""
+"""The property of volumes, objects and meshes: they hide nothing."""
 
 SURFACES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 
@@ -20,6 +20,7 @@ class Blockers(NamedTuple):
     faces: np.ndarray  # (m, 3) uint32
     object_of: np.ndarray  # (m,) uint32, an index into names
     names: list
+    shown: list  # of `shown_objects`, when they were read
 
     def equals(self, other):
         return self is other or (
@@ -27,21 +28,34 @@ class Blockers(NamedTuple):
             all(np.array_equal(mine, theirs) for mine, theirs in zip(self[:3], other[:3])))
 
 
+def shown_objects(depsgraph, unit_m, collection=None, without=None):
+    """Which objects may hide, and where they are: what tells whether one was hidden, moved, or taken out of a collection.
+    It does not tell whether a mesh was changed."""
+    return [unit_m, *((owner.name_full, thing.original.name_full, tuple(map(tuple, instance.matrix_world)))
+                      for instance, thing, owner in _instances(depsgraph, collection, without))]
+
+
+def _instances(depsgraph, collection, without):
+    """(instance, its evaluated object, the object of the file that shows it); each holds until the next one."""
+    allowed = None if collection is None else {thing.name_full for thing in collection.all_objects}
+    for instance in depsgraph.object_instances:
+        thing = instance.object
+        owner = (instance.parent if instance.is_instance else thing).original
+        if (thing.type in SURFACES and instance.show_self and owner != without and VOLUME not in thing and
+                (allowed is None or owner.name_full in allowed)):
+            yield instance, thing, owner
+
+
 def gather(depsgraph, unit_m, collection=None, without=None):
     """The objects that are visible in the viewport, but for volumes and the object `without`.
 
     `collection`: only what is in it or in a collection inside of it. `unit_m`: metres in a unit of Blender.
     """
-    allowed = None if collection is None else {thing.name_full for thing in collection.all_objects}
     known, points, triangles, owners, names = {}, [], [], [], {}
     count = 0
-    for instance in depsgraph.object_instances:
-        thing = instance.object
-        owner = (instance.parent if instance.is_instance else thing).original
-        if (thing.type not in SURFACES or not instance.show_self or owner == without or VOLUME in thing or
-                (allowed is not None and owner.name_full not in allowed)):
-            continue
-        key = thing.original.name_full
+    for instance, thing, owner in _instances(depsgraph, collection, without):
+        # Geometry nodes show meshes that are of no object as the object that has the nodes.
+        key = (thing.original.name_full, thing.data.as_pointer())
         if key not in known:
             known[key] = _triangles(thing)
         local, corners = known[key]
@@ -56,13 +70,14 @@ def gather(depsgraph, unit_m, collection=None, without=None):
         points.append(world)
         triangles.append(corners + np.uint32(count))
         owners.append(np.full(len(corners), len(names), np.uint32))
-        names[_free_name(owner.name_full if owner == thing.original else f"{owner.name_full}/{key}", names)] = None
+        names[_free_name(owner.name_full if owner == thing.original else f"{owner.name_full}/{key[0]}", names)] = None
         count += len(local)
     if not triangles:
         where = f"the collection '{collection.name}'" if collection is not None else "the scene"
         raise AddonError(f"{where} has no visible mesh that may hide the target",
                          "show the buildings, or choose their collection")
-    return Blockers(np.concatenate(points), np.concatenate(triangles), np.concatenate(owners), list(names))
+    return Blockers(np.concatenate(points), np.concatenate(triangles), np.concatenate(owners), list(names),
+                    shown_objects(depsgraph, unit_m, collection, without))
 
 
 def _free_name(name, taken):

@@ -32,11 +32,13 @@ def unit_of(scene):
 
 
 def read_inputs(scene, depsgraph, known=None):
-    """Raises AddonError where something is missing or no number. `known`: the blockers, where they are as they were."""
+    """Raises AddonError where something is missing or no number. `known`: blockers that were read before, where no mesh has
+    changed since; they are taken if all objects are where they were."""
     settings, unit_m = scene.vantage, unit_of(scene)
     polygons = target.polygons_of(settings.target, settings.all_faces, depsgraph, unit_m)
-    found = known if known is not None else blockers.gather(
-        depsgraph, unit_m, settings.collection, None if settings.target_hides else settings.target)
+    which = (depsgraph, unit_m, settings.collection, None if settings.target_hides else settings.target)
+    is_known = known is not None and known.shown == blockers.shown_objects(*which)
+    found = known if is_known else blockers.gather(*which)
     return Inputs(found, polygons, settings.sides, settings.offset, _sensor(settings), _navigation(settings, found.names),
                   unit_m)
 

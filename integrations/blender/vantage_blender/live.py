@@ -23,7 +23,8 @@ class Follower:
 
     def __init__(self):
         self.forget()
-        self.shown_count = 0
+        self.shown_count = 0  # these two count how often
+        self.read_count = 0
 
     def forget(self):
         self.scene_name = ""
@@ -34,7 +35,7 @@ class Follower:
         self.is_stale = False
         self.status = []
         self.blockers = None
-        self.is_scene_known = False  # nothing but the target has changed since the blockers were read
+        self.is_scene_known = False  # no object but the target has changed since the blockers were read
 
     def request(self, scene, only_target=False):
         self.scene_name = scene.name
@@ -60,12 +61,14 @@ class Follower:
 
     def _start(self):
         scene = self._scene()
-        if scene is None:
+        if scene is None or scene != bpy.context.scene:  # of another one nothing is evaluated
             return
         try:
             package.load()
             depsgraph = bpy.context.evaluated_depsgraph_get()  # may tell of changes that were not evaluated yet
-            inputs = computation.read_inputs(scene, depsgraph, self.blockers if self.is_scene_known else None)
+            known = self.blockers if self.is_scene_known else None
+            inputs = computation.read_inputs(scene, depsgraph, known)
+            self.read_count += inputs.blockers is not known
             self.blockers, self.is_scene_known = inputs.blockers, True
         except package.AddonError as error:
             self._fail(scene, error)
@@ -167,12 +170,12 @@ def _is_moved(update):
 def after_update(scene, depsgraph):
     """Blender calls it after changes."""
     settings = scene.vantage
-    if any(_is_moved(update) for update in depsgraph.updates):
-        mine = () if settings.target is None or settings.target_hides else (settings.target, settings.target.data)
-        request(scene, only_target=all(update.id.original in mine or VOLUME in update.id for update in depsgraph.updates))
+    moved = [update.id.original for update in depsgraph.updates if _is_moved(update)]
+    if moved:
+        request(scene, only_target=not settings.target_hides and all(thing == settings.target for thing in moved))
     # Of objects that are hidden, or leave a collection, Blender tells no more than of a selection.
     elif any(isinstance(update.id, (bpy.types.Collection, bpy.types.Scene)) for update in depsgraph.updates):
-        request(scene, is_sure=False)
+        request(scene, is_sure=False, only_target=True)
 
 
 @persistent

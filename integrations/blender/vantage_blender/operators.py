@@ -61,7 +61,7 @@ class VANTAGE_OT_draw_target(bpy.types.Operator):
         mesh.from_pydata([(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)], [], [(0, 1, 2, 3)])
         drawn = bpy.data.objects.new("Target", mesh)
         drawn.matrix_world = context.scene.cursor.matrix
-        drawn.color = (0.8, 0.1, 0.1, 1)
+        mesh.materials.append(volume_mesh.material_of("target"))
         context.collection.objects.link(drawn)
         for other in context.selected_objects:
             other.select_set(False)

@@ -52,7 +52,9 @@ def package_folder():
 
 
 def load():
-    """The package. Raises AddonError where it cannot be imported."""
+    """The package. Raises AddonError where it cannot be imported. Once it is there, threads may call this."""
+    if sys.modules.get("vantage") is not None:
+        return sys.modules["vantage"]
     folder = package_folder()
     if folder and os.path.isdir(folder) and folder not in sys.path:
         sys.path.insert(0, folder)
@@ -70,7 +72,11 @@ def install_command():
 
 
 def python_program():
-    """Blender's own Python; where Blender runs inside another one, as Debian's does, that."""
+    """The Python whose packages Blender sees: its own, or in Debian the system's. `sys.executable` may be another one."""
+    for name in (f"bin/python3.{sys.version_info[1]}", "bin/python.exe", "python.exe"):
+        file = os.path.join(sys.base_prefix, *name.split("/"))
+        if os.path.isfile(file):
+            return file
     return sys.executable or "python3"
 
 

@@ -7,7 +7,7 @@ import bpy
 
 from . import live, package, volume_mesh
 
-LINE = 34
+LINE = 28
 """Characters in a line of the sidebar; Blender's labels don't wrap."""
 
 CAUSES = 12

@@ -8,7 +8,7 @@ from . import live
 
 
 def _changed(_settings, context):
-    live.request(context.scene)
+    live.request(context.scene, only_target=True)
 
 
 def _is_mesh(_settings, thing):

@@ -19,6 +19,7 @@ MATERIALS = {  # red, green, blue, opacity: those of vantage's pictures and GLB 
     "target_plane": (128, 128, 134, 0.6),
     "navigation": (0, 158, 115, 0.4),
     "sensor": (204, 121, 167, 0.4),
+    "target": (196, 18, 48, 1.0),
 }
 
 
@@ -65,7 +66,7 @@ def _volume_object(scene):
     volume = scene.vantage.volume
     if volume is None or volume.type != "MESH" or VOLUME not in volume or volume.name not in scene.objects:
         volume = bpy.data.objects.new("Vantage volume", bpy.data.meshes.new("Vantage volume"))
-        volume[VOLUME] = True
+        volume[VOLUME] = volume.data[VOLUME] = True
         scene.collection.objects.link(volume)
         scene.vantage.volume = volume
     return volume
@@ -76,7 +77,7 @@ def _fill(mesh, points, faces, cause_of, kind_of, kinds):
     mesh.clear_geometry()
     mesh.materials.clear()
     for kind in kinds:
-        mesh.materials.append(_material(kind))
+        mesh.materials.append(material_of(kind))
     mesh.vertices.add(len(points))
     mesh.vertices.foreach_set("co", points.ravel())
     mesh.loops.add(3 * len(faces))
@@ -91,7 +92,8 @@ def _fill(mesh, points, faces, cause_of, kind_of, kinds):
     mesh.update(calc_edges=True)
 
 
-def _material(kind):
+def material_of(kind):
+    """Of a kind of cause, or of a target that was drawn. One that is there stays as its user made it."""
     name = f"Vantage {kind}"
     material = bpy.data.materials.get(name)
     if material is not None:
