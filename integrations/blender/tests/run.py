@@ -400,6 +400,21 @@ class Live(Case):
         self.follow()
         self.assertLess(volume["vantage_volume_m3"], narrow)
 
+    def test_it_follows_an_animation(self):
+        square = self.use_square()
+        square.keyframe_insert("location", frame=1)
+        square.location.x = 3
+        square.keyframe_insert("location", frame=11)
+        bpy.context.scene.frame_set(1)
+        self.settings.live = True
+        self.follow()
+        seen = [self.settings.volume["vantage_volume_m3"]]
+        for frame in (6, 11):
+            bpy.context.scene.frame_set(frame)
+            self.follow()
+            seen.append(self.settings.volume["vantage_volume_m3"])
+        self.assertEqual(len(set(seen)), 3)
+
     def test_an_error_takes_the_volume_away(self):
         square = self.use_square()
         self.settings.live = True
