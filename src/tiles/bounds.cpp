@@ -77,8 +77,8 @@ std::optional<Sphere> around(const Volume& volume) {
     const geo::LonLat middle{std::remainder((region->west + east) / 2 * kRadian, 360),
                              (region->south + region->north) / 2 * kRadian};
     const double half = std::hypot((east - region->west) / 2, (region->north - region->south) / 2);
-    return Sphere{to_ecef({middle, (region->low + region->high) / 2}),
-                  half * (kEquatorM + region->high) + std::abs(region->high - region->low)};
+    return Sphere{geo::to_ecef({middle, (region->low + region->high) / 2}),
+                  half * (geo::kEquatorM + region->high) + std::abs(region->high - region->low)};
   }
   return std::nullopt;
 }
@@ -88,7 +88,7 @@ Reach::Reach(geo::LonLat center, double radius_m)
       on_earth_(true),
       radius_(radius_m),
       place_(center),
-      frame_(std::make_shared<TangentFrame>(center)),
+      frame_(std::make_shared<geo::TangentFrame>(center)),
       map_(std::make_shared<geo::LocalFrame>(center)) {}
 
 Reach::Reach(const Eigen::Vector2d& center, double radius) : limited_(true), radius_(radius), center_(center) {}

@@ -9,7 +9,7 @@
 #include <string>
 #include <variant>
 
-#include "tiles/ellipsoid.h"
+#include "geo/ellipsoid.h"
 
 namespace vantage::internal::tiles {
 
@@ -70,7 +70,7 @@ class Reach {
   double radius_ = 0;
   Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< of a plane
   geo::LonLat place_;
-  std::shared_ptr<const TangentFrame> frame_;
+  std::shared_ptr<const geo::TangentFrame> frame_;
   std::shared_ptr<const geo::LocalFrame> map_;
 };
 

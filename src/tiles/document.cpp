@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "geo/ellipsoid.h"
 #include "io/json_text.h"
 #include "io/tileset.h"
-#include "tiles/ellipsoid.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {
@@ -68,7 +68,7 @@ void TilesetDocument::check_ellipsoid(const Json& json) {
   const Json* const radii = ellipsoid && ellipsoid->is_object() ? find_in(*ellipsoid, "radii") : nullptr;
   if (!radii) return;
   constexpr double kSame = 1;  // metres
-  const std::array<double, 3> earth{kEquatorM, kEquatorM, kEquatorM * (1 - kFlattening)};
+  const std::array<double, 3> earth{geo::kEquatorM, geo::kEquatorM, geo::kEquatorM * (1 - geo::kFlattening)};
   for (std::size_t i = 0; i < 3; ++i) {
     const bool is_number = radii->is_array() && radii->size() == 3 && (*radii)[i].is_number();
     if (is_number && std::abs((*radii)[i].get<double>() - earth[i]) <= kSame) continue;

@@ -53,7 +53,7 @@ std::vector<Vec3> positions(const Table& features, std::size_t count) {
 /// East, north and up at a place on the earth, in the tile's coordinates. `turn`: how the tile is turned into the
 /// world, without its scale, which is to enlarge an instance as it does all else.
 Eigen::Matrix3d upright_at(const Vec3& position, const Transform& into_world, const Eigen::Matrix3d& turn) {
-  const TangentFrame frame(from_ecef(into_world * position).place);
+  const geo::TangentFrame frame(geo::from_ecef(into_world * position).place);
   return turn.transpose() * frame.axes.transpose();
 }
 

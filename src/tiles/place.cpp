@@ -48,7 +48,8 @@ Vec3 middle_of(const Collector& collected) {
 
 bool is_on_earth(const Vec3& point) {
   const double distance = point.norm();
-  return distance > kEquatorM * (1 - kFlattening) - kFarthestHeightM && distance < kEquatorM + kFarthestHeightM;
+  return distance > geo::kEquatorM * (1 - geo::kFlattening) - kFarthestHeightM &&
+         distance < geo::kEquatorM + kFarthestHeightM;
 }
 
 /// Turns the points into the frame that touches the ellipsoid.
@@ -60,10 +61,10 @@ Georeference put_on_earth(Collector& collected, const TilesetOptions& options, c
                 "the ellipsoid",
                 file.string(), "name the coordinate system of its metres with crs, as in EPSG:28992, or crs: none");
   }
-  const geo::LonLat origin = options.center_deg ? lon_lat(*options.center_deg) : from_ecef(middle).place;
-  const TangentFrame frame(origin);
+  const geo::LonLat origin = options.center_deg ? lon_lat(*options.center_deg) : geo::from_ecef(middle).place;
+  const geo::TangentFrame frame(origin);
   for (Vec3& vertex : collected.vertices) vertex = frame.to_local(vertex);
-  return {origin.latitude_deg, origin.longitude_deg, geo::kEllipsoidalHeight, "EPSG:4978"};
+  return {origin.latitude_deg, origin.longitude_deg, geo::kEllipsoidalHeight, geo::kEarthCentred};
 }
 
 io::RawMesh raw_mesh(Collector&& collected) {
@@ -85,9 +86,10 @@ World world_of(const Volume& root, const TilesetOptions& options) {
   const auto ball = around(root);
   if (!ball) return World::nowhere;
   const double distance = ball->center.norm();
-  if (distance + ball->radius < kEquatorM * (1 - kFlattening) - kFarthestHeightM) return World::nowhere;
+  if (distance + ball->radius < geo::kEquatorM * (1 - geo::kFlattening) - kFarthestHeightM) return World::nowhere;
   if (distance < ball->radius) return World::earth;  // the whole earth
-  return std::abs(from_ecef(ball->center).height_m) < kFarthestHeightM + ball->radius ? World::earth : World::nowhere;
+  return std::abs(geo::from_ecef(ball->center).height_m) < kFarthestHeightM + ball->radius ? World::earth
+                                                                                           : World::nowhere;
 }
 
 Reach reach_of(World world, const Volume& root, const TilesetOptions& options, const std::filesystem::path& file) {
@@ -103,8 +105,8 @@ Reach reach_of(World world, const Volume& root, const TilesetOptions& options, c
   if (reach.meets(root)) return reach;
   std::string where_it_is;
   const auto ball = around(root);
-  if (ball && world == World::earth && ball->radius < kEquatorM / 2) {
-    const geo::LonLat middle = from_ecef(ball->center).place;
+  if (ball && world == World::earth && ball->radius < geo::kEquatorM / 2) {
+    const geo::LonLat middle = geo::from_ecef(ball->center).place;
     where_it_is = ": its middle is at latitude " + std::to_string(middle.latitude_deg) + ", longitude " +
                   std::to_string(middle.longitude_deg);
   }
@@ -139,13 +141,13 @@ Scene placed_scene(World world, Collector&& collected, const TilesetOptions& opt
 
 void measure_frame(const Scene& scene, TilesetReport& report) {
   const geo::LonLat origin{scene.georeference->longitude_deg, scene.georeference->latitude_deg};
-  const TangentFrame frame(origin);
+  const geo::TangentFrame frame(origin);
   const geo::LocalFrame map(origin);
   const Box box = bounding_box(scene.mesh);
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner((i & 1) != 0 ? box.max.x() : box.min.x(), (i & 2) != 0 ? box.max.y() : box.min.y(),
                       (i & 4) != 0 ? box.max.z() : box.min.z());
-    const Geodetic there = from_ecef(frame.to_earth(corner));
+    const geo::Geodetic there = geo::from_ecef(frame.to_earth(corner));
     report.rim_drop_m = std::max(report.rim_drop_m, there.height_m - corner.z());
     report.rim_shift_m = std::max(report.rim_shift_m, (map.to_local(there.place) - corner.head<2>()).norm());
   }

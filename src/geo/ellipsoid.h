@@ -6,12 +6,15 @@
 #include "geo/local_frame.h"
 #include "vantage/geometry.h"
 
-namespace vantage::internal::tiles {
+namespace vantage::internal::geo {
+
+/// Georeference::source_crs of a scene whose frame is a TangentFrame: it was read from a tileset on the earth.
+inline constexpr const char* kEarthCentred = "EPSG:4978";
 
 inline constexpr double kEquatorM = 6378137.0, kFlattening = 1 / 298.257223563;
 
 struct Geodetic {
-  geo::LonLat place;
+  LonLat place;
   double height_m = 0;  ///< above the ellipsoid
 };
 
@@ -22,7 +25,7 @@ Geodetic from_ecef(const Vec3& point);
 
 /// A frame that touches the ellipsoid at a place: x east, y north, z up. Straight lines stay straight.
 struct TangentFrame {
-  explicit TangentFrame(geo::LonLat place);
+  explicit TangentFrame(LonLat place);
 
   Vec3 origin;           ///< ECEF
   Eigen::Matrix3d axes;  ///< its rows are east, north and up
@@ -30,4 +33,4 @@ struct TangentFrame {
   Vec3 to_earth(const Vec3& local) const { return axes.transpose() * local + origin; }
 };
 
-}  // namespace vantage::internal::tiles
+}  // namespace vantage::internal::geo

@@ -1,9 +1,9 @@
-#include "tiles/ellipsoid.h"
+#include "geo/ellipsoid.h"
 
 #include <cmath>
 #include <numbers>
 
-namespace vantage::internal::tiles {
+namespace vantage::internal::geo {
 namespace {
 
 constexpr double kSquaredEccentricity = kFlattening * (2 - kFlattening);
@@ -35,7 +35,7 @@ Geodetic from_ecef(const Vec3& point) {
   return {{std::atan2(point.y(), point.x()) / kDegree, latitude / kDegree}, height};
 }
 
-TangentFrame::TangentFrame(geo::LonLat place) : origin(to_ecef({place, 0})) {
+TangentFrame::TangentFrame(LonLat place) : origin(to_ecef({place, 0})) {
   const double latitude = place.latitude_deg * kDegree, longitude = place.longitude_deg * kDegree;
   const double sin_lat = std::sin(latitude), cos_lat = std::cos(latitude);
   const double sin_lon = std::sin(longitude), cos_lon = std::cos(longitude);
@@ -43,4 +43,4 @@ TangentFrame::TangentFrame(geo::LonLat place) : origin(to_ecef({place, 0})) {
       sin_lat;
 }
 
-}  // namespace vantage::internal::tiles
+}  // namespace vantage::internal::geo
