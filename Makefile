@@ -73,7 +73,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, QGIS, Blender, builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
-	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender
+	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender cesium
 	ctest --preset release --parallel $(JOBS) --label-regex nightly
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
@@ -150,6 +150,12 @@ qgis: package  ## the plugin of QGIS: its zip, in dist/, and its tests in QGIS w
 	@status=0; for test in integrations/qgis/tests/test_*.py; do echo "== $$test"; \
 	  PYTHONPATH=$(CURDIR)/build/python QT_QPA_PLATFORM=offscreen /usr/bin/python3 $$test || status=1; done; exit $$status
 
+# A volume as 3D Tiles in CesiumJS, from files of this machine: what is picked, where it lies, and how it looks.
+.PHONY: cesium
+cesium: package  ## a volume in CesiumJS: its facets are picked, and its place is compared with PROJ's
+	@scripts/install_packages.sh --web
+	@integrations/cesium/check.sh
+
 .PHONY: gallery
 gallery: web build  ## reports of the real scenes of docs/gallery, in build/gallery
 	@mkdir -p build/gallery
@@ -158,7 +164,7 @@ gallery: web build  ## reports of the real scenes of docs/gallery, in build/gall
 
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
-	rm -rf build build-*/ dist/ web/dist/ web/node_modules/
+	rm -rf build build-*/ dist/ web/dist/ web/node_modules/ integrations/cesium/node_modules/
 
 # All that the installed packages allow: `make build` needs neither those of the tests nor those of the benchmarks.
 .PHONY: tested

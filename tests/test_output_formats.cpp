@@ -16,7 +16,9 @@ namespace {
 
 TEST(OutputFormats, AreDocumented) {
   std::string rows = "\n| extension | precision | what it holds |\n|---|---|---|\n";
-  for (const FormatFacts& format : known_formats()) {
+  std::vector<FormatFacts> formats = known_formats();
+  for (const FormatFacts& format : folder_formats()) formats.push_back(format);
+  for (const FormatFacts& format : formats) {
     rows += "| `" + std::string(format.extension) + "` | " + (format.is_single ? "single" : "double") + " | " +
             std::string(format.holds) + " |\n";
   }
@@ -47,8 +49,26 @@ TEST(OutputFormats, AreListed) {
   for (const FormatFacts& format : known_formats()) {
     EXPECT_NE(extensions_text().find(format.extension), std::string::npos);
     EXPECT_EQ(double_extensions_text().find(format.extension) == std::string::npos, format.is_single);
+    EXPECT_NE(volume_extensions_text().find(format.extension), std::string::npos);
     EXPECT_EQ(scene_frame_names_text().find(format.name) != std::string::npos, format.in_scene_frame);
   }
+}
+
+TEST(OutputFormats, FoldersAreToldFromFiles) {
+  ASSERT_FALSE(folder_formats().empty());
+  for (const FormatFacts& format : folder_formats()) {
+    const std::string name = "a/v" + std::string(format.extension);
+    for (const std::string& folder : {name, name + "/"}) {
+      EXPECT_TRUE(is_folder_format(folder));
+      EXPECT_EQ(volume_output(folder), name);
+    }
+    EXPECT_NE(volume_extensions_text().find(format.extension), std::string::npos);
+    EXPECT_EQ(extensions_text().find(format.extension), std::string::npos);
+    EXPECT_FALSE(format.holds.empty());
+  }
+  for (const FormatFacts& format : known_formats()) EXPECT_FALSE(is_folder_format("v" + std::string(format.extension)));
+  EXPECT_EQ(volume_output("a/v.ply"), "a/v.ply");
+  EXPECT_EQ(volume_output("a/"), "a/");
 }
 
 }  // namespace

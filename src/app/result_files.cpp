@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <set>
 #include <utility>
@@ -17,7 +16,7 @@
 namespace vantage {
 
 std::filesystem::path report_file(const std::filesystem::path& volume_file) {
-  return std::filesystem::path(volume_file).replace_extension(".report.json");
+  return volume_output(volume_file).replace_extension(".report.json");
 }
 
 ResultRequest result_request(const Mission& mission, const Result& result, std::vector<std::filesystem::path> volumes) {
@@ -38,7 +37,7 @@ void check_result_files(const std::vector<std::filesystem::path>& volumes,
   for (const std::filesystem::path& volume : volumes) {
     check_volume_output(volume);
     check_derived_output(report_file(volume));
-    if (!seen.insert(volume.lexically_normal()).second) {
+    if (!seen.insert(volume_output(volume).lexically_normal()).second) {
       throw Error(ErrorCode::output_named_twice, "an output is named twice", volume.string(),
                   "give each output a name of its own");
     }
@@ -54,20 +53,21 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
   WrittenResults result;
   result.measures = has_volume ? internal::core::measure_sound(volume.mesh) : measure(volume.mesh);
 
-  std::vector<std::unique_ptr<AtomicFile>> files;
+  std::vector<StagedVolume> volumes;
   if (has_volume) {
     for (const std::filesystem::path& file : request.volumes) {
       progress.report(result.written.size(), request.volumes.size() + 1);
       StagedVolume staged = stage_volume(volume, file, request.obj_up, request.obj_scale);
-      staged.files.front()->seal();
-      std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
+      if (!staged.files.empty()) staged.files.front()->seal();
       result.written.push_back(staged.report);
+      volumes.push_back(std::move(staged));
     }
   }
   progress.finish();
   volume.seconds.write = stopwatch.seconds();
   volume.seconds.total += volume.seconds.write;
 
+  std::vector<std::unique_ptr<AtomicFile>> files;  // the reports
   for (const std::filesystem::path& file : request.volumes) {
     ReportSource source = request.source;
     if (has_volume) source.volume = file.string();
@@ -85,7 +85,7 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
   if (request.are_names_derived && has_volume) {
     for (const std::filesystem::path& file : request.volumes) check_derived_output(file);
   }
-  commit_all(files);
+  commit_volumes(std::move(volumes), std::move(files));
   return result;
 }
 

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,6 +17,7 @@
 #include "common/stages.h"
 #include "common/temporary_folder.h"
 #include "core/format.h"
+#include "core/replace_folder.h"
 #include "core/temporary_mark.h"
 #include "core/text.h"
 #include "io/json_text.h"
@@ -84,23 +84,11 @@ bool is_left_mark(const fs::directory_entry& entry) {
   return entry.path().filename() == internal::core::kTemporaryMark && entry.is_regular_file(error);
 }
 
-/// Without a slash at the end, which would make the folder its own parent.
-fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
-
 constexpr const char* kElsewhere = "name a folder that can be written, on a disk with room";
-
-/// Of the temporary folder beside the folder of that name. A long name is cut, since a file system takes 255 bytes: a
-/// hash then keeps two of them apart.
-std::string prefix_beside(const std::string& name) {
-  constexpr std::size_t kMostBytes = 180;
-  if (name.size() <= kMostBytes) return "." + name + ".vantage-stages-";
-  return internal::core::format(".{}-{:016x}.vantage-stages-", name.substr(0, kMostBytes),
-                                std::hash<std::string>()(name));
-}
 
 }  // namespace
 
-StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(without_slash(asked_)) {
+StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(internal::core::without_slash(asked_)) {
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
   if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status))) {
@@ -111,7 +99,7 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
   const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");
   try {
-    temporary_ = std::make_unique<TemporaryFolder>(parent, prefix_beside(folder_.filename().string()));
+    temporary_ = std::make_unique<TemporaryFolder>(parent, internal::core::temporary_prefix(folder_, "stages"));
   } catch (const Error& refused) {
     throw Error(refused.code(), "the folder of the stages cannot be made: " + refused.problem(), asked_.string(),
                 kElsewhere);

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "common/input.h"
+#include "common/output.h"
 #include "io/written_marks.h"
 #include "vantage/result.h"
 
@@ -46,15 +47,15 @@ std::vector<std::filesystem::path> volume_files(const std::filesystem::path& fil
     const std::string text = file_text(name);
     std::string free = text;
     for (int number = 2; !taken.insert(lower_case(free)).second; ++number) free = text + "-" + std::to_string(number);
-    std::filesystem::path path = file;
-    path.replace_filename(file.stem().string() + "." + free + file.extension().string());
+    std::filesystem::path path = volume_output(file);
+    path.replace_filename(path.stem().string() + "." + free + path.extension().string());
     files.push_back(std::move(path));
   }
   return files;
 }
 
 std::filesystem::path table_file(const std::filesystem::path& file) {
-  return std::filesystem::path(file).replace_extension(".table.csv");
+  return volume_output(file).replace_extension(".table.csv");
 }
 
 std::string table_csv(const std::vector<TableRow>& rows) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -77,19 +76,18 @@ void check_compare_outputs(const CompareArguments& options) {
 /// Both or none; returns the files that were written.
 std::vector<std::string> write(const CompareArguments& options, Comparison& comparison,
                                const std::optional<Georeference>& place, const SceneReadOptions& obj) {
-  std::vector<std::unique_ptr<AtomicFile>> files;
+  std::vector<StagedVolume> volumes;
   std::vector<std::string> written;
   const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
     if (output.empty() || mesh.empty()) return;
     Volume volume = volume_of_mesh(std::move(mesh), "only in " + fs::path(input).filename().string());
     volume.georeference = place;
-    StagedVolume staged = stage_volume(volume, output, obj.up, obj.scale);
-    std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
+    volumes.push_back(stage_volume(volume, output, obj.up, obj.scale));
     written.push_back(output);
   };
   stage(options.only_a, comparison.only_a, options.file_a);
   stage(options.only_b, comparison.only_b, options.file_b);
-  commit_all(files);
+  commit_volumes(std::move(volumes));
   return written;
 }
 
@@ -169,7 +167,7 @@ void add_compare(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("A");
   command->add_option("b", options->file_b, "Another")->required()->option_text("B");
-  command->add_option("--only-a", options->only_a, "Write what only A claims: " + extensions_text())
+  command->add_option("--only-a", options->only_a, "Write what only A claims: " + volume_extensions_text())
       ->option_text("FILE");
   command->add_option("--only-b", options->only_b, "Write what only B claims")->option_text("FILE");
   command->add_option("--up", options->up, "Axis of the OBJ files that points up: y or z (default)")

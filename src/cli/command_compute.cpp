@@ -28,6 +28,7 @@ constexpr const char* kComputeExamples[] = {
     "EXAMPLES\n"
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
+    "  vantage compute mission.yaml -o volume.tiles/\n"
     "  vantage compute mission.yaml -o volume.ply --prove\n"
     "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
     "  vantage compute mission.yaml --method spheres -o volume.ply --stages stages/\n"
@@ -59,6 +60,9 @@ std::string compute_examples() {
   for (const FormatFacts& format : known_formats()) {
     text.append("  ").append(format.extension).append("  ").append(format.is_single ? "single" : "double");
     text.append(" precision, ").append(format.holds).append("\n");
+  }
+  for (const FormatFacts& format : folder_formats()) {
+    text.append("  ").append(format.extension).append("  single precision, ").append(format.holds).append("\n");
   }
   return text + kComputeExamples[1];
 }
@@ -278,6 +282,13 @@ void tell_of_no_volume(const std::string& target, const std::vector<std::string>
   tell_of_unwritten(outputs);
 }
 
+void tell_of_heights(const ComputeArguments& options, const std::optional<Georeference>& georeference) {
+  if (options.common.quiet) return;
+  for (const std::string& output : options.outputs) {
+    if (const std::string text = height_note(georeference, output); !text.empty()) note(text);
+  }
+}
+
 /// What was proved is the mesh before its numbers were rounded for a file.
 void tell_of_unproved_rounding(const ComputeArguments& options, const std::vector<std::string>& outputs,
                                const WrittenResults& written) {
@@ -309,6 +320,7 @@ void tell(const ComputeArguments& options, const Mission& mission, const Result&
   if (!options.common.quiet) notes(run.volume.notes);
   warn_of_rounding(options, run.volume, written);
   tell_of_unproved_rounding(options, options.outputs, written);
+  if (has_volume) tell_of_heights(options, run.volume.georeference);
   if (!has_volume) tell_of_no_volume({}, options.outputs, run.volume);
   if (outgoing && has_volume) outgoing->send();
 }
@@ -412,6 +424,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
   {
     ProgressLine progress(options.common);
     const Mission mission = resolve_mission(file, progress.callback());
+    for (const fs::path& output : options.files()) check_has_place(mission.scene().georeference, output);
     if (options.prove) check_provable(mission);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < volume_count(mission); ++i) {
@@ -453,6 +466,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     print(text + "wrote " + table.string() + ", and a report beside each volume\n");
     notes(warnings_of_each(rows));
   }
+  tell_of_heights(options, results.front().volume.georeference);
   for (std::size_t i = 0; i < files.size(); ++i) tell_of_unproved_rounding(options, names_of(files[i]), written[i]);
   bool has_all = true;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -484,6 +498,7 @@ int run_compute(const ComputeArguments& options) {
   {
     ProgressLine progress(options.common);
     mission = resolve_mission(file, progress.callback());
+    for (const fs::path& output : files) check_has_place(mission.scene().georeference, output);
     if (options.prove) check_provable(mission);
     const double read_seconds = seconds_since_start() - start;
     run = run_mission(mission, {options.common.threads, stages ? stages->sink() : StageSink()}, progress.callback());
@@ -517,7 +532,7 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("MISSION");
   command
       ->add_option("-o,--output", options->outputs,
-                   "Where to write: " + extensions_text() + ", or - for standard output; may be repeated")
+                   "Where to write: " + volume_extensions_text() + ", or - for standard output; may be repeated")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE");

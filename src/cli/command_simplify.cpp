@@ -103,12 +103,15 @@ int run_simplify(const SimplifyArguments& options) {
   stop_if_interrupted();
   Volume volume = with_mesh(std::move(read.volume), simplified);
   volume.read_rounding_m = read.rounding_m;
-  const StagedVolume staged = stage_volume(volume, options.output, obj.up, obj.scale);
-  commit_all(staged.files);
+  check_has_place(volume.georeference, options.output);
+  std::vector<StagedVolume> staged;
+  staged.push_back(stage_volume(volume, options.output, obj.up, obj.scale));
+  const WrittenVolume written = staged.front().report;
+  commit_volumes(std::move(staged));
   if (options.json) {
-    print(json_text(simplified, options.input, options.output, staged.report));
+    print(json_text(simplified, options.input, options.output, written));
   } else if (!options.common.quiet) {
-    print(table_text(options, simplified, staged.report));
+    print(table_text(options, simplified, written));
   }
   return simplified.reached ? kSuccess : kCheckFailed;
 }
@@ -123,7 +126,7 @@ void add_simplify(CLI::App& app, Command& chosen) {
       ->add_option("volume", options->input, "A closed mesh: PLY, OBJ, STL, glTF or GLB; may be compressed with gzip")
       ->required()
       ->option_text("VOLUME");
-  command->add_option("-o,--output", options->output, "The result: " + extensions_text())
+  command->add_option("-o,--output", options->output, "The result: " + volume_extensions_text())
       ->required()
       ->option_text("FILE");
   command->add_option("--facets", options->facets, "Stop at so many facets; at least 4")->option_text("N");

@@ -57,15 +57,15 @@ void check_spheres_outputs(const WillisConfig& config) {
 }
 
 void write(const WillisConfig& config, const std::vector<WillisResult>& results) {
-  std::vector<std::unique_ptr<AtomicFile>> files;
+  std::vector<StagedVolume> volumes;
   for (std::size_t i = 0; i < results.size(); ++i) {
     at_output(config.volumes[i], [&] {
       StagedVolume staged = stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0);
-      staged.files.front()->seal();
-      std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
+      if (!staged.files.empty()) staged.files.front()->seal();
+      volumes.push_back(std::move(staged));
     });
   }
-  commit_all(files);
+  commit_volumes(std::move(volumes));
 }
 
 std::string summary(const WillisConfig& config, const WillisRun& run) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "vantage/volume.h"
 
 namespace vantage {
+namespace internal::io {
+class TilesFolder;
+}
 
 /// Throws Error(output or input) unless a file can be made at `file`: its folder exists and takes new files, `file` is
 /// no folder and no device, and an existing file is not write-protected.
@@ -42,6 +46,27 @@ struct FormatFacts {
 /// All of them; src/io/output_formats.cpp has the table.
 VANTAGE_API std::vector<FormatFacts> known_formats();
 
+/// Those that are folders, which volumes alone are written in, and which are not read: 3D Tiles.
+VANTAGE_API std::vector<FormatFacts> folder_formats();
+
+/// Whether the name is of one of these: "volume.tiles", "volume.tiles/".
+VANTAGE_API bool is_folder_format(const std::filesystem::path& file);
+
+/// Without a slash at the end, of what is_folder_format(); as it is otherwise.
+VANTAGE_API std::filesystem::path volume_output(const std::filesystem::path& file);
+
+/// ".ply, .obj, .stl, .glb or .tiles": all that volumes are written in.
+VANTAGE_API std::string volume_extensions_text();
+
+/// Throws Error(not_georeferenced) for an output that needs a place on the earth where none is known: to be asked
+/// before a long computation.
+VANTAGE_API void check_has_place(const std::optional<Georeference>& georeference, const std::filesystem::path& output);
+
+/// Of an output on the globe: what z of the scene is taken as there, where that is not what it is measured from. Empty
+/// where there is nothing to tell.
+VANTAGE_API std::string height_note(const std::optional<Georeference>& georeference,
+                                    const std::filesystem::path& output);
+
 /// What --format takes: the extensions without the dot.
 VANTAGE_API std::vector<std::string> format_words();
 
@@ -53,22 +78,32 @@ VANTAGE_API std::string format_words_text();
 VANTAGE_API std::string scene_frame_names_text();
 
 /// check_can_write, and the extension must be one that write_volume knows. Of a format with a file beside it
-/// ("volume.stl.place.json") check_derived_output of that, too.
+/// ("volume.stl.place.json") check_derived_output of that, too. Of a folder: there is none, or it is empty, or holds a
+/// tileset that vantage wrote and nothing else.
 VANTAGE_API void check_volume_output(const std::filesystem::path& file);
 
-/// Throws Error(input) if `output` is one of the `inputs`: writing it would destroy what it was made from.
+/// Throws Error(input) if `output` is one of the `inputs`, or a folder that holds one: writing it would destroy what it
+/// was made from.
 VANTAGE_API void check_not_an_input(const std::filesystem::path& output,
                                     const std::vector<std::filesystem::path>& inputs);
 
-/// A volume that is written but not in place yet: give the files to commit_all.
+/// A volume that is written but not in place yet: for commit_volumes.
 struct StagedVolume {
-  std::vector<std::unique_ptr<AtomicFile>> files;  ///< the volume's first; for STL the one beside it too
+  std::vector<std::unique_ptr<AtomicFile>>
+      files;  ///< the volume's first; for STL the one beside it too; of a folder none
+  std::shared_ptr<internal::io::TilesFolder> folder = nullptr;  ///< of a format that is one
   WrittenVolume report;
 };
 
 /// Does all that write_volume does but the last step. Throws as write_volume does.
 VANTAGE_API StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file,
                                       UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
+
+/// Puts volumes, and `others`, in place: all or none, as commit_all does; folders first, of which one that cannot be
+/// put there stops all behind it, and leaves those before it. All is on the disk before the first is put in place. Call
+/// once, last. Throws as commit_all, and as check_volume_output for folders.
+VANTAGE_API void commit_volumes(std::vector<StagedVolume> volumes,
+                                std::vector<std::unique_ptr<AtomicFile>> others = {});
 
 /// A scene that is written but not in place yet: give the files to commit_all.
 struct StagedScene {

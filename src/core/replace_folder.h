@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace vantage::internal::core {
 
@@ -11,5 +12,13 @@ namespace vantage::internal::core {
 /// done: what was there is there. `try_in_one_step`: false for tests of the other way.
 bool replace_folder(const std::filesystem::path& folder, const std::filesystem::path& place,
                     bool try_in_one_step = true);
+
+/// Without a slash at the end, which would make the folder its own parent.
+std::filesystem::path without_slash(const std::filesystem::path& folder);
+
+/// What the name of a temporary folder beside `folder` begins with (vantage::TemporaryFolder): "stages" gives
+/// ".NAME.vantage-stages-". A long name is cut, since a file system takes 255 bytes: a hash then keeps two of them
+/// apart.
+std::string temporary_prefix(const std::filesystem::path& folder, const std::string& purpose);
 
 }  // namespace vantage::internal::core

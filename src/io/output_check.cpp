@@ -11,6 +11,7 @@
 #include "core/temporary_file.h"
 #include "io/output_formats.h"
 #include "io/sidecar.h"
+#include "io/tiles_folder.h"
 #include "io/written_marks.h"
 #include "vantage/error.h"
 
@@ -95,6 +96,7 @@ std::string format_extension(const fs::path& file) {
 }
 
 void check_derived_output(const fs::path& file) {
+  if (is_folder_format(file)) return internal::io::check_tiles_place(file);
   check_can_write(file);
   std::error_code error;
   if (!fs::exists(file, error) || internal::io::is_own_file(file)) return;
@@ -105,10 +107,11 @@ void check_derived_output(const fs::path& file) {
 
 void check_volume_output(const fs::path& file) {
   check_is_no_stream(file);
+  if (is_folder_format(file)) return internal::io::check_tiles_place(file);
   // A folder is told first: "out" has no extension, but that is not what is wrong with it.
   std::error_code error;
   if (fs::is_directory(file, error)) return check_can_write(file);
-  const internal::io::OutputFormat& format = internal::io::output_format(file);
+  const internal::io::OutputFormat& format = internal::io::output_format(file, true);
   check_can_write(file);
   if (format.has_sidecar) check_derived_output(internal::io::sidecar_file(file));
 }
@@ -116,7 +119,9 @@ void check_volume_output(const fs::path& file) {
 void check_not_an_input(const fs::path& output, const std::vector<fs::path>& inputs) {
   for (const fs::path& input : inputs) {
     std::error_code error;
-    if (!fs::equivalent(output, input, error) || error) continue;
+    const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
+    const bool is_inside = is_folder_format(output) && fs::equivalent(output, folder, error) && !error;
+    if (!is_inside && (!fs::equivalent(output, input, error) || error)) continue;
     throw Error(ErrorCode::output_overwrites_input, "the output would overwrite an input of the same run",
                 output.string(), "give the output another name");
   }

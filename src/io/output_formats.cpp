@@ -81,6 +81,15 @@ constexpr OutputFormat kGlb = {{.name = "GLB",
                                },
                                write_scene_glb};
 
+// src/io/write_tiles.cpp.
+constexpr std::array kFolderFormats = {FormatFacts{.name = "3D Tiles",
+                                                   .extension = ".tiles",
+                                                   .holds = "volumes alone: a folder for the globe, with a feature per "
+                                                            "cause; needs a georeference",
+                                                   .is_single = true,
+                                                   .is_text = false,
+                                                   .in_scene_frame = false}};
+
 constexpr std::array kFormats = {kPly, kObj, kStl, kGlb};
 
 using Texts = std::vector<std::string>;
@@ -116,13 +125,13 @@ const OutputFormat* find_output_format(const std::filesystem::path& file) {
   return found == kFormats.end() ? nullptr : &*found;
 }
 
-const OutputFormat& output_format(const std::filesystem::path& file) {
+const OutputFormat& output_format(const std::filesystem::path& file, bool is_volume) {
   if (const OutputFormat* found = find_output_format(file)) return *found;
   const std::string extension = file.extension().string();
   throw Error(ErrorCode::output_format_unknown,
               extension.empty() ? "the output has no extension, so that its format is unknown"
                                 : "no format is known for the extension " + in_quotes(extension),
-              file.string(), "write " + extensions_text());
+              file.string(), "write " + (is_volume ? volume_extensions_text() : extensions_text()));
 }
 
 }  // namespace vantage::internal::io
@@ -132,6 +141,23 @@ namespace vantage {
 using namespace internal::io;
 
 std::vector<FormatFacts> known_formats() { return {kFormats.begin(), kFormats.end()}; }
+
+std::vector<FormatFacts> folder_formats() { return {kFolderFormats.begin(), kFolderFormats.end()}; }
+
+bool is_folder_format(const std::filesystem::path& file) {
+  const std::string extension = format_extension(file.has_filename() ? file : file.parent_path());
+  return std::ranges::any_of(kFolderFormats, [&](const FormatFacts& format) { return format.extension == extension; });
+}
+
+std::filesystem::path volume_output(const std::filesystem::path& file) {
+  return is_folder_format(file) && !file.has_filename() ? file.parent_path() : file;
+}
+
+std::string volume_extensions_text() {
+  Texts extensions = texts_of(&FormatFacts::extension, kAll);
+  for (const FormatFacts& format : kFolderFormats) extensions.emplace_back(format.extension);
+  return joined(extensions, " or ");
+}
 
 std::vector<std::string> format_words() {
   std::vector<std::string> words = texts_of(&FormatFacts::extension, kAll);

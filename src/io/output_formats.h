@@ -36,7 +36,7 @@ std::span<const OutputFormat> output_formats();
 /// The one that the extension names, upper or lower case; null for another.
 const OutputFormat* find_output_format(const std::filesystem::path& file);
 
-/// Throws Error(output) for another, and says which there are.
-const OutputFormat& output_format(const std::filesystem::path& file);
+/// Throws Error(output) for another, and says which there are: also those that volumes alone are written in, or not.
+const OutputFormat& output_format(const std::filesystem::path& file, bool is_volume);
 
 }  // namespace vantage::internal::io

@@ -7,6 +7,7 @@
 
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
+#include "io/glb_material.h"
 #include "io/volume_statement.h"
 #include "io/writers.h"
 #include "vantage/version.h"
@@ -27,7 +28,9 @@ double linear(int colour) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-Json material_for(CauseKind kind) {
+}  // namespace
+
+Json cause_material(CauseKind kind) {
   const auto colour_of = [](int red, int green, int blue, double opacity) {
     return std::array<double, 4>{linear(red), linear(green), linear(blue), opacity};
   };
@@ -56,6 +59,13 @@ Json material_for(CauseKind kind) {
           {"alphaMode", "BLEND"},
           {"doubleSided", true}};
 }
+
+const std::string& credit_of(const Volume& volume) {
+  const bool is_placed = volume.attribution.empty() && volume.georeference;
+  return is_placed ? volume.georeference->attribution : volume.attribution;
+}
+
+namespace {
 
 /// The document and its one buffer.
 struct Gltf {
@@ -112,7 +122,7 @@ void add_primitive(Gltf& gltf, const Volume& volume, const StoredMesh& stored, C
                                                  {"componentType", kUnsignedInt},
                                                  {"count", count},
                                                  {"type", "SCALAR"}});
-  gltf.json["materials"].push_back(material_for(kind));
+  gltf.json["materials"].push_back(cause_material(kind));
   primitives.push_back({{"attributes", {{"POSITION", positions}}},
                         {"indices", indices},
                         {"material", gltf.json["materials"].size() - 1},
@@ -128,12 +138,6 @@ Mesh in_file_order(const Volume& volume, const StoredMesh& stored) {
     }
   }
   return mesh;
-}
-
-/// Whom the file has to name. If the volume was read, the georeference alone knows it.
-const std::string& credit_of(const Volume& volume) {
-  const bool is_placed = volume.attribution.empty() && volume.georeference;
-  return is_placed ? volume.georeference->attribution : volume.attribution;
 }
 
 Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {

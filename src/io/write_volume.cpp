@@ -1,7 +1,9 @@
 // Checks a volume and has it written, and holds what the writers share.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +15,7 @@
 #include "io/output_formats.h"
 #include "io/sidecar.h"
 #include "io/volume_statement.h"
+#include "io/write_tiles.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 
@@ -49,8 +52,12 @@ namespace vantage {
 
 StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
   using namespace internal::io;
+  if (is_folder_format(file)) {
+    internal::core::check_volume(volume);
+    return stage_tiles(volume, file);
+  }
   auto output = std::make_unique<AtomicFile>(file);
-  const OutputFormat& format = output_format(file);
+  const OutputFormat& format = output_format(file, true);
   internal::core::check_volume(volume);
   const FileFrame frame{obj_up, obj_scale};
   if (format.check_frame) format.check_frame(volume, frame);
@@ -67,10 +74,23 @@ StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& fil
   return staged;
 }
 
+void commit_volumes(std::vector<StagedVolume> volumes, std::vector<std::unique_ptr<AtomicFile>> others) {
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  for (StagedVolume& volume : volumes) std::move(volume.files.begin(), volume.files.end(), std::back_inserter(files));
+  std::move(others.begin(), others.end(), std::back_inserter(files));
+  for (const std::unique_ptr<AtomicFile>& file : files) file->seal();
+  for (const StagedVolume& volume : volumes) {
+    if (volume.folder) volume.folder->commit();
+  }
+  commit_all(files);
+}
+
 WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
-  const StagedVolume staged = stage_volume(volume, file, obj_up, obj_scale);
-  commit_all(staged.files);
-  return staged.report;
+  std::vector<StagedVolume> staged;
+  staged.push_back(stage_volume(volume, file, obj_up, obj_scale));
+  const WrittenVolume report = staged.front().report;
+  commit_volumes(std::move(staged));
+  return report;
 }
 
 }  // namespace vantage
