@@ -46,7 +46,7 @@ Volume placed_volume() {
   target.name = "square";
   Navigation limits;
   limits.altitude = {2, 25};
-  Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, {40}), limits);
+  Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, {40}), limits, {.tolerance_m = 0.5});
   volume.georeference = kPlace;
   return volume;
 }

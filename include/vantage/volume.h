@@ -224,10 +224,14 @@ struct WrittenVolume {
 ///         metre between neighbouring numbers at a UTM northing of 4,785,000. Prefer another format there
 ///   .glb  a material per kind of cause; y up as the specification demands. Single precision about an origin in the
 ///         middle of the volume: 0.03 mm at 600 m across, wherever it lies
+///   .tiles  a folder with a tileset of 3D Tiles 1.1, on the globe: docs/tilesets.md. A feature for each cause and each
+///         target, with kind, name and area_m2. Single precision about the middle of the volume; needs a georeference
+///         and a volume that is not empty. An old folder is replaced if it is empty, or holds a tileset that vantage
+///         wrote and nothing else. It is not read as a volume
 /// The georeference and rounding_m go into the file, for .stl into FILE.place.json beside it (docs/scene.md).
 /// Cost: linear in the facets; the bytes are on the disk when it returns. Throws Error(output) when the file cannot be
 /// written, the format cannot hold that many facets or nothing of the volume is left in it, and Error(input) for an
-/// unknown extension, a directory, a volume whose arrays do not fit together, or a scale that is not positive, not
+/// unknown extension, a directory (for .tiles another one, or no georeference), a volume whose arrays do not fit together, or a scale that is not positive, not
 /// finite or so small that coordinates overflow.
 VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file,
                                        UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);

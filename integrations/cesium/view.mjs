@@ -38,6 +38,7 @@ class View {
     scene.skyAtmosphere.show = false;
     scene.pickTranslucentDepth = true;
     view.tileset = await Cesium.Cesium3DTileset.fromUrl(url);
+    view.tileset.colorBlendMode = Cesium.Cesium3DTileColorBlendMode.REPLACE;  // else the style tints the file's colours
     scene.primitives.add(view.tileset);
     return view;
   }

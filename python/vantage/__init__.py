@@ -91,6 +91,8 @@ def error_codes() -> list[str]:
 def output_formats() -> list[str]:
     """The formats that volumes and scenes are saved in, as the ends of names; docs/command-line.md says what each holds.
 
+    Volumes are also saved as "tiles", a folder for the globe: docs/tilesets.md.
+
     Example:
         >>> "ply" in vt.output_formats()
         True

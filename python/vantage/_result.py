@@ -270,6 +270,7 @@ class Result(Solid):
     def save(self, *paths: Path, progress: Progress = None) -> list[str]:
         """Writes the volume to each path (`vantage.output_formats()`), and a report beside it; all or none. Returns the reports.
 
+        "volume.tiles" is a folder with 3D Tiles, for the globe (docs/tilesets.md): of a scene with a georeference.
         The report of "a.ply" is "a.report.json". So "a.ply" and "a.glb" share one, which names the first: give volumes names
         of their own where each is to have its report.
         """

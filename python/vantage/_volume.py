@@ -176,7 +176,10 @@ class Volume(Solid):
     # ---- elsewhere
 
     def save(self, path: Path, *, up: str = "z", scale: float = 1.0) -> None:
-        """Writes one of `vantage.output_formats()`, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ."""
+        """Writes one of `vantage.output_formats()`, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ.
+
+        "volume.tiles" is a folder with 3D Tiles, for the globe (docs/tilesets.md): of a scene with a georeference.
+        """
         self._core.save(checked_path(path), choice(up, "up", ("y", "z")), _arrays.number(scale, "scale"))
 
     def __reduce__(self) -> tuple[Any, ...]:

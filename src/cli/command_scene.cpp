@@ -44,7 +44,7 @@ struct SceneArguments {
 void check_scene_outputs(const SceneArguments& options, SceneSource::Kind kind) {
   std::set<fs::path> seen;
   for (const std::string& output : options.outputs) {
-    check_volume_output(output);
+    check_scene_output(output);
     if (kind == SceneSource::Kind::map) check_derived_output(report_file(output));
     check_not_an_input(output, {options.scene.input, options.scene.terrain});
     if (!seen.insert(fs::path(output).lexically_normal()).second) {

@@ -82,6 +82,9 @@ VANTAGE_API std::string scene_frame_names_text();
 /// tileset that vantage wrote and nothing else.
 VANTAGE_API void check_volume_output(const std::filesystem::path& file);
 
+/// The same of write_scene, which writes no folders.
+VANTAGE_API void check_scene_output(const std::filesystem::path& file);
+
 /// Throws Error(input) if `output` is one of the `inputs`, or a folder that holds one: writing it would destroy what it
 /// was made from.
 VANTAGE_API void check_not_an_input(const std::filesystem::path& output,
