@@ -5,10 +5,12 @@ const COLOURS = {  // of the styles: far apart, so that a pixel tells its kind
   sensor: [255, 0, 255], target: [255, 0, 0],
 };
 
-function style(opacity) {
+// `only`: the kind that is shown; without it all are.
+function style(opacity, only) {
   const conditions = Object.entries(COLOURS).map(([kind, rgb]) => [
     `\${kind} === '${kind}'`, `rgba(${rgb.join(", ")}, ${kind === "target" ? 1 : opacity})`]);
-  return new Cesium.Cesium3DTileStyle({ color: { conditions: [...conditions, ["true", "color('black')"]] } });
+  const color = { conditions: [...conditions, ["true", "color('black')"]] };
+  return new Cesium.Cesium3DTileStyle({ color, show: only ? `\${kind} === '${only}'` : "true" });
 }
 
 function settled(viewer, tileset) {
@@ -48,7 +50,7 @@ class View {
     this.viewer.scene.globe.show = true;
     this.tileset.style = style(0.55);
     const { radius } = this.tileset.boundingSphere;
-    await this.viewer.zoomTo(this.tileset, new Cesium.HeadingPitchRange(-0.7, -0.45, 2.6 * radius));
+    await this.viewer.zoomTo(this.tileset, new Cesium.HeadingPitchRange(-0.7, -0.45, 2.1 * radius));
     this.viewer.camera.lookAtTransform(Cesium.Matrix4.IDENTITY);
     await settled(this.viewer, this.tileset);
     return { middle: this.middle(), radius };
@@ -77,20 +79,25 @@ class View {
     const feature = scene.pick(middle);
     const place = scene.pickPosition(middle);
     const get = (name) => (feature?.getProperty ? feature.getProperty(name) : undefined);
-    return { kind: get("kind"), name: get("name"), area_m2: get("area_m2"), pixel: await this.pixel(),
+    const picked = { kind: get("kind"), name: get("name"), area_m2: get("area_m2"),
       place: place ? [place.x, place.y, place.z] : null };
+    return { ...picked, pixel: await this.pixel(picked.kind) };
   }
 
-  // Which style the pixel in the middle has the colour of.
-  async pixel() {
+  // Which style the pixel in the middle has the colour of, with nothing shown but what is of a kind: the facets are
+  // translucent, so that others would shine through.
+  async pixel(kind) {
     const { scene } = this.viewer;
+    this.tileset.style = style(1, kind);
+    await settled(this.viewer, this.tileset);
     scene.render();
     const copy = document.createElement("canvas");
     copy.width = copy.height = 1;
     const context = copy.getContext("2d");
     context.drawImage(scene.canvas, scene.canvas.width / 2, scene.canvas.height / 2, 1, 1, 0, 0, 1, 1);
-    const rgb = context.getImageData(0, 0, 1, 1).data;
-    const distance = (colour) => colour.reduce((sum, value, i) => sum + (value - rgb[i]) ** 2, 0);
+    const hue = (rgb) => rgb.map((value) => value / Math.max(...rgb, 1));  // over black, so that opacity only darkens it
+    const seen = hue([...context.getImageData(0, 0, 1, 1).data].slice(0, 3));
+    const distance = (rgb) => hue(rgb).reduce((sum, value, i) => sum + (value - seen[i]) ** 2, 0);
     return Object.keys(COLOURS).sort((a, b) => distance(COLOURS[a]) - distance(COLOURS[b]))[0];
   }
 }
