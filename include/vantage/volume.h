@@ -231,8 +231,8 @@ struct WrittenVolume {
 /// The georeference and rounding_m go into the file, for .stl into FILE.place.json beside it (docs/scene.md).
 /// Cost: linear in the facets; the bytes are on the disk when it returns. Throws Error(output) when the file cannot be
 /// written, the format cannot hold that many facets or nothing of the volume is left in it, and Error(input) for an
-/// unknown extension, a directory (for .tiles another one, or no georeference), a volume whose arrays do not fit together, or a scale that is not positive, not
-/// finite or so small that coordinates overflow.
+/// unknown extension, a directory (for .tiles another one, or no georeference), a volume whose arrays do not fit
+/// together, or a scale that is not positive, not finite or so small that coordinates overflow.
 VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file,
                                        UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
 
