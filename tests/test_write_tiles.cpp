@@ -23,6 +23,7 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/georeference.h"
+#include "vantage/tileset.h"
 #include "vantage/volume.h"
 
 namespace vantage {
@@ -273,6 +274,23 @@ TEST(WriteTiles, APointIsAPoint) {
   EXPECT_EQ(primitive.at("mode"), 0);
   EXPECT_FALSE(primitive.contains("indices"));
   EXPECT_LT((tiles.transform * tiles.places.back() - on_earth(kPlace, {{1, 2, 3}})[0]).norm(), 1e-5);
+}
+
+TEST(WriteTiles, TheReaderOfTilesetsFindsTheFacetsAtTheirPlace) {
+  const TemporaryDirectory directory;
+  Volume volume = placed_volume();
+  volume.georeference->vertical = "ellipsoidal height";
+  const WrittenVolume written = write_volume(volume, directory / "v.tiles");
+  TilesetOptions options;
+  options.center_deg = {kPlace.latitude_deg, kPlace.longitude_deg};
+  options.radius_m = 500;
+  const Scene scene = read_tileset(directory / "v.tiles/tileset.json", options).scene;
+  EXPECT_EQ(scene.mesh.triangles.size(), written.facets + 2);
+  EXPECT_EQ(scene.objects.size(), volume.causes.size() + 1);
+  const Box box = bounding_box(scene.mesh), wanted = bounding_box(volume.mesh);
+  EXPECT_NEAR(box.max.z(), wanted.max.z(), 1e-3);  // 0.1 mm lower at 40 m: that frame is not bent
+  EXPECT_LT((box.min.head<2>() - wanted.min.head<2>()).norm(), 1e-3);
+  EXPECT_LT((box.max.head<2>() - wanted.max.head<2>()).norm(), 1e-3);
 }
 
 TEST(WriteTiles, WithoutAPlaceItIsRefused) {
