@@ -143,7 +143,7 @@ TEST_F(CliUsage, AMissionFromStandardInput) {
 }
 
 TEST_F(CliUsage, AVolumeToStandardOutput) {
-  for (const std::string& format : format_words()) {
+  for (const std::string& format : mesh_format_words()) {
     output_of({"compute", "mission.yaml", "-q", "-o", "v." + format});
     const auto before = files();
     EXPECT_TRUE(output_of({"compute", "mission.yaml", "-q", "-o", "-", "--format", format}) ==

@@ -89,7 +89,7 @@ TEST_F(LiveSession, ATargetFarOutLeavesTheSceneAsItIs) {
 // An error of the disk or of this program would be told else.
 TEST_F(LiveSession, AnEmptyVolumeHasNothingToSave) {
   ask({{"call", "compute"}, {"text", std::string(kSquare) + "navigation: {altitude: [500, 600]}\n"}});
-  for (const std::string& format : format_words()) {
+  for (const std::string& format : mesh_format_words()) {
     const Json error = ask({{"call", "save"}, {"format", format}}).header["error"];
     EXPECT_EQ(error["code"], name_of(ErrorCode::nothing_given)) << format;
     testing::expect_wording(error["problem"].get<std::string>() + "\n" + error["fix"].get<std::string>());
@@ -256,7 +256,7 @@ TEST_F(LiveSession, SaysWhereTheSceneLiesAndWhomToName) {
 
 TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
   ask({{"call", "compute"}, {"text", kSquare}});
-  for (const std::string& format : format_words()) {
+  for (const std::string& format : mesh_format_words()) {
     const Message message = ask({{"call", "save"}, {"format", format}});
     EXPECT_EQ(message.header["bytes"], message.rest.size());
     EXPECT_GT(message.rest.size(), 1000u) << format;

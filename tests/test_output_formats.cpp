@@ -48,8 +48,10 @@ TEST(OutputFormats, AreListed) {
   EXPECT_EQ(extensions_text().find('.'), 0U);
   for (const FormatFacts& format : known_formats()) {
     EXPECT_NE(extensions_text().find(format.extension), std::string::npos);
-    EXPECT_EQ(double_extensions_text().find(format.extension) == std::string::npos, format.is_single);
     EXPECT_NE(volume_extensions_text().find(format.extension), std::string::npos);
+    EXPECT_EQ(double_extensions_text().find(format.extension) == std::string::npos,
+              format.is_single || format.is_for_maps);
+    EXPECT_EQ(scene_extensions_text().find(format.extension) == std::string::npos, format.is_for_maps);
     EXPECT_EQ(scene_frame_names_text().find(format.name) != std::string::npos, format.in_scene_frame);
   }
 }

@@ -106,6 +106,33 @@ TEST(TourPositions, FormatsStateTheTourAsTheyCan) {
   for (const PlanFormat format : {PlanFormat::kml, PlanFormat::gpx, PlanFormat::geojson}) {
     EXPECT_FALSE(plan_of_tour(tour, mission, format).heights);
   }
+  const FlightOut shown = plan_of_tour(tour, mission, PlanFormat::czml);
+  EXPECT_FALSE(shown.heights);
+  ASSERT_EQ(shown.targets.size(), 2U);
+  EXPECT_EQ(shown.targets[1].name, "east");
+  EXPECT_EQ(shown.targets[1].parts, mission.views[1][0].parts);
+  EXPECT_TRUE(shown.targets[1].seen_s.empty()) << "the flight passes between them";
+}
+
+TEST(TourPositions, CzmlSaysWhenTargetsAreSeen) {
+  Mission mission = two_squares();
+  LoadedScene loaded = *mission.loaded;
+  loaded.scene.georeference = Georeference{48, 11, "EGM96 geoid", ""};
+  mission.loaded = std::make_shared<const LoadedScene>(std::move(loaded));
+  MissionTour tour;
+  tour.tour.flight.points = {{Vec3(-60, 0, 10)}, {Vec3(60, 0, 10), 2}};
+  tour.settings.vehicle.speed_m_s = 4;
+  const FlightOut shown = plan_of_tour(tour, mission, PlanFormat::czml);
+  FlightCheckOptions options;
+  options.speed_m_s = 4;
+  const FlightCheck check = check_flight(mission, tour.tour.flight, options);
+  ASSERT_EQ(shown.targets.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(shown.targets[i].seen_s.size(), 1U);
+    EXPECT_EQ(shown.targets[i].seen_s[0][0], check.targets[i].seen[0].begin_s);
+    EXPECT_EQ(shown.targets[i].seen_s[0][1], check.targets[i].seen[0].end_s);
+  }
+  EXPECT_LT(shown.targets[0].seen_s[0][1], shown.targets[1].seen_s[0][0]) << "first the west";
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ enum class PlanFormat {
   gpx,             ///< .gpx: a track, a route, or else waypoints
   geojson,         ///< .geojson: lines, or else points
   csv,             ///< a table with a header
+  czml,            ///< .czml, written alone: Cesium shows it, with times
 };
 
 /// "KML"; for messages.
@@ -260,6 +261,17 @@ struct NamedVolume {
   Mesh mesh;  ///< scene frame, metres
 };
 
+/// What a flight is to see, and when it sees it.
+struct SeenTarget {
+  std::string name;
+  /// Of its convex polygons the corners, or a point; scene frame. None of a volume to fly through.
+  std::vector<std::vector<Vec3>> parts;
+  std::vector<std::array<double, 2>> seen_s;  ///< from when to when, seconds since the flight began; sorted, apart
+};
+
+/// When a flight begins unless something else is asked for: 2026-01-01T00:00:00Z, in seconds since 1970-01-01 UTC.
+inline constexpr double kFlightStartUnixS = 1767225600;
+
 struct FlightOut {
   Flight flight;
   std::vector<FlightAction> actions;  ///< one for each point, or none at all
@@ -267,8 +279,8 @@ struct FlightOut {
   std::optional<Georeference> georeference;  ///< of the scene; all but CSV with `scene_z` need it
   HeightLevels levels;
   /// How heights are stated: sea_level, ellipsoid or home; scene_z in CSV alone. Without it the one that the format
-  /// knows: KML and GPX have heights above sea level, GeoJSON above the ellipsoid. The others need it: .plan and
-  /// .waypoints sea_level or home, WPML any of the three (the aircraft then flies above the ellipsoid or the home).
+  /// knows: KML and GPX have heights above sea level, GeoJSON and CZML above the ellipsoid. The others need it: .plan
+  /// and .waypoints sea_level or home, WPML any of the three (the aircraft then flies above the ellipsoid or the home).
   std::optional<HeightDatum> heights;
   /// The ground at the place of takeoff, scene frame.
   std::optional<Vec3> home;
@@ -279,11 +291,13 @@ struct FlightOut {
   /// No higher above the home may the vehicle climb at takeoff; nothing: any height. WPML, which climbs at first, keeps
   /// to it.
   std::optional<double> highest_takeoff_m;
-  std::vector<NamedVolume> volumes;  ///< KML draws them
-  double chord_error_m = 0.05;       ///< of circles, where a format has none
+  std::vector<NamedVolume> volumes;         ///< KML draws them
+  double chord_error_m = 0.05;              ///< of circles, where a format has none
+  std::vector<SeenTarget> targets = {};     ///< CZML draws them
+  double start_unix_s = kFlightStartUnixS;  ///< of CZML: seconds since 1970-01-01 UTC; of the years 1 to 9999
 };
 
-/// The format that a name stands for: .plan, .waypoints, .kml, .kmz (wpml), .gpx, .geojson, .csv. Throws
+/// The format that a name stands for: .plan, .waypoints, .kml, .kmz (wpml), .gpx, .geojson, .csv, .czml. Throws
 /// Error(output_format_unknown).
 VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 
@@ -295,6 +309,10 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// camera is turned to something, .plan and .waypoints hold a region of interest, and the other formats the angles.
 /// Stays are rounded up to a thousandth of a second. KML, GPX and GeoJSON hold what is done at a point by name
 /// (docs/flight-plans.md), and are read back with it.
+///
+/// CZML has the position at every moment: each leg at its speed, without speeding up and braking, as check_flight has
+/// it; and the targets, in another colour while they are seen. Legs of more than 200 m have positions between their
+/// ends, so that the vehicle is within 1 mm of the leg where the program that shows it draws straight lines.
 ///
 /// Throws Error(input): height_unknown where a level is needed that is not known, not_georeferenced, missing_key for
 /// heights, a home, a speed or an aircraft that the format needs, value_unsupported for heights that it cannot state

@@ -161,6 +161,9 @@ struct FlightCheck {
 VANTAGE_API FlightCheck check_flight(const Mission& mission, const Flight& flight,
                                      const FlightCheckOptions& options = {}, const Progress& progress = {});
 
+/// The targets, and when they are seen; FlightOut::targets. Nothing of when where a speed is missing.
+VANTAGE_API std::vector<SeenTarget> seen_targets(const FlightCheck& check);
+
 /// JSON (UTF-8, indented, a newline at the end) of all of it; lengths in metres, what is not known or infinite is null.
 /// With longitudes and latitudes where `georeference` is given.
 VANTAGE_API std::string json_text(const FlightCheck& check, const Georeference* georeference = nullptr);

@@ -115,8 +115,9 @@ VANTAGE_API MissionTour plan_mission_tour(const Mission& mission, const MissionT
 /// where there is one. Of a scene without a place on the earth it is x, y and z of the scene frame, which a table (CSV)
 /// alone can state.
 VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission);
-/// The same as a format can state it: KML, GPX and GeoJSON have no heights above the home, and get those they know.
-/// Throws Error(not_georeferenced) where the format needs a place on the earth, and the scene has none.
+/// The same as a format can state it: KML, GPX, GeoJSON and CZML have no heights above the home, and get those they
+/// know; CZML gets the targets, and when they are seen (check_flight, which may throw). Throws Error(not_georeferenced)
+/// where the format needs a place on the earth, and the scene has none.
 VANTAGE_API FlightOut plan_of_tour(const MissionTour& tour, const Mission& mission, PlanFormat format);
 
 /// Writes what proves the bound of a tour, for tools/check_tour.py, and the meshes that it is of beside it: FILE's stem

@@ -54,6 +54,7 @@ struct ResultRequest {
   double obj_scale = 1.0;                      ///< as Scene::scale
   ReportSource source = {};                    ///< `volume` is filled in for each report
   bool are_names_derived = false;              ///< nobody gave the names of `volumes`: only own files are replaced
+  std::optional<double> sea_level_z_m = {};    ///< z of the mean sea level, where it is known: KML needs it
 };
 
 /// Of a mission's result: an OBJ is written in the axes and the unit of the scene's file.

@@ -16,6 +16,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "common/output.h"
+#include "common/time_text.h"
 #include "flights.h"
 #include "mission.h"
 #include "vantage/flight.h"
@@ -113,13 +114,15 @@ DjiAircraft aircraft_of(const std::vector<int>& numbers) {
 
 /// What plan_notes says.
 std::vector<std::string> write(const PyTour& of, const std::filesystem::path& file,
-                               const std::optional<std::vector<int>>& aircraft, std::optional<double> undulation_m) {
+                               const std::optional<std::vector<int>>& aircraft, std::optional<double> undulation_m,
+                               const std::optional<std::string>& start) {
   const PlanFormat format = plan_format_of(file);
   check_output(of, file);
   const Released released;
   FlightOut plan = plan_of_tour(*of.tour, *of.mission, format);
   plan.levels.undulation_m = undulation_m;
   if (aircraft) plan.aircraft = aircraft_of(*aircraft);
+  if (start) plan.start_unix_s = unix_time_of(*start, "start");
   write_flight_plan(plan, file);
   return plan_notes(plan, format);
 }
@@ -149,7 +152,7 @@ void bind_tours(nb::module_& module) {
       .def_prop_ro("end", &end_of)
       .def_prop_ro("notes", [](const PyTour& t) { return t->notes; })
       .def("json", [](const PyTour& t) { return json_text(*t.tour); })
-      .def("write", &write, "file"_a, "aircraft"_a.none(), "undulation_m"_a.none())
+      .def("write", &write, "file"_a, "aircraft"_a.none(), "undulation_m"_a.none(), "start"_a.none())
       .def("write_certificate", &write_certificate, "file"_a);
   module.def("plan_tour", &plan, "mission"_a, "with_bound"_a, "positions"_a.noconvert().none(), "threads"_a = 0,
              "progress"_a = nb::none());

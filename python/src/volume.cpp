@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "arrays.h"
@@ -105,10 +106,11 @@ PyVolume from_arrays(const PointArray& vertices, const FaceArray& faces, const s
 
 /// How far rounding to the file's numbers moved the surface, and how many facets the file holds.
 std::pair<double, std::size_t> save(const PyVolume& volume, const std::filesystem::path& file, const std::string& up,
-                                    double scale) {
+                                    double scale, std::optional<double> sea_level_m) {
   const Released released;
-  const WrittenVolume written = write_volume(*volume, file, up == "y" ? UpAxis::y : UpAxis::z, scale);
-  return {written.rounding_m, written.facets};
+  const StagedVolume staged = stage_volume(*volume, file, up == "y" ? UpAxis::y : UpAxis::z, scale, sea_level_m);
+  commit_all(staged.files);
+  return {staged.report.rounding_m, staged.report.facets};
 }
 
 std::tuple<std::string, PyVolume, PyVolume> compare_two(const PyVolume& a, const PyVolume& b, const std::string& name_a,
@@ -164,7 +166,7 @@ void bind_volume(nb::module_& module) {
           "hash", [](const PyVolume& v) { return volume_hash(v->mesh); }, nb::call_guard<Released, Computing>())
       .def("measures", [](const PyVolume& v) { return measures_of(measure(v->mesh)); })
       .def("report", [](const PyVolume& v) { return report_json(*v, measure(v->mesh)); })
-      .def("save", &save, "file"_a, "up"_a = "z", "scale"_a = 1.0)
+      .def("save", &save, "file"_a, "up"_a = "z", "scale"_a = 1.0, "sea_level_m"_a = nb::none())
       .def("compare", &compare_two, "other"_a, "name"_a, "other_name"_a, "progress"_a = nb::none())
       .def(
           "simplify_to",
@@ -197,7 +199,8 @@ void bind_volume(nb::module_& module) {
         return PyVolume(std::move(volume));
       },
       "outcome"_a, "reason"_a);
-  module.def("output_formats", &format_words);
+  module.def(
+      "output_formats", [](bool scenes) { return scenes ? mesh_format_words() : format_words(); }, "scenes"_a);
   module.def(
       "intersect_volumes",
       [](const std::vector<const PyVolume*>& volumes, nb::object progress) {

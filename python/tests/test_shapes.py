@@ -290,7 +290,7 @@ def test_a_saved_scene_says_how_far_it_moved(tmp_path):
     far = np.array([[1000.1, 0, 0], [1009.3, 0.7, 0], [1000, 9, 3.3], [-1000.7, 0, 0]])
     scene = vt.Scene.from_arrays(far, [[0, 1, 2], [0, 1, 3]])
     rounds = {"obj": False, "ply": False, "glb": True, "stl": True}
-    for ending in vt.output_formats():
+    for ending in vt.output_formats(scenes=True):
         moved = scene.save(tmp_path / f"scene.{ending}")
         again = vt.Scene.from_mesh(tmp_path / f"scene.{ending}")
         found = np.linalg.norm(np.sort(again.vertices[again.faces].reshape(-1, 3), axis=0)

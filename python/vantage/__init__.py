@@ -88,8 +88,11 @@ def error_codes() -> list[str]:
     return _core.error_codes()
 
 
-def output_formats() -> list[str]:
-    """The formats that volumes and scenes are saved in, as the ends of names; docs/command-line.md says what each holds.
+def output_formats(*, scenes: bool = False) -> list[str]:
+    """The formats that volumes are saved in, as the ends of names; docs/command-line.md says what each holds.
+
+    Args:
+        scenes: those that scenes are saved in, too, and that are read back: without KML and KMZ.
 
     Volumes are also saved as "tiles", a folder for the globe: docs/tilesets.md.
 
@@ -97,7 +100,7 @@ def output_formats() -> list[str]:
         >>> "ply" in vt.output_formats()
         True
     """
-    return _core.output_formats()
+    return _core.output_formats(_checks.flag(scenes, "scenes"))
 
 
 def visibility_sphere(scene: Scene, viewpoint: Vector, radius_m: float, *, cubemap: int = 200, conservative: bool = True,

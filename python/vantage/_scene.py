@@ -385,7 +385,7 @@ class Scene(Triangles):
     # ---- elsewhere
 
     def save(self, path: Path) -> float:
-        """Writes one of `vantage.output_formats()`, by the path's extension, in the scene's frame.
+        """Writes one of `vantage.output_formats(scenes=True)`, by the path's extension, in the scene's frame.
 
         Returns:
             how far a vertex has moved at most, metres. OBJ and PLY keep all digits: 0. GLB and STL have single precision: of

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._check import FlightCheck, check
-from ._checks import flag, items, path as checked_path, shown, thread_count, whole
+from ._checks import flag, items, path as checked_path, shown, text as checked_text, thread_count, whole
 from ._errors import input_error, not_pickled
 from ._flight import AnyMission, Flight, Numbers, line_of, mission_of, table_of
 from ._positions import Positions
@@ -119,14 +119,17 @@ class Tour:
         """Whether the gap that the settings ask for was reached."""
         return self.bound is not None and self.bound.gap <= self._core.asked_gap
 
-    def write(self, path: Path, *, aircraft: Sequence[int] | None = None, undulation_m: float | None = None) -> list[str]:
+    def write(self, path: Path, *, aircraft: Sequence[int] | None = None, undulation_m: float | None = None,
+              start: str | None = None) -> list[str]:
         """Writes a plan for ground stations, by the path's extension: .plan, .waypoints, .kml, .kmz (DJI's), .gpx, .geojson or
-        .csv; whole or not at all. With a photo where each target is seen, yaw and gimbal pitch.
+        .csv; or .czml, which Cesium shows; whole or not at all. With a photo where each target is seen, yaw and gimbal pitch.
 
         Args:
             path: the file.
             aircraft: for .kmz: type, subtype and camera, as DJI numbers them: (77, 0, 66) is the Mavic 3E.
-            undulation_m: how high the mean sea level lies above the ellipsoid there: GeoJSON has heights above the ellipsoid.
+            undulation_m: how high the mean sea level lies above the ellipsoid there: GeoJSON and CZML have heights
+                above the ellipsoid.
+            start: for .czml: when the flight begins, "2026-06-21T16:00Z"; without it "2026-01-01T00:00Z".
 
         Returns:
             What to know before relying on it: what the format does not hold, and which ways are not of the tour.
@@ -135,7 +138,8 @@ class Tour:
             Error: the scene has no place on the earth, and the file is no .csv; the format needs a home; it cannot be written.
         """
         undulation = None if undulation_m is None else _arrays.number(undulation_m, "undulation_m")
-        return self._core.write(checked_path(path), None if aircraft is None else _aircraft(aircraft), undulation)
+        return self._core.write(checked_path(path), None if aircraft is None else _aircraft(aircraft), undulation,
+                                None if start is None else checked_text(start, "start"))
 
     def write_certificate(self, path: Path) -> None:
         """Writes what proves the bound, for tools/check_tour.py, and the outer volumes beside it. Raises Error without a bound."""

@@ -175,12 +175,18 @@ class Volume(Solid):
 
     # ---- elsewhere
 
-    def save(self, path: Path, *, up: str = "z", scale: float = 1.0) -> None:
-        """Writes one of `vantage.output_formats()`, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ.
+    def save(self, path: Path, *, up: str = "z", scale: float = 1.0, sea_level_m: float | None = None) -> None:
+        """Writes one of `vantage.output_formats()`, by the path's extension; whole or not at all.
 
         "volume.tiles" is a folder with 3D Tiles, for the globe (docs/tilesets.md): of a scene with a georeference.
+
+        Args:
+            path: the file.
+            up, scale: of an OBJ: its axis upwards, and the metres in one of its units.
+            sea_level_m: of KML and KMZ: z of the mean sea level, where heights of the scene are not above a geoid.
         """
-        self._core.save(checked_path(path), choice(up, "up", ("y", "z")), _arrays.number(scale, "scale"))
+        level = None if sea_level_m is None else _arrays.number(sea_level_m, "sea_level_m")
+        self._core.save(checked_path(path), choice(up, "up", ("y", "z")), _arrays.number(scale, "scale"), level)
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self.empty:

@@ -21,6 +21,7 @@ std::filesystem::path report_file(const std::filesystem::path& volume_file) {
 
 ResultRequest result_request(const Mission& mission, const Result& result, std::vector<std::filesystem::path> volumes) {
   ResultRequest request{std::move(volumes), mission.scene().up, mission.scene().scale};
+  request.sea_level_z_m = sea_level_m(mission);
   ReportSource& source = request.source;
   source.mission = mission.as_written.file.string();
   // A web address may hold a key: the scene's own does not.
@@ -57,7 +58,7 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
   if (has_volume) {
     for (const std::filesystem::path& file : request.volumes) {
       progress.report(result.written.size(), request.volumes.size() + 1);
-      StagedVolume staged = stage_volume(volume, file, request.obj_up, request.obj_scale);
+      StagedVolume staged = stage_volume(volume, file, request.obj_up, request.obj_scale, request.sea_level_z_m);
       if (!staged.files.empty()) staged.files.front()->seal();
       result.written.push_back(staged.report);
       volumes.push_back(std::move(staged));

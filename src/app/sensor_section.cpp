@@ -397,3 +397,13 @@ std::optional<SunTime> parse_time(const std::string& text) {
 }
 
 }  // namespace vantage::internal::app
+
+namespace vantage {
+
+double unix_time_of(const std::string& text, const std::string& where) {
+  if (const auto time = internal::app::parse_time(text)) return time->unix_time_s;
+  throw Error(ErrorCode::value_syntax, "not a time with a zone: " + in_quotes(text), where,
+              "write it as 2026-06-21T16:00Z (UTC), or with its offset from UTC: 2026-06-21T18:00+02:00");
+}
+
+}  // namespace vantage

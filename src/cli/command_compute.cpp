@@ -31,6 +31,7 @@ constexpr const char* kComputeExamples[] = {
     "  vantage compute mission.yaml -o volume.tiles/\n"
     "  vantage compute mission.yaml -o volume.ply --prove\n"
     "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
+    "  vantage compute mission.yaml -o volume.kml\n"
     "  vantage compute mission.yaml --method spheres -o volume.ply --stages stages/\n"
     "  make_mission | vantage compute - -o - --format ply > volume.ply\n"
     "\n"
@@ -424,7 +425,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
   {
     ProgressLine progress(options.common);
     const Mission mission = resolve_mission(file, progress.callback());
-    for (const fs::path& output : options.files()) check_has_place(mission.scene().georeference, output);
+    check_volume_place(options.files(), mission.scene().georeference, sea_level_m(mission));
     if (options.prove) check_provable(mission);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < volume_count(mission); ++i) {
@@ -498,7 +499,7 @@ int run_compute(const ComputeArguments& options) {
   {
     ProgressLine progress(options.common);
     mission = resolve_mission(file, progress.callback());
-    for (const fs::path& output : files) check_has_place(mission.scene().georeference, output);
+    check_volume_place(files, mission.scene().georeference, sea_level_m(mission));
     if (options.prove) check_provable(mission);
     const double read_seconds = seconds_since_start() - start;
     run = run_mission(mission, {options.common.threads, stages ? stages->sink() : StageSink()}, progress.callback());

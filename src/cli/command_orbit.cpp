@@ -228,8 +228,9 @@ void add_orbit(CLI::App& app, Command& chosen) {
       ->option_text("METRES");
   command->add_option("--clearance", options->clearance, kClearanceHelp)->option_text("METRES");
   command
-      ->add_option("-o,--output", options->output_file,
-                   "Write the deepest orbit as a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv")
+      ->add_option(
+          "-o,--output", options->output_file,
+          "Write the deepest orbit as a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson, .csv or .czml")
       ->option_text("FILE");
   add_plan_output(*command, options->plan);
   command

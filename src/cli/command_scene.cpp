@@ -95,8 +95,9 @@ void add_scene(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("FILE");
   command
-      ->add_option("-o,--output", options->outputs,
-                   "Where to write: " + extensions_text() + "; may be repeated. Without it, only the report is printed")
+      ->add_option(
+          "-o,--output", options->outputs,
+          "Where to write: " + scene_extensions_text() + "; may be repeated. Without it, only the report is printed")
       ->allow_extra_args(false)
       ->option_text("FILE");
   add_scene_options(*command, options->scene);

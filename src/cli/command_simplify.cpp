@@ -103,7 +103,7 @@ int run_simplify(const SimplifyArguments& options) {
   stop_if_interrupted();
   Volume volume = with_mesh(std::move(read.volume), simplified);
   volume.read_rounding_m = read.rounding_m;
-  check_has_place(volume.georeference, options.output);
+  check_volume_place({options.output}, volume.georeference, {});
   std::vector<StagedVolume> staged;
   staged.push_back(stage_volume(volume, options.output, obj.up, obj.scale));
   const WrittenVolume written = staged.front().report;

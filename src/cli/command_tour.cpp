@@ -50,6 +50,7 @@ constexpr const char* kTourExamples =
     "  vantage tour mission.yaml -o tour.plan --picture tour.png\n"
     "  vantage tour mission.yaml --fewest -o tour.plan\n"
     "  vantage tour mission.yaml -o tour.kmz --aircraft 77,0,66 --no-bound\n"
+    "  vantage tour mission.yaml -o tour.czml --undulation 45.7 --start 2026-06-21T16:00Z\n"
     "  vantage tour mission.yaml -o tour.csv --certificate tour.cert --json > tour.json\n";
 
 struct TourArguments {
@@ -240,7 +241,7 @@ void add_tour(CLI::App& app, Command& chosen) {
       ->option_text("MISSION");
   command
       ->add_option("-o,--output", options->output_file,
-                   "Write a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv")
+                   "Write a plan: .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson, .csv or .czml")
       ->option_text("FILE");
   add_plan_output(*command, options->plan);
   command->add_flag("--fewest", options->fewest,

@@ -9,6 +9,7 @@
 
 #include "common/input.h"
 #include "common/output.h"
+#include "common/time_text.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -56,11 +57,16 @@ void add_plan_output(CLI::App& command, PlanOutput& output) {
       .add_option("--undulation", output.undulation,
                   "How high the mean sea level lies above the ellipsoid there, for heights above the ellipsoid")
       ->option_text("METRES");
+  command
+      .add_option("--start", output.start,
+                  "For .czml: when the flight begins, such as 2026-06-21T16:00Z; else 2026-01-01T00:00Z")
+      ->option_text("TIME");
 }
 
 FlightOut with_output(FlightOut plan, const PlanOutput& output) {
   if (!output.aircraft.empty()) plan.aircraft = aircraft_of(output.aircraft);
   if (output.undulation) plan.levels.undulation_m = output.undulation;
+  if (!output.start.empty()) plan.start_unix_s = unix_time_of(output.start, "command line, --start");
   return plan;
 }
 

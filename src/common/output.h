@@ -41,6 +41,7 @@ struct FormatFacts {
   bool is_single;              ///< its coordinates have single precision, not double
   bool is_text;                ///< a terminal can show it
   bool in_scene_frame;         ///< metres, z up; else in axes of its own, or of the scene's file
+  bool is_for_maps = false;    ///< longitudes, latitudes and heights above the sea, of volumes alone; not read back
 };
 
 /// All of them; src/io/output_formats.cpp has the table.
@@ -55,26 +56,26 @@ VANTAGE_API bool is_folder_format(const std::filesystem::path& file);
 /// Without a slash at the end, of what is_folder_format(); as it is otherwise.
 VANTAGE_API std::filesystem::path volume_output(const std::filesystem::path& file);
 
-/// ".ply, .obj, .stl, .glb or .tiles": all that volumes are written in.
+/// ".ply, .obj, .stl, .glb, .kml, .kmz or .tiles": all that volumes are written in.
 VANTAGE_API std::string volume_extensions_text();
-
-/// Throws Error(not_georeferenced) for an output that needs a place on the earth where none is known: to be asked
-/// before a long computation.
-VANTAGE_API void check_has_place(const std::optional<Georeference>& georeference, const std::filesystem::path& output);
 
 /// Of an output on the globe: what z of the scene is taken as there, where that is not what it is measured from. Empty
 /// where there is nothing to tell.
 VANTAGE_API std::string height_note(const std::optional<Georeference>& georeference,
                                     const std::filesystem::path& output);
 
-/// What --format takes: the extensions without the dot.
+/// What --format takes: the extensions without the dot. mesh_format_words: of those that hold scenes, too, and are read
+/// back.
 VANTAGE_API std::vector<std::string> format_words();
+VANTAGE_API std::vector<std::string> mesh_format_words();
 
-/// ".ply, .obj, .stl or .glb"; of those that keep double precision; "ply, obj, stl or glb"; "PLY and STL", those in the
-/// scene frame.
+/// ".ply, .obj, .stl, .glb, .kml or .kmz"; of those that hold scenes, too; of these those that keep double precision;
+/// "ply, obj, stl, glb, kml or kmz"; likewise of those that hold scenes; "PLY and STL", those in the scene frame.
 VANTAGE_API std::string extensions_text();
+VANTAGE_API std::string scene_extensions_text();
 VANTAGE_API std::string double_extensions_text();
 VANTAGE_API std::string format_words_text();
+VANTAGE_API std::string mesh_format_words_text();
 VANTAGE_API std::string scene_frame_names_text();
 
 /// check_can_write, and the extension must be one that write_volume knows. Of a format with a file beside it
@@ -82,8 +83,16 @@ VANTAGE_API std::string scene_frame_names_text();
 /// tileset that vantage wrote and nothing else.
 VANTAGE_API void check_volume_output(const std::filesystem::path& file);
 
-/// The same of write_scene, which writes no folders.
+/// The same of a scene, which is not written as a folder: Error(output_format_unknown) for a format that holds volumes
+/// alone.
 VANTAGE_API void check_scene_output(const std::filesystem::path& file);
+
+/// To call before a long computation: whether the formats of these files can place volumes of a scene there on the
+/// earth. `sea_level_z_m`, of KML: z of the mean sea level (sea_level_m of a mission); without it 0 where the scene's
+/// heights are above a geoid. Throws Error(not_georeferenced) and Error(height_unknown), with what to give.
+VANTAGE_API void check_volume_place(const std::vector<std::filesystem::path>& files,
+                                    const std::optional<Georeference>& georeference,
+                                    std::optional<double> sea_level_z_m);
 
 /// Throws Error(input) if `output` is one of the `inputs`, or a folder that holds one: writing it would destroy what it
 /// was made from.
@@ -98,9 +107,11 @@ struct StagedVolume {
   WrittenVolume report;
 };
 
-/// Does all that write_volume does but the last step. Throws as write_volume does.
+/// Does all that write_volume does but the last step. Throws as write_volume does. `sea_level_z_m`: of KML, as
+/// check_volume_place has it.
 VANTAGE_API StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file,
-                                      UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
+                                      UpAxis obj_up = UpAxis::z, double obj_scale = 1.0,
+                                      std::optional<double> sea_level_z_m = std::nullopt);
 
 /// Puts volumes, and `others`, in place: all or none, as commit_all does; folders first, of which one that cannot be
 /// put there stops all behind it, and leaves those before it. All is on the disk before the first is put in place. Call

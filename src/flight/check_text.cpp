@@ -185,4 +185,15 @@ std::string csv_text(const FlightCheck& check) {
   return table;
 }
 
+std::vector<SeenTarget> seen_targets(const FlightCheck& check) {
+  std::vector<SeenTarget> targets;
+  for (const TargetCheck& of : check.targets) {
+    SeenTarget& target = targets.emplace_back(SeenTarget{of.name, of.parts, {}});
+    for (const FlightSpan& span : of.seen) {
+      if (std::isfinite(span.begin_s) && std::isfinite(span.end_s)) target.seen_s.push_back({span.begin_s, span.end_s});
+    }
+  }
+  return targets;
+}
+
 }  // namespace vantage

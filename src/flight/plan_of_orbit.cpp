@@ -63,7 +63,8 @@ FlightOut plan_of_orbit(const Orbit& orbit, const Mission& mission, PlanFormat f
       settings.vehicle.kind == TourVehicle::Kind::fixed_wing ? PlanVehicle::fixed_wing : PlanVehicle::multirotor;
   out.speed_m_s = settings.vehicle.speed_m_s;
   out.takes_off = out.returns_home = mission.home.has_value();
-  const bool knows_no_home = format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson;
+  const bool knows_no_home = format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson ||
+                             format == PlanFormat::czml;
   if (mission.home && mission.scene().georeference && !knows_no_home) out.heights = HeightDatum::home;
   return out;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/export.h"
@@ -15,6 +16,15 @@ namespace vantage::internal::geo {
 
 /// Georeference::vertical of heights above the WGS 84 ellipsoid, as CoordinateSystem calls it.
 inline constexpr const char* kEllipsoidalHeight = "ellipsoidal height";
+
+/// z of the mean sea level in a scene whose heights are measured from `vertical` (Georeference): 0 where that names a
+/// level that countries and the earth have at the sea; nothing for the ground, the ellipsoid and a file's own level
+/// ("as in dem.tif"), which do not say it.
+inline std::optional<double> sea_level_z_m(std::string_view vertical) {
+  const bool is_known =
+      !vertical.empty() && vertical != kFlatGround && vertical != kEllipsoidalHeight && !vertical.starts_with("as in ");
+  return is_known ? std::optional(0.0) : std::nullopt;
+}
 
 /// Degrees, WGS 84, in this order everywhere in the library (mission files say [lat, lon] where they name a centre).
 struct LonLat {

@@ -58,6 +58,16 @@ void check_is_no_stream(const fs::path& file) {
               "name a file; only the -o of compute, query and render takes -");
 }
 
+void check_output(const fs::path& file, const internal::io::OutputFormat& (*format_of)(const fs::path&)) {
+  check_is_no_stream(file);
+  // A folder is told first: "out" has no extension, but that is not what is wrong with it.
+  std::error_code error;
+  if (fs::is_directory(file, error)) return check_can_write(file);
+  const internal::io::OutputFormat& format = format_of(file);
+  check_can_write(file);
+  if (format.has_sidecar) check_derived_output(internal::io::sidecar_file(file));
+}
+
 }  // namespace
 
 void check_can_write(const fs::path& file) {
@@ -105,29 +115,13 @@ void check_derived_output(const fs::path& file) {
               file.string(), "move that file away, or give the output another name with -o");
 }
 
-namespace {
-
-void check_output_file(const fs::path& file, bool is_volume) {
-  // A folder is told first: "out" has no extension, but that is not what is wrong with it.
-  std::error_code error;
-  if (fs::is_directory(file, error)) return check_can_write(file);
-  const internal::io::OutputFormat& format = internal::io::output_format(file, is_volume);
-  check_can_write(file);
-  if (format.has_sidecar) check_derived_output(internal::io::sidecar_file(file));
-}
-
-}  // namespace
-
 void check_volume_output(const fs::path& file) {
   check_is_no_stream(file);
   if (is_folder_format(file)) return internal::io::check_tiles_place(file);
-  check_output_file(file, true);
+  check_output(file, internal::io::output_format);
 }
 
-void check_scene_output(const fs::path& file) {
-  check_is_no_stream(file);
-  check_output_file(file, false);
-}
+void check_scene_output(const fs::path& file) { check_output(file, internal::io::scene_format); }
 
 void check_not_an_input(const fs::path& output, const std::vector<fs::path>& inputs) {
   for (const fs::path& input : inputs) {

@@ -81,6 +81,39 @@ constexpr OutputFormat kGlb = {{.name = "GLB",
                                },
                                write_scene_glb};
 
+constexpr OutputFormat kKml = {
+    {.name = "KML",
+     .extension = ".kml",
+     .holds = "volumes on the earth, metres above sea level, a folder per kind of cause; the target",
+     .is_single = false,
+     .is_text = true,
+     .in_scene_frame = false,
+     .is_for_maps = true},
+    /*has_sidecar=*/false,
+    /*is_local=*/false,
+    is_own_kml,
+    /*check_frame=*/nullptr,
+    [](const Volume& volume, const FileFrame&) { return stored_for_kml(volume); },
+    [](const Volume& volume, const StoredMesh& stored, const FileFrame& frame, AtomicFile& file) {
+      write_kml(volume, stored, frame.sea_level_z_m, file);
+    },
+    /*write_scene=*/nullptr};
+
+constexpr OutputFormat zipped_kml() {
+  OutputFormat format = kKml;
+  format.name = "KMZ";
+  format.extension = ".kmz";
+  format.holds = "KML, compressed";
+  format.is_text = false;
+  format.is_own = is_own_kmz;
+  format.write_volume = [](const Volume& volume, const StoredMesh& stored, const FileFrame& frame, AtomicFile& file) {
+    write_kmz(volume, stored, frame.sea_level_z_m, file);
+  };
+  return format;
+}
+
+constexpr std::array kFormats = {kPly, kObj, kStl, kGlb, kKml, zipped_kml()};
+
 // src/io/write_tiles.cpp.
 constexpr std::array kFolderFormats = {FormatFacts{.name = "3D Tiles",
                                                    .extension = ".tiles",
@@ -89,8 +122,6 @@ constexpr std::array kFolderFormats = {FormatFacts{.name = "3D Tiles",
                                                    .is_single = true,
                                                    .is_text = false,
                                                    .in_scene_frame = false}};
-
-constexpr std::array kFormats = {kPly, kObj, kStl, kGlb};
 
 using Texts = std::vector<std::string>;
 
@@ -105,6 +136,7 @@ Texts texts_of(std::string_view FormatFacts::*text, const IsListed& is_listed) {
 }
 
 constexpr auto kAll = [](const FormatFacts&) { return true; };
+constexpr auto kMeshes = [](const FormatFacts& format) { return !format.is_for_maps; };
 
 /// "a, b or c".
 std::string joined(const Texts& texts, const char* last) {
@@ -125,13 +157,28 @@ const OutputFormat* find_output_format(const std::filesystem::path& file) {
   return found == kFormats.end() ? nullptr : &*found;
 }
 
-const OutputFormat& output_format(const std::filesystem::path& file, bool is_volume) {
+namespace {
+
+const OutputFormat& known_format(const std::filesystem::path& file, const std::string& choice) {
   if (const OutputFormat* found = find_output_format(file)) return *found;
   const std::string extension = file.extension().string();
   throw Error(ErrorCode::output_format_unknown,
               extension.empty() ? "the output has no extension, so that its format is unknown"
                                 : "no format is known for the extension " + in_quotes(extension),
-              file.string(), "write " + (is_volume ? volume_extensions_text() : extensions_text()));
+              file.string(), "write " + choice);
+}
+
+}  // namespace
+
+const OutputFormat& output_format(const std::filesystem::path& file) {
+  return known_format(file, volume_extensions_text());
+}
+
+const OutputFormat& scene_format(const std::filesystem::path& file) {
+  const OutputFormat& format = known_format(file, scene_extensions_text());
+  if (format.write_scene) return format;
+  throw Error(ErrorCode::output_format_unknown, std::string(format.name) + " holds volumes, and no scenes",
+              file.string(), "write " + scene_extensions_text());
 }
 
 }  // namespace vantage::internal::io
@@ -159,19 +206,31 @@ std::string volume_extensions_text() {
   return joined(extensions, " or ");
 }
 
-std::vector<std::string> format_words() {
-  std::vector<std::string> words = texts_of(&FormatFacts::extension, kAll);
-  for (std::string& word : words) word.erase(0, 1);
-  return words;
+namespace {
+
+std::vector<std::string> without_dot(std::vector<std::string> extensions) {
+  for (std::string& extension : extensions) extension.erase(0, 1);
+  return extensions;
 }
+
+}  // namespace
+
+std::vector<std::string> format_words() { return without_dot(texts_of(&FormatFacts::extension, kAll)); }
+
+std::vector<std::string> mesh_format_words() { return without_dot(texts_of(&FormatFacts::extension, kMeshes)); }
 
 std::string extensions_text() { return joined(texts_of(&FormatFacts::extension, kAll), " or "); }
 
+std::string scene_extensions_text() { return joined(texts_of(&FormatFacts::extension, kMeshes), " or "); }
+
 std::string double_extensions_text() {
-  return joined(texts_of(&FormatFacts::extension, [](const FormatFacts& format) { return !format.is_single; }), " or ");
+  const auto is_double = [](const FormatFacts& format) { return kMeshes(format) && !format.is_single; };
+  return joined(texts_of(&FormatFacts::extension, is_double), " or ");
 }
 
 std::string format_words_text() { return joined(format_words(), " or "); }
+
+std::string mesh_format_words_text() { return joined(mesh_format_words(), " or "); }
 
 std::string scene_frame_names_text() {
   return joined(texts_of(&FormatFacts::name, [](const FormatFacts& format) { return format.in_scene_frame; }), " and ");

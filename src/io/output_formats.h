@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -13,10 +14,12 @@
 
 namespace vantage::internal::io {
 
-/// The axes of a format that is in those of the scene's file, and the metres in one of its units.
+/// What formats need of the scene besides the volume: the axes of its file and the metres in one of its units, for
+/// those that are written in these; and the z of the mean sea level, where it is known, for maps.
 struct FileFrame {
   UpAxis up = UpAxis::z;
   double scale = 1;
+  std::optional<double> sea_level_z_m = {};
 };
 
 struct OutputFormat : FormatFacts {
@@ -28,7 +31,7 @@ struct OutputFormat : FormatFacts {
   void (*check_frame)(const Volume& volume, const FileFrame& frame);
   StoredMesh (*store)(const Volume& volume, const FileFrame& frame);
   void (*write_volume)(const Volume& volume, const StoredMesh& stored, const FileFrame& frame, AtomicFile& file);
-  double (*write_scene)(const Scene& scene, AtomicFile& file);  ///< how far it moves a vertex, metres
+  double (*write_scene)(const Scene& scene, AtomicFile& file);  ///< how far it moves a vertex, metres; null: no scenes
 };
 
 std::span<const OutputFormat> output_formats();
@@ -36,7 +39,8 @@ std::span<const OutputFormat> output_formats();
 /// The one that the extension names, upper or lower case; null for another.
 const OutputFormat* find_output_format(const std::filesystem::path& file);
 
-/// Throws Error(output) for another, and says which there are: also those that volumes alone are written in, or not.
-const OutputFormat& output_format(const std::filesystem::path& file, bool is_volume);
+/// Throws Error(output) for another, and says which there are. scene_format: also for one that has no scenes.
+const OutputFormat& output_format(const std::filesystem::path& file);
+const OutputFormat& scene_format(const std::filesystem::path& file);
 
 }  // namespace vantage::internal::io

@@ -8,6 +8,7 @@
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
 #include "io/glb_material.h"
+#include "io/kind_colours.h"
 #include "io/volume_statement.h"
 #include "io/writers.h"
 #include "vantage/version.h"
@@ -19,9 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kTriangles = 4;  // glTF 2.0, mesh.primitive.mode
 
-constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation,
-                               CauseKind::sensor};
-
 /// From the numbers that pictures and screens use (sRGB, 0 to 255) to the linear ones that glTF asks for.
 double linear(int colour) {
   const double c = colour / 255.0;
@@ -31,29 +29,8 @@ double linear(int colour) {
 }  // namespace
 
 Json cause_material(CauseKind kind) {
-  const auto colour_of = [](int red, int green, int blue, double opacity) {
-    return std::array<double, 4>{linear(red), linear(green), linear(blue), opacity};
-  };
-  // The colours of pictures (src/picture/palette.h). The range, which is most of the surface, is
-  // the most transparent.
-  std::array<double, 4> colour{};
-  switch (kind) {
-    case CauseKind::scene:
-      colour = colour_of(0, 114, 178, 0.5);
-      break;
-    case CauseKind::range:
-      colour = colour_of(230, 159, 0, 0.25);
-      break;
-    case CauseKind::target_plane:
-      colour = colour_of(128, 128, 134, 0.6);
-      break;
-    case CauseKind::navigation:
-      colour = colour_of(0, 158, 115, 0.4);
-      break;
-    case CauseKind::sensor:
-      colour = colour_of(204, 121, 167, 0.4);
-      break;
-  }
+  const KindColour of_kind = colour_of(kind);
+  const std::array<double, 4> colour{linear(of_kind.red), linear(of_kind.green), linear(of_kind.blue), of_kind.opacity};
   return {{"name", name_of(kind)},
           {"pbrMetallicRoughness", {{"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.9}}},
           {"alphaMode", "BLEND"},

@@ -144,7 +144,7 @@ StagedScene stage_scene(const Scene& scene, const std::filesystem::path& file) {
   check_scene(scene);
   StagedScene staged;
   staged.files.push_back(std::make_unique<AtomicFile>(file));
-  const OutputFormat& format = output_format(file, false);
+  const OutputFormat& format = scene_format(file);
   staged.rounding_m = format.write_scene(scene, *staged.files.back());
   if (format.has_sidecar) stage_sidecar({scene.georeference, std::nullopt, {}}, file, staged.files);
   return staged;

@@ -124,8 +124,17 @@ TilesetJson tileset_of(const Volume& volume, const StoredMesh& stored, const Til
 
 }  // namespace
 
+void check_tiles_georeference(const std::optional<Georeference>& georeference, const std::filesystem::path& folder) {
+  if (georeference) return;
+  throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and a tileset has to",
+              folder.string(),
+              "give a scene with a place: a map, CityJSON with a reference system, a raster, or a mesh with 'crs' or "
+              "written by "
+              "'vantage scene'; or write .glb");
+}
+
 StagedVolume stage_tiles(const Volume& volume, const std::filesystem::path& folder) {
-  check_has_place(volume.georeference, folder);
+  check_tiles_georeference(volume.georeference, folder);
   if (volume.mesh.empty()) {
     throw Error(ErrorCode::format_too_small, "there is no volume, and a tileset has something to show", folder.string(),
                 "write another format, which can say that there is none");
@@ -156,15 +165,6 @@ StagedVolume stage_tiles(const Volume& volume, const std::filesystem::path& fold
 }  // namespace vantage::internal::io
 
 namespace vantage {
-
-void check_has_place(const std::optional<Georeference>& georeference, const std::filesystem::path& output) {
-  if (georeference || !is_folder_format(output)) return;
-  throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and a tileset has to",
-              output.string(),
-              "give a scene with a place: a map, CityJSON with a reference system, a raster, or a mesh with 'crs' or "
-              "written by "
-              "'vantage scene'; or write .glb");
-}
 
 std::string height_note(const std::optional<Georeference>& georeference, const std::filesystem::path& output) {
   if (!georeference || !is_folder_format(output) || georeference->vertical == internal::geo::kEllipsoidalHeight) {

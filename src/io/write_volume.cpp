@@ -50,16 +50,35 @@ StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, c
 
 namespace vantage {
 
-StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
+void check_volume_place(const std::vector<std::filesystem::path>& files,
+                        const std::optional<Georeference>& georeference, std::optional<double> sea_level_z_m) {
+  using namespace internal::io;
+  for (const std::filesystem::path& file : files) {
+    if (is_folder_format(file)) {
+      check_tiles_georeference(georeference, file);
+      continue;
+    }
+    if (!output_format(file).is_for_maps) continue;
+    try {
+      check_kml_place(georeference, sea_level_z_m);
+    } catch (const Error& error) {
+      throw error.with_where(file.string());
+    }
+  }
+}
+
+StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale,
+                          std::optional<double> sea_level_z_m) {
   using namespace internal::io;
   if (is_folder_format(file)) {
     internal::core::check_volume(volume);
     return stage_tiles(volume, file);
   }
   auto output = std::make_unique<AtomicFile>(file);
-  const OutputFormat& format = output_format(file, true);
+  const OutputFormat& format = output_format(file);
   internal::core::check_volume(volume);
-  const FileFrame frame{obj_up, obj_scale};
+  const FileFrame frame{obj_up, obj_scale, sea_level_z_m};
+  check_volume_place({file}, volume.georeference, sea_level_z_m);
   if (format.check_frame) format.check_frame(volume, frame);
   StoredMesh stored = stored_for(volume, file, format, frame);
   stored.rounding_m += volume.read_rounding_m;

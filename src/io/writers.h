@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -24,6 +25,15 @@ void check_obj_scale(const Volume& volume, double scale);
 void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file);
 void write_stl(const StoredMesh& stored, AtomicFile& file);
 void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file);
+
+/// Throws Error(not_georeferenced) and Error(height_unknown), with what to give. `sea_level_z_m`: z of the mean sea
+/// level; without it 0 where the scene's heights are above a geoid.
+void check_kml_place(const std::optional<Georeference>& georeference, std::optional<double> sea_level_z_m);
+/// As doubles; the rounding is that of the file's decimals.
+StoredMesh stored_for_kml(const Volume& volume);
+/// For a volume that check_kml_place allows. KMZ is the same, zipped.
+void write_kml(const Volume& volume, const StoredMesh& stored, std::optional<double> sea_level_z_m, AtomicFile& file);
+void write_kmz(const Volume& volume, const StoredMesh& stored, std::optional<double> sea_level_z_m, AtomicFile& file);
 
 /// A mesh as binary STL; `content` says in the header what it is.
 void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file);

@@ -11,6 +11,7 @@
 #include "core/png_mark.h"
 #include "core/version_text.h"
 #include "io/output_formats.h"
+#include "io/zip.h"
 
 namespace vantage::internal::io {
 namespace {
@@ -103,6 +104,13 @@ bool is_own_glb(std::string_view bytes) {
   const std::string_view version = json.substr(kGenerator.size());
   const std::size_t end = version.find('"');
   return end != std::string_view::npos && core::is_version(version.substr(0, end));
+}
+
+bool is_own_kml(std::string_view bytes) { return begins_as_own(bytes, kKmlStart); }
+
+bool is_own_kmz(std::string_view bytes) {
+  constexpr std::size_t kOfFirstLines = 1024;
+  return is_own_kml(first_file_begins(bytes, kOfFirstLines));
 }
 
 bool is_own_file(const std::filesystem::path& file) {

@@ -10,6 +10,9 @@ namespace vantage::internal::io {
 inline constexpr std::string_view kVolumeTableHeader =
     "target,outcome,reason,volume_m3,area_m2,facets,pieces,lift_m,seconds,file";
 
+/// What a KML file of a volume begins with; the version, and words for a volume, stand behind it.
+inline constexpr std::string_view kKmlStart = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- vantage ";
+
 /// Whether the file, which is there, is one that vantage wrote; false where it cannot be read.
 bool is_own_file(const std::filesystem::path& file);
 
@@ -22,5 +25,7 @@ bool is_own_ply(std::string_view bytes);
 bool is_own_obj(std::string_view bytes);
 bool is_own_stl(std::string_view bytes);
 bool is_own_glb(std::string_view bytes);
+bool is_own_kml(std::string_view bytes);
+bool is_own_kmz(std::string_view bytes);
 
 }  // namespace vantage::internal::io

@@ -163,4 +163,26 @@ std::string unzipped(std::string_view archive, std::string_view name, std::strin
   return made;
 }
 
+std::string first_file_begins(std::string_view archive_begins, std::size_t most_bytes) {
+  const auto number = [&](std::size_t at) {
+    return static_cast<unsigned char>(archive_begins[at]) + 256U * static_cast<unsigned char>(archive_begins[at + 1]);
+  };
+  constexpr unsigned kDeflated = 8;
+  if (archive_begins.size() < kFileBytes || archive_begins.substr(0, 4) != kFile || number(8) != kDeflated) return {};
+  const std::size_t from = kFileBytes + number(26) + number(28);
+  if (from >= archive_begins.size()) return {};
+  const std::string_view packed = archive_begins.substr(from);
+  std::string made(most_bytes, '\0');
+  z_stream stream = {};
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(made.data());
+  stream.avail_out = static_cast<uInt>(made.size());
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
+  inflate(&stream, Z_SYNC_FLUSH);
+  made.resize(made.size() - stream.avail_out);
+  inflateEnd(&stream);
+  return made;
+}
+
 }  // namespace vantage::internal::io

@@ -1,6 +1,7 @@
 // One file out of a zip archive that is in memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <string>
@@ -27,5 +28,9 @@ bool is_zip(std::string_view bytes);
 /// whatever the archive says of itself. Throws ZipProblem.
 std::string unzipped(std::string_view archive, std::string_view name, std::string_view extension,
                      std::uintmax_t most_bytes);
+
+/// What the first file of an archive begins with, up to `most_bytes`; of the archive's own beginning alone. Empty for
+/// what is none, or is packed by another method than "deflate".
+std::string first_file_begins(std::string_view archive_begins, std::size_t most_bytes);
 
 }  // namespace vantage::internal::io

@@ -153,7 +153,7 @@ std::string about() {
                        {"model", camera.model},
                        {"fov_deg", pinhole_of(camera).fov_deg()}});
   }
-  return text_of(Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}, {"formats", format_words()}});
+  return text_of(Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}, {"formats", mesh_format_words()}});
 }
 
 Session Session::fork() const {
@@ -430,10 +430,10 @@ std::string Session::slice(double z_m) {
 }
 
 std::string Session::save(const std::string& format) {
-  const std::vector<std::string> formats = format_words();
+  const std::vector<std::string> formats = mesh_format_words();
   if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
     throw Error(ErrorCode::output_format_unknown, in_quotes(format) + " is not a format of volumes", "",
-                "take " + format_words_text());
+                "take " + mesh_format_words_text());
   }
   const Mission& saved = mission();
   if (const Volume& last = result_->volume; last.outcome != Outcome::computed) {

@@ -1,4 +1,4 @@
-// Names of files, one for each format that volumes and scenes are written in.
+// Names of files, one for each format that volumes and scenes are written in, and read from.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace vantage::testing {
 /// "v.ply", "v.obj" and so on for "v".
 inline std::vector<std::string> in_each_format(const std::string& stem) {
   std::vector<std::string> names;
-  for (const FormatFacts& format : known_formats()) names.push_back(stem + std::string(format.extension));
+  for (const std::string& word : mesh_format_words()) names.push_back(stem + "." + word);
   return names;
 }
 

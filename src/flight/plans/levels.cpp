@@ -1,7 +1,5 @@
 #include "flight/plans/levels.h"
 
-#include <string_view>
-
 #include "common/input.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
@@ -18,9 +16,7 @@ Levels::Levels(const std::optional<Georeference>& georeference, const HeightLeve
     if (!sea_level_z_m_) sea_level_z_m_ = given.undulation_m;
     return;
   }
-  // "as in dem.tif": the file does not say. Other names are of levels that countries and the earth have at the sea.
-  const bool is_known = !vertical.empty() && vertical != kFlatGround && vertical.compare(0, 6, "as in ") != 0;
-  if (!sea_level_z_m_ && is_known) sea_level_z_m_ = 0;
+  if (!sea_level_z_m_) sea_level_z_m_ = geo::sea_level_z_m(vertical);
   if (sea_level_z_m_ && given.undulation_m) ellipsoid_z_m_ = *sea_level_z_m_ - *given.undulation_m;
 }
 

@@ -8,7 +8,6 @@
 
 #include "common/atomic_file.h"
 #include "common/input.h"
-#include "core/format.h"
 #include "flight/plans/arcs.h"
 #include "vantage/error.h"
 
@@ -156,41 +155,9 @@ CameraAngles camera_angles(const OutPoint& point) {
   return angles;
 }
 
-std::string decimal(double number, int decimals) {
-  std::string text = core::format("{:.{}f}", number, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
-
 std::string hold_text(double hold_s) {
   constexpr double kThousand = 1000, kRounding = 1e-6;  // of a thousandth: 1.1 s are 1100 and no more
   return decimal(std::ceil(hold_s * kThousand - kRounding) / kThousand, 3);
-}
-
-std::string xml_text(std::string_view text) {
-  std::string escaped;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace vantage::internal::flight::plans
@@ -209,8 +176,9 @@ PlanFormat plan_format_of(const std::filesystem::path& file) {
   if (end == ".gpx") return PlanFormat::gpx;
   if (end == ".geojson") return PlanFormat::geojson;
   if (end == ".csv") return PlanFormat::csv;
+  if (end == ".czml") return PlanFormat::czml;
   throw Error(ErrorCode::output_format_unknown, "the name does not say which plan is to be written", file.string(),
-              "let it end in .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson or .csv");
+              "let it end in .plan, .waypoints, .kml, .kmz (DJI), .gpx, .geojson, .csv or .czml");
 }
 
 std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format) {
@@ -227,6 +195,8 @@ std::string flight_plan_bytes(const FlightOut& flight, PlanFormat format) {
       return plans::write_gpx(flight);
     case PlanFormat::geojson:
       return plans::write_geojson(flight);
+    case PlanFormat::czml:
+      return plans::write_czml(flight);
     case PlanFormat::csv:
       break;
   }

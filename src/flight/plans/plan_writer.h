@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/xml_text.h"
 #include "flight/plans/levels.h"
 #include "geo/local_frame.h"
 #include "vantage/flight.h"
@@ -75,14 +76,11 @@ struct CameraAngles {
 };
 CameraAngles camera_angles(const OutPoint& point);
 
-/// A number with so many decimals at most, none that are zero: "48.1", "-0.5", "0".
-std::string decimal(double number, int decimals);
-
 /// Seconds to a thousandth, rounded up: a stay is never shorter than what was planned.
 std::string hold_text(double hold_s);
 
-/// "&lt;" and so on; characters that XML cannot hold become blanks.
-std::string xml_text(std::string_view text);
+using core::decimal;
+using core::xml_text;
 
 // ---- the formats ----
 
@@ -93,5 +91,6 @@ std::string write_kml(const FlightOut& flight);
 std::string write_gpx(const FlightOut& flight);
 std::string write_geojson(const FlightOut& flight);
 std::string write_csv(const FlightOut& flight);
+std::string write_czml(const FlightOut& flight);
 
 }  // namespace vantage::internal::flight::plans

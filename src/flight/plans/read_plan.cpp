@@ -143,7 +143,7 @@ const char* name_of(HeightDatum datum) {
 
 const char* name_of(PlanFormat format) {
   constexpr std::array kNames = {
-      "a plan of QGroundControl", "a table of waypoints", "KML", "WPML", "GPX", "GeoJSON", "CSV"};
+      "a plan of QGroundControl", "a table of waypoints", "KML", "WPML", "GPX", "GeoJSON", "CSV", "CZML"};
   return kNames.at(static_cast<std::size_t>(format));
 }
 

@@ -17,6 +17,7 @@
 #include "flight/tour/tour_region.h"
 #include "flight/tour/tour_views.h"
 #include "vantage/error.h"
+#include "vantage/flight_check.h"
 #include "vantage/result.h"
 #include "vantage/solid.h"
 #include "vantage/volume.h"
@@ -386,7 +387,8 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission, PlanFormat
                 name_of(format), "write it as .csv, or give a scene with a place: a map, or a mesh with 'crs'");
   }
   FlightOut plan = plan_of_tour(of, mission);
-  const bool has_no_home = format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson;
+  const bool has_no_home = format == PlanFormat::kml || format == PlanFormat::gpx || format == PlanFormat::geojson ||
+                           format == PlanFormat::czml;
   if (plan.heights == HeightDatum::home && has_no_home) plan.heights.reset();
   const bool is_of_autopilot = format == PlanFormat::qgroundcontrol || format == PlanFormat::waypoints;
   if (is_of_autopilot && !of.home) {
@@ -395,6 +397,11 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission, PlanFormat
                   name_of(format), "give 'home' in the mission's section 'tour', or write .csv");
     }
     plan.heights = HeightDatum::sea_level;
+  }
+  if (format == PlanFormat::czml) {
+    FlightCheckOptions options;
+    options.speed_m_s = plan.speed_m_s;
+    plan.targets = seen_targets(check_flight(mission, plan.flight, options));
   }
   return plan;
 }
