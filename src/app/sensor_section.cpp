@@ -13,6 +13,7 @@
 #include "app/described_section.h"
 #include "app/schema.h"
 #include "common/input.h"
+#include "common/time_text.h"
 #include "core/places.h"
 #include "core/portable_math.h"
 #include "request/describe_sensor.h"
