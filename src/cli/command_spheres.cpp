@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "cli/command.h"
@@ -48,6 +49,7 @@ void check_spheres_outputs(const WillisConfig& config) {
   for (const WillisVolume& volume : config.volumes) {
     at_output(volume, [&] {
       check_volume_output(volume.output);
+      check_volume_place({volume.output}, std::nullopt, std::nullopt);  // such a configuration has no place
       check_not_an_input(volume.output, inputs);
       if (seen.insert(fs::weakly_canonical(volume.output)).second) return;
       throw Error(ErrorCode::output_named_twice, "two volumes are written to one file", volume.output.string(),
