@@ -1,6 +1,7 @@
 // KML 2.2 (OGC 07-147r2), and KMZ: a folder for each kind of cause, a placemark of triangles for each cause. Corners
 // are longitude, latitude and height above the sea. Nothing is merged: sides are straight between the corners of the
 // mesh.
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -36,7 +37,8 @@ std::string kml_colour(const KindColour& colour) {
   constexpr const char* kDigits = "0123456789abcdef";
   constexpr double kMost = 255;
   std::string text;
-  for (const int part : {static_cast<int>(colour.opacity * kMost + 0.5), colour.blue, colour.green, colour.red}) {
+  for (const int part :
+       {static_cast<int>(std::lround(colour.opacity * kMost)), colour.blue, colour.green, colour.red}) {
     text += {kDigits[part / 16], kDigits[part % 16]};
   }
   return text;
