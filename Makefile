@@ -150,11 +150,12 @@ qgis: package  ## the plugin of QGIS: its zip, in dist/, and its tests in QGIS w
 	@status=0; for test in integrations/qgis/tests/test_*.py; do echo "== $$test"; \
 	  PYTHONPATH=$(CURDIR)/build/python QT_QPA_PLATFORM=offscreen /usr/bin/python3 $$test || status=1; done; exit $$status
 
-# A volume as 3D Tiles in CesiumJS, from files of this machine: what is picked, where it lies, and how it looks.
+# A volume as 3D Tiles, and a flight as CZML, in CesiumJS, from files of this machine.
 .PHONY: cesium
-cesium: package  ## a volume in CesiumJS: its facets are picked, and its place is compared with PROJ's
+cesium: package  ## a volume in CesiumJS, picked, its place compared with PROJ's; and a flight
 	@scripts/install_packages.sh --web
 	@integrations/cesium/check.sh
+	@integrations/cesium/check_czml.sh
 
 .PHONY: gallery
 gallery: web build  ## reports of the real scenes of docs/gallery, in build/gallery

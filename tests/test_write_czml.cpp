@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "geo/ellipsoid.h"
 #include "support/wording.h"
-#include "tiles/ellipsoid.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
 #include "vantage/georeference.h"
@@ -53,7 +53,7 @@ std::vector<Sample> samples_of(const FlightOut& out) {
     const double longitude = numbers[i + 1], latitude = numbers[i + 2], height = numbers[i + 3];
     const Eigen::Vector2d at = scene_position(*out.georeference, longitude, latitude);
     samples.push_back({numbers[i], Vec3(at.x(), at.y(), height - kUndulationM),
-                       internal::tiles::to_ecef({{longitude, latitude}, height})});
+                       internal::geo::to_ecef({{longitude, latitude}, height})});
   }
   return samples;
 }
@@ -86,7 +86,7 @@ TEST(WriteCzml, LongLegsStayWithinAMillimetre) {
   const std::vector<Sample> samples = samples_of(out);
   const Vec3 from = out.flight.points[0].position, leg = out.flight.points[1].position - from;
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const internal::tiles::Geodetic middle = internal::tiles::from_ecef((samples[i - 1].ecef + samples[i].ecef) / 2);
+    const internal::geo::Geodetic middle = internal::geo::from_ecef((samples[i - 1].ecef + samples[i].ecef) / 2);
     const Eigen::Vector2d at = scene_position(*out.georeference, middle.place.longitude_deg, middle.place.latitude_deg);
     const double at_s = (samples[i - 1].at_s + samples[i].at_s) / 2;
     const Vec3 exact = from + leg * (at_s * 10 / leg.norm());
