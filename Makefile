@@ -73,7 +73,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, QGIS, Blender, builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
-	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender cesium
+	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender cesium jupyter
 	ctest --preset release --parallel $(JOBS) --label-regex nightly
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
@@ -117,6 +117,11 @@ python: package  ## build the Python package in build/python, and run its tests
 blender: package  ## the Blender add-on, dist/vantage_blender.zip, and its tests in Debian's Blender
 	@scripts/install_packages.sh --blender
 	integrations/blender/tests/run.sh
+
+.PHONY: jupyter
+jupyter: web package  ## a volume in a real JupyterLab and in the notebook that it exports, in Chromium; build/jupyter
+	@scripts/fetch_python.sh jupyter
+	PYTHONPATH=$(CURDIR)/build/python .deps/jupyter/bin/python python/jupyter/check_jupyter.py build/jupyter
 
 .PHONY: site
 site: package  ## the documentation as a site, in build/site; its tutorials are run

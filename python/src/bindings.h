@@ -16,6 +16,7 @@ void bind_judges(nb::module_& module);
 void bind_spheres(nb::module_& module);
 void bind_fields(nb::module_& module);
 void bind_picture(nb::module_& module);
+void bind_viewer(nb::module_& module);
 void bind_outer(nb::module_& module);
 void bind_areas(nb::module_& module);
 void bind_sections(nb::module_& module);

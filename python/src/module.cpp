@@ -35,6 +35,7 @@ NB_MODULE(_core, module) {
   bind_spheres(module);
   bind_fields(module);
   bind_picture(module);
+  bind_viewer(module);
   bind_outer(module);
   bind_areas(module);
   bind_sections(module);

@@ -41,6 +41,7 @@ from ._slice import Slice
 from ._tiles import Tile, Tiles, tiles
 from ._tour import LeftOut, Tour, TourBound, Visit, tour
 from ._views import Found, Orbit, Orbits, Standpoint, Standpoints, View, orbits, standpoints
+from ._viewer import Viewer
 from ._volume import Volume, intersect, unite
 
 __all__ = [
@@ -48,7 +49,7 @@ __all__ = [
     "Georeference", "GimbalUse", "InputError", "InternalError", "LeftOut", "LinkCheck", "Mission", "Navigation",
     "NearestPass", "Note", "NotSeen", "Orbit", "Orbits", "OutputError", "Positions", "PositionView", "Result", "Results", "Scene",
     "SceneObject", "Sensor", "Slice", "Span", "Standpoint", "Standpoints", "Target", "TargetCheck", "Tile", "Tiles",
-    "Tour", "TourBound", "TourSettings", "View", "Visit", "Volume", "__version__", "areas", "cameras", "check",
+    "Tour", "TourBound", "TourSettings", "View", "Viewer", "Visit", "Volume", "__version__", "areas", "cameras", "check",
     "compute", "compute_many", "devices", "error_codes", "fewest_positions", "fraction_field", "intersect",
     "orbits", "output_formats", "standpoints", "tiles", "tour", "unite", "visibility_sphere",
 ]

@@ -21,6 +21,7 @@ from ._requests import Navigation, Path, Sensor, Target, TourSettings, given, ke
 from ._scene import Scene, checked_scene
 from ._shapes import AnyTarget, is_several, targets_of
 from ._text import NAME, Text
+from ._viewer import MOST_BYTES, Viewer, viewer
 from ._volume import Volume, volume_of
 
 T = TypeVar("T")
@@ -187,6 +188,27 @@ class Mission:
                                         _arrays.number(shrink, "shrink"), flag(maximal, "maximal"), thread_count(threads),
                                         progress))
 
+    def view(self, volume: Solid, *, size: tuple[int, int] = (1000, 650), proof: bool = False, page: Path | None = None,
+             most_bytes: int = MOST_BYTES, progress: Progress = None) -> Viewer:
+        """A volume of this mission, whoever made it, in the page: for notebooks. The last value of a cell is shown.
+
+        Args:
+            volume: closed.
+            size: pixels, width and height. A narrower notebook makes it narrower.
+            proof: whether it has the verdict of the proof, which takes longer than to compute the volume.
+            page: `report.html` of `make web`, where it is not installed.
+            most_bytes: how large a cell may become; beyond it the cell says so, in the place of the page. The page without
+                meshes takes 0.3 MB, each triangle of the scene and the volume 8 to 14 bytes.
+            progress: called with stage and fraction; False stops.
+
+        Raises:
+            Error: the page is not there (`page-missing`), the volume is open, or the mission has several volumes.
+        """
+        if self._core.count != 1:
+            raise input_error("not-applicable", "the mission asks for a volume for each of its targets", "combine",
+                              "view the results of run_each one by one")
+        return viewer(self._core, volume_of(volume, "volume"), size, proof, page, most_bytes, progress)
+
     def text(self, folder: Path = ".") -> str:
         """The mission as the text of a mission file in `folder`."""
         return self._core.text(checked_path(folder, "folder"))
@@ -281,6 +303,11 @@ class Result(Solid):
     def plot(self, path: Path | None = None, **options: Any) -> Any:
         """Scene, target and volume by pyvista: in a notebook to turn, or as a PNG at `path`."""
         return plot(self, path, **options)
+
+    def view(self, *, size: tuple[int, int] = (1000, 650), proof: bool = False, page: Path | None = None,
+             most_bytes: int = MOST_BYTES, progress: Progress = None) -> Viewer:
+        """Scene, target and volume in the page, to turn and to cut in a notebook: see `Mission.view`."""
+        return self.mission.view(self.volume, size=size, proof=proof, page=page, most_bytes=most_bytes, progress=progress)
 
     def picture(self, path: Path | None = None, *, view: str | Sequence[float] = "oblique",
                 size: tuple[int, int] = (1600, 1200), azimuth: float | None = None, elevation: float = 45,

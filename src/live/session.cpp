@@ -143,6 +143,17 @@ Json causes_of(const Volume& volume) {
   return list;
 }
 
+/// Throws for an open mesh. A mesh without causes gets one.
+void check_shown(Volume& volume, const std::string& where) {
+  if (const OpenEdges open = find_open_edges(volume.mesh); open.count > 0) {
+    throw Error(ErrorCode::mesh_not_closed, std::to_string(open.count) + " edges of the volume are open", where,
+                "give a volume that 'vantage compute' wrote");
+  }
+  if (!volume.cause_of.empty()) return;
+  volume.causes.resize(1);
+  volume.cause_of.assign(volume.mesh.triangles.size(), 0);
+}
+
 }  // namespace
 
 std::string about() {
@@ -168,9 +179,14 @@ void Session::take_scene(const MissionFile& file, std::shared_ptr<const LoadedSc
   PreparedScene prepared(loaded->scene);
   prepare_ms_ = time.lap();
   std::string hash = scene_hash(loaded->scene);
-  opened_ = std::make_shared<const ReadyScene>(ReadyScene{std::move(loaded), std::move(prepared), std::move(hash)});
-  source_ = file.scene;
+  take_scene(file.scene,
+             std::make_shared<const ReadyScene>(ReadyScene{std::move(loaded), std::move(prepared), std::move(hash)}));
   sea_level_m_ = file.sea_level_m;
+}
+
+void Session::take_scene(const SceneSource& source, ScenePointer opened) {
+  opened_ = std::move(opened);
+  source_ = source;
   mission_.reset();
   computed_in_.reset();
   result_.reset();
@@ -235,20 +251,36 @@ void Session::show_volume(const std::filesystem::path& volume, const Progress& p
   compute_ms_ = 0;
   read.notes.insert(read.notes.end(), file.notes.begin(), file.notes.end());
   read.notes.insert(read.notes.end(), warnings.begin(), warnings.end());
-  if (const OpenEdges open = find_open_edges(read.mesh); open.count > 0) {
-    throw Error(ErrorCode::mesh_not_closed, std::to_string(open.count) + " edges of the volume are open",
-                volume.string(), "give a volume that 'vantage compute' wrote");
-  }
-  if (read.cause_of.empty()) {
-    read.causes.resize(1);
-    read.cause_of.assign(read.mesh.triangles.size(), 0);
-  }
+  check_shown(read, volume.string());
   read.frame = prepare_views(mission, computed_in_->prepared).front().front().frame();  // of several targets, the first
   Result result;
   result.volume = std::move(read);
   take_volume(std::move(mission), computed_in_, std::move(result));
   has_causes_ = has_causes;
   prove_options_ = {.rounding_m = known.rounding_m, .lift_m = known.lift_m};
+}
+
+void Session::show(const ViewerRequest& request, const Progress& progress) {
+  Volume volume = *request.volume;
+  const bool has_causes = !volume.cause_of.empty();
+  check_shown(volume, "volume");
+  for (const Warning& note : mission_warnings(*request.mission, &volume)) {
+    if (std::find(volume.notes.begin(), volume.notes.end(), note) == volume.notes.end()) volume.notes.push_back(note);
+  }
+  file_ = request.name;
+  text_ = request.text;
+  take_scene(request.source, std::make_shared<const ReadyScene>(
+                                 ReadyScene{request.loaded, request.prepared, scene_hash(request.loaded->scene)}));
+  ScenePointer scene = scene_of(*request.mission);
+  if (progress && !progress("drawing", 0)) throw Error(ErrorCode::cancelled, "stopped", "", "");
+  if (volume.frame.polygon.empty() && !request.mission->target.is_volume()) {  // it was read, or made of arrays
+    volume.frame = prepare_views(*request.mission, scene->prepared).front().front().frame();
+  }
+  Result result;
+  result.volume = std::move(volume);
+  take_volume(*request.mission, std::move(scene), std::move(result));
+  has_causes_ = has_causes;
+  prove_options_ = {.rounding_m = request.rounding_m, .lift_m = result_->volume.lift_m};
 }
 
 void Session::show_flight(GivenFlight given, const Progress& progress) {

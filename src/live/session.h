@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/viewer_page.h"
 #include "live/judged_flight.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
@@ -45,6 +46,9 @@ class Session {
   void run(const Progress& progress = {});
   /// After open_file: a volume of that mission that is there already.
   void show_volume(const std::filesystem::path& volume, const Progress& progress = {});
+
+  /// What is in memory: a mission, its scene, and its volume.
+  void show(const ViewerRequest& request, const Progress& progress = {});
 
   /// After open_file: a flight to be judged by that mission and all that follow. Throws as judged_flight does.
   void show_flight(GivenFlight given, const Progress& progress = {});
@@ -104,6 +108,7 @@ class Session {
   ScenePointer scene_of(const Mission& mission) const;
   RunOptions options(const ReadyScene& scene) const;
   void take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded);
+  void take_scene(const SceneSource& source, ScenePointer scene);
   void take_volume(Mission mission, ScenePointer scene, Result result);
   std::string scene_json() const;
   std::string volume_json() const;
