@@ -37,7 +37,7 @@ from ._requests import Navigation, Sensor, Target, TourSettings, Vector
 from ._many import Results, compute_many
 from ._result import Answers, Mission, Result, compute
 from ._scene import Scene, checked_scene
-from ._slice import Slice
+from ._slice import Slice, write_slices
 from ._tiles import Tile, Tiles, tiles
 from ._tour import LeftOut, Tour, TourBound, Visit, tour
 from ._views import Found, Orbit, Orbits, Standpoint, Standpoints, View, orbits, standpoints
@@ -52,6 +52,7 @@ __all__ = [
     "Tour", "TourBound", "TourSettings", "View", "Viewer", "Visit", "Volume", "__version__", "areas", "cameras", "check",
     "compute", "compute_many", "devices", "error_codes", "fewest_positions", "fraction_field", "intersect",
     "orbits", "output_formats", "standpoints", "tiles", "tour", "unite", "visibility_sphere",
+    "write_slices",
 ]
 
 if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along

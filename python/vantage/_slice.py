@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._checks import path as checked_path
-from ._errors import make
+from ._checks import instance, items, path as checked_path
+from ._errors import input_error, make
 from ._extras import require
 from ._folders import replace_file, write_text
 from ._place import WGS84, Georeference, crs_text, no_place
@@ -101,25 +101,18 @@ class Slice:
         return require("geopandas", "geo").GeoDataFrame([row], geometry=[self.to_shapely()], crs=self.crs)
 
     def save(self, path: Path) -> None:
-        """Writes .geojson, or .gpkg in the slice's own CRS; whole or not at all.
+        """Writes .geojson, or .gpkg or .parquet (GeoParquet) in the slice's own CRS; whole or not at all.
 
         GeoJSON is longitude and latitude, WGS 84 (RFC 7946), whatever the slice's CRS. Its properties are z_m and area_m2. A
-        slice across the antimeridian has longitudes beyond 180 degrees.
+        slice across the antimeridian has longitudes beyond 180 degrees. `write_slices` writes several, with their heights.
 
         Raises:
             Error: the extension is another one, the place on the earth is not known, or the file cannot be written.
         """
-        file = checked_path(path)
-        extension = os.path.splitext(file)[1].lower()
-        if extension not in (".geojson", ".json", ".gpkg"):
-            raise make("output", "output-format-unknown", f"slices are not written as '{extension}'", file,
-                       "name the file .geojson or .gpkg", None)
-        if not os.path.isdir(os.path.dirname(file)):
-            raise make("output", "output-folder-missing", "the folder of the output does not exist", file, "make it first",
-                       None)
-        if extension == ".gpkg":
+        file, extension = _output(path, (".geojson", ".json", ".gpkg", ".parquet"))
+        if extension in (".gpkg", ".parquet"):
             frame = self.to_geodataframe()
-            replace_file(file, lambda draft: frame.to_file(draft, driver="GPKG", layer="slice"))
+            replace_file(file, _writer(frame, extension, "slice"))
             return
         text = json.dumps(self._feature_collection(), indent=1) + "\n"
         replace_file(file, lambda draft: write_text(draft, text))
@@ -141,6 +134,77 @@ class Slice:
 
     def _repr_html_(self) -> str:
         return html(self)
+
+
+def write_slices(path: Path, slices: Iterable[Slice], *, names: Sequence[str] | None = None, crs: Any = None) -> None:
+    """Writes slices of one or more volumes, or footprints, as a table: GeoPackage (.gpkg, the layer "slices") or GeoParquet 1.1
+    (.parquet), by the path's extension; whole or not at all. Takes the extra `geo`.
+
+    A row has a MultiPolygon, z_m, area_m2 (in the scene's frame, whatever the CRS) and, with `names`, name. The corners of
+    slices have z: the height in the scene's frame. Footprints have none, and z_m is missing. Empty slices are rows without
+    polygons.
+
+    Args:
+        path: the file.
+        slices: all slices, or all footprints.
+        names: one for each of them.
+        crs: what all are converted to, as by `Slice.to_crs`: "EPSG:4326" for WGS 84. Default: the CRS that they all have.
+
+    Raises:
+        Error: there are none; slices and footprints are mixed; CRS differ and none is given; a package is missing; the file
+            cannot be written, and then an older one stays.
+
+    Example:
+        >>> import vantage as vt
+        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]],
+        ...                               georeference=vt.Georeference(48.0, 11.0))
+        >>> volume = vt.compute(ground, [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]], max_range=50)
+        >>> vt.write_slices("heights.gpkg", [volume.slice(z) for z in (10, 20, 30)], crs="EPSG:4326")    # doctest: +SKIP
+    """
+    file, extension = _output(path, (".gpkg", ".parquet"))
+    rows = [instance(one, Slice, f"slices[{i}]", "pass what Volume.slice or footprint returns")
+            for i, one in enumerate(items(slices, "slices", "slices"))]
+    if not rows:
+        raise input_error("nothing-given", "there are no slices", "slices", "pass one or more")
+    if len({one.z_m is None for one in rows}) > 1:
+        raise input_error("conflicting-keys", "slices, which have a height, and footprints, which have none, are mixed", "slices",
+                          "write them to files of their own")
+    if crs is not None:
+        rows = [one.to_crs(crs) for one in rows]
+    elif len({one.crs for one in rows}) > 1:
+        raise input_error("conflicting-keys", "the slices have different CRS", "slices", "pass crs, to convert them to one")
+    columns: dict[str, list[Any]] = {"z_m": [one.z_m for one in rows], "area_m2": [one.area_m2 for one in rows]}
+    if names is not None:
+        columns = {"name": items(names, "names", "texts"), **columns}
+        if len(columns["name"]) != len(rows) or not all(isinstance(name, str) for name in columns["name"]):
+            raise input_error("array-sizes-differ", f"names is not a list of {len(rows)} texts", "names",
+                              "pass a name for each slice")
+    columns["z_m"] = [float("nan") if z is None else z for z in columns["z_m"]]
+    shapely = require("shapely", "geo")
+    shapes = [one.to_shapely() if one.z_m is None else shapely.force_3d(one.to_shapely(), one.z_m) for one in rows]
+    table = require("geopandas", "geo").GeoDataFrame(columns, geometry=shapes, crs=rows[0].crs)
+    replace_file(file, _writer(table, extension, "slices"))
+
+
+def _output(path: Path, extensions: tuple[str, ...]) -> tuple[str, str]:
+    """The file and its extension, which must be one of these."""
+    file = checked_path(path)
+    extension = os.path.splitext(file)[1].lower()
+    if extension not in extensions:
+        named = ", ".join(extensions[:-1])
+        raise make("output", "output-format-unknown", f"slices are not written as '{extension}'", file,
+                   f"name the file {named} or {extensions[-1]}", None)
+    if not os.path.isdir(os.path.dirname(file)):
+        raise make("output", "output-folder-missing", "the folder of the output does not exist", file, "make it first", None)
+    return file, extension
+
+
+def _writer(table: Any, extension: str, layer: str) -> Callable[[str], None]:
+    """What writes a GeoDataFrame to a new file."""
+    if extension == ".gpkg":
+        return lambda draft: table.to_file(draft, driver="GPKG", layer=layer)
+    require("pyarrow", "geo")
+    return lambda draft: table.to_parquet(draft, index=False, schema_version="1.1.0", compression="zstd")
 
 
 def _area(ring: Ring) -> float:
