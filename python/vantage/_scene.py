@@ -18,6 +18,7 @@ from ._checks import instance, items, not_called, path, path as checked_path, sh
 from ._errors import Error, input_error, make
 from ._extras import require
 from ._folders import Folder
+from ._ifc import model_of
 from ._mesh import Triangles, poly_data
 from ._objects import KINDS, SceneObject
 from ._place import Georeference
@@ -284,6 +285,32 @@ class Scene(Triangles):
         prisms = prisms_of(gdf, height, base, ground, name, kind, origin, default_height)
         return cls.from_arrays(prisms.vertices, prisms.faces, object_of=prisms.object_of, objects=prisms.objects,
                                georeference=prisms.place, sea_level=sea_level)
+
+    @classmethod
+    def from_ifc(cls, path: Path, *, deflection_m: float = 0.001, georeference: bool = True, crs: str | None = None,
+                 allow_missing: bool = False, sea_level: float | None = None) -> Scene:
+        """Reads a building model, IFC 2x3, 4 or 4x3 (.ifc), by IfcOpenShell, the extra `ifc`: docs/scene.md.
+
+        Each product with a body is an object: its Name, and its GlobalId as `source_id`. Openings are cut out, doors and
+        windows hide; spaces, grids and annotations are left out. Lengths become metres.
+
+        Args:
+            path: the file. IfcOpenShell reads it in this process: it may come to grief with files that were made to harm.
+            deflection_m: curved surfaces become flat facets, no farther than this from them, **on either side**: a column may
+                be so much too thin. Keep that much clearance.
+            georeference: whether the file's IfcMapConversion says where the scene lies. Its origin then is the middle of the
+                model, and z the height of the map. Without one, or with False, the frame is that of the file, with no place.
+            crs: of the map, where PROJ does not know the file's name of it: "EPSG:28992".
+            allow_missing: products that no triangles can be made of are left out, and hide nothing, instead of refused.
+            sea_level: z of the mean sea level.
+
+        Raises:
+            Error: the file cannot be read, has no bodies, or products that no triangles can be made of; its map conversion is
+                not understood.
+        """
+        made = model_of(checked_path(path), _arrays.number(deflection_m, "deflection_m"), georeference, crs, allow_missing)
+        return cls.from_arrays(made.vertices, made.faces, object_of=made.object_of, objects=made.objects,
+                               georeference=made.place, sea_level=sea_level)
 
     def _recall(self, needs_map: bool) -> None:
         """Tells a scene that was unpickled its map again, if that is still the same."""

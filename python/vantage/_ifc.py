@@ -1,0 +1,188 @@
+"""Building models, IFC, by IfcOpenShell (the extra `ifc`)."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._checks import flag
+from ._errors import input_error
+from ._extras import require
+from ._objects import SceneObject
+from ._place import WGS84, Georeference, crs_text
+
+Numbers = npt.NDArray[np.float64]
+
+NOT_BUILT = ("IfcOpeningElement", "IfcSpace", "IfcSpatialZone", "IfcVirtualElement", "IfcAnnotation", "IfcGrid")
+"""What is nothing that could hide."""
+_BODIES = (None, "", "Body", "Body-FallBack", "Facetation", "Tessellation", "SurveyPoints")
+_SOLIDS = ("SweptSolid", "Brep", "AdvancedBrep", "AdvancedSweptSolid", "CSG", "Clipping", "SurfaceModel", "Tessellation",
+           "SolidModel", "SectionedSpine", "MappedRepresentation", "Surface3D", "Surface")
+_KINDS = {"IfcSite": "ground"}
+_SCALE_NEAR_1 = 0.01
+"""How far a map's scale factor may be from 1: those of projections are within 0.1 %."""
+
+
+class Model(NamedTuple):
+    """What `Scene.from_arrays` takes."""
+
+    vertices: Numbers
+    faces: npt.NDArray[np.int64]
+    object_of: npt.NDArray[np.int64]
+    objects: list[SceneObject]
+    place: Georeference | None
+
+
+def _opened(file: str) -> Any:
+    ifc = require("ifcopenshell", "ifc")
+    if not os.path.isfile(file):
+        raise input_error("file-not-found", "there is no such file", file, "check the name")
+    try:
+        return ifc.open(file)
+    except Exception as error:  # its own class, OSError, and others of its parser
+        raise input_error("mesh-syntax", f"IfcOpenShell cannot read the file: {str(error) or type(error).__name__}", file,
+                          "export it again as IFC 2x3, 4 or 4x3, in the STEP format (.ifc)") from None
+
+
+def _bodies(file: Any) -> dict[str, Any]:
+    """Products that have a body, by their GlobalIds."""
+    found = {}
+    for product in file.by_type("IfcProduct"):
+        shape = product.Representation
+        if shape is None or any(product.is_a(name) for name in NOT_BUILT):
+            continue
+        if any(one.RepresentationIdentifier in _BODIES and one.RepresentationType in _SOLIDS for one in shape.Representations):
+            found[product.GlobalId] = product
+    return found
+
+
+def _shapes(file: Any, deflection_m: float) -> dict[str, tuple[Numbers, npt.NDArray[np.int64]]]:
+    """Vertices, metres, and faces of each product, in the axes of the file."""
+    geom = require("ifcopenshell.geom", "ifc")
+    settings = geom.settings()
+    settings.set("use-world-coords", True)
+    settings.set("mesher-linear-deflection", deflection_m)
+    known = {declaration for declaration in NOT_BUILT if _is_known(file, declaration)}
+    shapes: dict[str, tuple[Numbers, npt.NDArray[np.int64]]] = {}
+    steps = geom.iterator(settings, file, 1, exclude=sorted(known))
+    more = steps.initialize()
+    while more:
+        shape = steps.get()
+        vertices = np.array(shape.geometry.verts, np.float64).reshape(-1, 3)
+        faces = np.array(shape.geometry.faces, np.int64).reshape(-1, 3)
+        if len(faces):
+            if shape.guid in shapes:  # of several representations
+                before = shapes[shape.guid]
+                faces = np.concatenate([before[1], faces + len(before[0])])
+                vertices = np.concatenate([before[0], vertices])
+            shapes[shape.guid] = vertices, faces
+        more = steps.next()
+    return shapes
+
+
+def _is_known(file: Any, name: str) -> bool:
+    """Whether the file's version of IFC has that class."""
+    try:
+        file.by_type(name)
+    except RuntimeError:
+        return False
+    return True
+
+
+def _conversion(file: Any) -> Any:
+    """The file's map conversion; None where it has none."""
+    found = file.by_type("IfcMapConversion") if _is_known(file, "IfcMapConversion") else []
+    if len(found) > 1:
+        raise input_error("value-unsupported", f"the file has {len(found)} map conversions", "IfcMapConversion",
+                          "pass georeference=False, or export the model with one")
+    return found[0] if found else None
+
+
+def _unit_m(unit: Any) -> float:
+    """Metres in a unit of length."""
+    prefixes = {None: 1.0, "KILO": 1e3, "CENTI": 1e-2, "MILLI": 1e-3}
+    if unit.is_a("IfcSIUnit") and unit.Name == "METRE" and unit.Prefix in prefixes:
+        return prefixes[unit.Prefix]
+    if unit.is_a("IfcConversionBasedUnit"):
+        factor = unit.ConversionFactor
+        return float(factor.ValueComponent.wrappedValue) * _unit_m(factor.UnitComponent)
+    raise input_error("value-unsupported", f"the unit of the map is {unit}", "IfcProjectedCRS", "pass georeference=False")
+
+
+def _on_map(vertices: Numbers, conversion: Any, project_unit_m: float) -> Numbers:
+    """East and north in units of the map's CRS, and heights in metres."""
+    if conversion.is_a("IfcMapConversionScaled"):
+        raise input_error("value-unsupported", "the file's map conversion has a factor for each axis", "IfcMapConversionScaled",
+                          "pass georeference=False")
+    unit_m = _unit_m(conversion.TargetCRS.MapUnit) if conversion.TargetCRS.MapUnit is not None else 1.0
+    scale = 1.0 if conversion.Scale is None else conversion.Scale / project_unit_m * unit_m
+    if not abs(scale - 1) <= _SCALE_NEAR_1:
+        raise input_error("value-out-of-range", f"the map conversion makes {scale:g} m of one metre of the model",
+                          "IfcMapConversion.Scale", "mend the scale (the model's unit in units of the map), or pass "
+                          "georeference=False")
+    along = np.array([conversion.XAxisAbscissa, conversion.XAxisOrdinate], object)
+    x, y = (1.0, 0.0) if None in along else along.astype(float)
+    length = float(np.hypot(x, y))
+    if not length > 0:
+        raise input_error("direction-invalid", "the map conversion's x axis has no length", "IfcMapConversion",
+                          "pass georeference=False")
+    turn = np.array([[x, y], [-y, x]]) / length * scale / unit_m
+    flat = vertices[:, :2] @ turn + [conversion.Eastings, conversion.Northings]
+    return np.column_stack([flat, vertices[:, 2] + conversion.OrthogonalHeight * unit_m])
+
+
+def _in_frame(vertices: Numbers, file: Any, conversion: Any, crs: Any) -> tuple[Numbers, Georeference]:
+    """In the scene's frame, about the middle of the model."""
+    unit_m = float(require("ifcopenshell.util.unit", "ifc").calculate_unit_scale(file))
+    placed = _on_map(vertices, conversion, unit_m)
+    text = crs_text(crs if crs is not None else conversion.TargetCRS.Name)
+    middle = (placed[:, :2].min(axis=0) + placed[:, :2].max(axis=0)) / 2
+    longitude, latitude = _degrees(middle, text)
+    flat = _core.from_crs(latitude, longitude, text, np.ascontiguousarray(placed[:, :2]))
+    vertical = conversion.TargetCRS.VerticalDatum or ""
+    return np.column_stack([flat, placed[:, 2]]), Georeference(latitude, longitude, str(vertical), text[:40])
+
+
+def _degrees(point: Numbers, crs: str) -> tuple[float, float]:
+    """Longitude and latitude of a point of a CRS."""
+    pyproj = require("pyproj", "ifc")
+    try:
+        to_degrees = pyproj.Transformer.from_crs(crs, WGS84, always_xy=True)
+        longitude, latitude = to_degrees.transform(point[0], point[1], errcheck=True)
+    except pyproj.exceptions.ProjError as error:  # CRSError is one
+        raise input_error("crs-unknown", f"PROJ cannot place the model on the map {crs!r}: {str(error)[:200]}",
+                          "IfcProjectedCRS", "pass crs='EPSG:...', or georeference=False") from None
+    return float(longitude), float(latitude)
+
+
+def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, allow_missing: Any) -> Model:
+    """The triangles of a building model: see `Scene.from_ifc`."""
+    is_placed, is_missing_allowed = flag(georeference, "georeference"), flag(allow_missing, "allow_missing")
+    if not 0 < deflection_m <= 1:
+        raise input_error("value-out-of-range", f"deflection_m is {deflection_m:g}", "deflection_m", "give metres, up to 1")
+    file = _opened(file_name)
+    wanted, shapes = _bodies(file), _shapes(file, deflection_m)
+    missing = [guid for guid in wanted if guid not in shapes]
+    if missing and not is_missing_allowed:
+        named = ", ".join(f"{wanted[guid].is_a()} {wanted[guid].Name or ''} ({guid})" for guid in missing[:5])
+        raise input_error("mesh-unsupported", f"IfcOpenShell made no triangles of {len(missing)} products: {named}", file_name,
+                          "mend them, or pass allow_missing=True: then they hide nothing")
+    if not shapes:
+        raise input_error("mesh-empty", "the file has no product with a body", file_name, "export the model with its geometry")
+    objects = []
+    for guid in shapes:
+        product = file.by_guid(guid)
+        objects.append(SceneObject(product.Name or product.is_a(), guid, _KINDS.get(product.is_a(), "building")))
+    starts = np.cumsum([0] + [len(vertices) for vertices, _ in shapes.values()][:-1])
+    vertices = np.concatenate([vertices for vertices, _ in shapes.values()])
+    faces = np.concatenate([faces + start for (_, faces), start in zip(shapes.values(), starts)])
+    object_of = np.repeat(np.arange(len(shapes)), [len(faces) for _, faces in shapes.values()])
+    conversion = _conversion(file) if is_placed else None
+    place = None
+    if conversion is not None:
+        vertices, place = _in_frame(vertices, file, conversion, crs)
+    return Model(vertices, faces, object_of, objects, place)
