@@ -15,6 +15,7 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._areas import Face, find_faces
 from ._checks import instance, items, not_called, path, path as checked_path, shown, text as checked_text
+from ._cloud import cloud_of_file, cloud_of_points
 from ._errors import Error, input_error, make
 from ._extras import require
 from ._folders import Folder
@@ -285,6 +286,59 @@ class Scene(Triangles):
         prisms = prisms_of(gdf, height, base, ground, name, kind, origin, default_height)
         return cls.from_arrays(prisms.vertices, prisms.faces, object_of=prisms.object_of, objects=prisms.objects,
                                georeference=prisms.place, sea_level=sea_level)
+
+    @classmethod
+    def from_points(cls, points: npt.ArrayLike, *, cell_m: float = 1.0, georeference: Georeference | None = None,
+                    sea_level: float | None = None) -> Scene:
+        """Makes a cloud of points a closed solid, in which all of them lie: docs/scene.md.
+
+        The plan is cut into square cells. Over each the solid is at least as high as the highest point of the cell, and its
+        sides slope through the cells beside it: it is up to a cell too wide. Cells without points are as high as the highest
+        cell beside them. So what has a point in each of its cells hides as much or more; what rises between the points above
+        the highest of its cell hides less. It is full down to 1 m under the lowest point: trees, bridges and overhangs have
+        no room below them, and targets must lie above it.
+
+        Args:
+            points: (n, 3), metres.
+            cell_m: side of a cell, metres: some two distances between points. At most 2,000,000 cells.
+            georeference: where the frame lies on the earth.
+            sea_level: z of the mean sea level.
+
+        Raises:
+            Error: there are no points, one is not finite, or they cover too many cells.
+
+        Example:
+            >>> import vantage as vt
+            >>> vt.Scene.from_points([[0.5, 0.5, 0], [1.5, 0.5, 7]], cell_m=1).bounds.tolist()
+            [[0.0, 0.0, -1.0], [2.0, 1.0, 7.0]]
+        """
+        made = cloud_of_points(points, _arrays.number(cell_m, "cell_m"))
+        return cls.from_arrays(made.vertices, made.faces, objects=[SceneObject("points", "", "surface")],
+                               georeference=georeference, sea_level=sea_level)
+
+    @classmethod
+    def from_laz(cls, path: Path, *, cell_m: float = 1.0, without: Iterable[int] = (), crs: str | None = None,
+                 z_unit_m: float | None = None, origin: Vector | None = None, sea_level: float | None = None) -> Scene:
+        """Reads a cloud of points, LAS or LAZ, by laspy, the extra `laz`, as `from_points` makes it a solid.
+
+        Args:
+            path: the file.
+            cell_m: side of a cell, metres.
+            without: classes that are left out, and hide nothing: (7, 18) is noise. Default: all points are taken.
+            crs: of the coordinates: "EPSG:25832". Default: what the file says; where it says nothing, they are metres in the
+                frame.
+            z_unit_m: metres in the unit of z: 0.3048 for feet. Default: that of the CRS's vertical axis; without one metres,
+                but where x and y are in another unit the file is refused.
+            origin: (latitude, longitude) of the scene's origin. Default: the middle of the file.
+            sea_level: z of the mean sea level.
+
+        Raises:
+            Error: the file cannot be read, or as from_points.
+        """
+        made = cloud_of_file(checked_path(path), _arrays.number(cell_m, "cell_m"), without, crs, origin,
+                             z_unit_m)
+        return cls.from_arrays(made.vertices, made.faces, objects=[SceneObject("points", "", "surface")],
+                               georeference=made.place, sea_level=sea_level)
 
     @classmethod
     def from_ifc(cls, path: Path, *, deflection_m: float = 0.001, georeference: bool = True, crs: str | None = None,

@@ -1,0 +1,190 @@
+"""Clouds of points as closed solids; LAS and LAZ files by laspy (the extra `laz`)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _core
+from ._checks import items, whole
+from ._errors import Error, input_error
+from ._extras import require
+from ._place import WGS84, Georeference, crs_text
+
+Numbers = npt.NDArray[np.float64]
+
+MOST_CELLS = 2_000_000
+"""Of the grid: the solid has somewhat more than two triangles for each."""
+_CHUNK = 1_000_000
+_BELOW_M = 1.0
+"""How far the base is under the lowest point."""
+
+
+class Cloud(NamedTuple):
+    """What `Scene.from_arrays` takes."""
+
+    vertices: Numbers
+    faces: npt.NDArray[np.int64]
+    place: Georeference | None
+
+
+def _too_many(cell_m: float) -> Error:
+    return input_error("mesh-too-large", f"the points cover more than {MOST_CELLS:,} cells of {cell_m:g} m", "cell_m",
+                       "choose larger cells, or a part of the points")
+
+
+def _highest(parts: Iterable[Numbers], cell_m: float) -> tuple[Numbers, tuple[int, int], float]:
+    """The highest point of each cell, NaN where there is none, (rows of y, columns of x); the cell of the first; the lowest z
+    of all points."""
+    kept: list[Numbers] = []
+    for points in parts:
+        if not np.isfinite(points).all():
+            raise input_error("coordinate-not-finite", "a point has a coordinate that is no number", "points", "leave it out")
+        if np.abs(points).max(initial=0) > 1e9:
+            raise input_error("coordinate-too-large", "a point lies more than 1e9 m from the origin", "points",
+                              "move the points near the origin")
+        kept.append(_merged(np.column_stack([np.floor(points[:, :2] / cell_m), points[:, 2], points[:, 2]])))
+        if sum(map(len, kept)) > 2 * MOST_CELLS:
+            kept = [_merged(np.concatenate(kept))]
+            if len(kept[0]) > MOST_CELLS:
+                raise _too_many(cell_m)
+    cells = _merged(np.concatenate(kept)) if kept else np.zeros((0, 4))
+    if not len(cells):
+        raise input_error("nothing-given", "there are no points", "points", "give one or more; see without=")
+    low, high = cells[:, :2].min(axis=0), cells[:, :2].max(axis=0)
+    columns, rows = (high - low + 1).astype(np.int64).tolist()
+    if columns * rows > MOST_CELLS:
+        raise _too_many(cell_m)
+    grid = np.full((rows, columns), np.nan)
+    at = (cells[:, :2] - low).astype(np.int64)
+    grid[at[:, 1], at[:, 0]] = cells[:, 2]
+    return grid, (int(low[0]), int(low[1])), float(cells[:, 3].min())
+
+
+def _merged(rows: Numbers) -> Numbers:
+    """Of rows (column, row, highest z, lowest z) one for each cell."""
+    if not len(rows):
+        return rows
+    rows = rows[np.lexsort((rows[:, 0], rows[:, 1]))]
+    starts = np.flatnonzero(np.r_[True, (np.diff(rows[:, :2], axis=0) != 0).any(axis=1)])
+    return np.column_stack([rows[starts, :2], np.maximum.reduceat(rows[:, 2], starts),
+                            np.minimum.reduceat(rows[:, 3], starts)])
+
+
+def _around(grid: Numbers) -> Numbers:
+    """Of each cell the highest of it and the eight about it."""
+    rows, columns = grid.shape
+    wide = np.pad(grid, 1, constant_values=-np.inf)
+    return np.maximum.reduce([wide[i:i + rows, j:j + columns] for i in range(3) for j in range(3)])
+
+
+def _filled(grid: Numbers) -> Numbers:
+    """Cells without points get the highest of their neighbours, step by step."""
+    filled = np.where(np.isnan(grid), -np.inf, grid)
+    while (empty := np.isneginf(filled)).any():
+        filled = np.where(empty, _around(filled), filled)
+    return filled
+
+
+def _solid(grid: Numbers, first: tuple[int, int], base: float, cell_m: float) -> tuple[Numbers, npt.NDArray[np.int64]]:
+    """A closed solid over the grid: at the corner of cells it is as high as the highest of these."""
+    rows, columns = grid.shape
+    wide = np.pad(grid, 1, constant_values=-np.inf)
+    tops = np.maximum.reduce([wide[i:i + rows + 1, j:j + columns + 1] for i in range(2) for j in range(2)])
+    x, y = np.meshgrid((np.arange(columns + 1) + first[0]) * cell_m, (np.arange(rows + 1) + first[1]) * cell_m)
+    upper = np.column_stack([x.ravel(), y.ravel(), tops.ravel()])
+    index = np.arange(upper.shape[0]).reshape(rows + 1, columns + 1)
+    a, b, c, d = index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]
+    faces = [np.stack(corners, axis=-1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
+    rim = np.concatenate([index[0, :-1], index[:-1, -1], index[-1, :0:-1], index[:0:-1, 0]])  # counter-clockwise
+    lower = upper[rim]
+    lower[:, 2] = base
+    under = np.arange(len(rim)) + len(upper)
+    following, under_following = np.roll(rim, -1), np.roll(under, -1)
+    faces += [np.column_stack([rim, under, under_following]), np.column_stack([rim, under_following, following])]
+    middle = len(upper) + len(lower)
+    centre = np.append(lower[:, :2].mean(axis=0), base)
+    faces.append(np.column_stack([np.full(len(rim), middle), under_following, under]))
+    return np.concatenate([upper, lower, centre[None]]), np.concatenate(faces)
+
+
+def solid_of(parts: Iterable[Numbers], cell_m: float) -> tuple[Numbers, npt.NDArray[np.int64]]:
+    """The solid of points, (n, 3) each: see `Scene.from_points`."""
+    if not 1e-3 <= cell_m <= 1e5:
+        raise input_error("value-out-of-range", f"cell_m is {cell_m:g}", "cell_m", "give metres, 0.001 to 100000")
+    grid, first, lowest = _highest(parts, cell_m)
+    return _solid(_filled(grid), first, lowest - _BELOW_M, cell_m)
+
+
+def cloud_of_points(points: npt.ArrayLike, cell_m: float) -> Cloud:
+    """Of points in memory."""
+    vertices, faces = solid_of([_arrays.points(points)], cell_m)
+    return Cloud(vertices, faces, None)
+
+
+def _place_of(header: Any, crs: str, origin: Any) -> tuple[float, float]:
+    if origin is not None:
+        latitude, longitude = _arrays.numbers(origin, "origin").tolist()
+        return latitude, longitude
+    pyproj = require("pyproj", "laz")
+    middle = (np.array(header.mins) + np.array(header.maxs)) / 2
+    try:
+        longitude, latitude = pyproj.Transformer.from_crs(crs, WGS84, always_xy=True).transform(*middle[:2], errcheck=True)
+    except pyproj.exceptions.ProjError as error:
+        raise input_error("crs-unknown", f"PROJ cannot place the points: {str(error)[:200]}", "crs",
+                          "pass crs='EPSG:...'") from None
+    return float(latitude), float(longitude)
+
+
+def _z_unit_m(crs: str, given: Any) -> float:
+    """Metres in the unit of z."""
+    if given is not None:
+        unit_m = _arrays.number(given, "z_unit_m")
+        if not 1e-6 <= unit_m <= 1e6:
+            raise input_error("value-out-of-range", f"z_unit_m is {unit_m:g}", "z_unit_m", "give metres: 0.3048 for feet")
+        return unit_m
+    axes = require("pyproj", "laz").CRS(crs).axis_info
+    if len(axes) == 2 and axes[0].unit_name not in ("metre", "degree"):
+        raise input_error("height-unknown", f"x and y are in the unit '{axes[0].unit_name}', and nothing says what z is in",
+                          "z_unit_m", "pass z_unit_m: 0.3048 where it is feet, 1 for metres")
+    return float(_core.vertical_unit_m(crs))
+
+
+def _chunks(reader: Any, without: list[int]) -> Iterator[Numbers]:
+    for chunk in reader.chunk_iterator(_CHUNK):
+        taken = ~np.isin(np.array(chunk.classification), without)
+        yield np.column_stack([np.array(chunk.x), np.array(chunk.y), np.array(chunk.z)])[taken]
+
+
+def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any, z_unit_m: Any) -> Cloud:
+    """Of a LAS or LAZ file: see `Scene.from_laz`."""
+    laspy = require("laspy", "laz")
+    if file.lower().endswith(".laz"):
+        require("lazrs", "laz")
+    left_out = [whole(one, f"without[{i}]", 0, 255) for i, one in enumerate(items(without, "without", "classes"))]
+    if not os.path.isfile(file):
+        raise input_error("file-not-found", "there is no such file", file, "check the name")
+    try:
+        with laspy.open(file) as reader:
+            named = crs if crs is not None else reader.header.parse_crs()
+            if named is None:
+                if z_unit_m is not None or origin is not None:
+                    raise input_error("crs-missing", "the file does not say what its coordinates are", "crs", "pass crs='EPSG:...'")
+                vertices, faces = solid_of(_chunks(reader, left_out), cell_m)
+                return Cloud(vertices, faces, None)
+            text = crs_text(named)
+            latitude, longitude = _place_of(reader.header, text, origin)
+            unit_m = _z_unit_m(text, z_unit_m)
+            parts = (np.column_stack([_core.from_crs(latitude, longitude, text, np.ascontiguousarray(points[:, :2])),
+                                      points[:, 2] * unit_m]) for points in _chunks(reader, left_out))
+            vertices, faces = solid_of(parts, cell_m)
+            return Cloud(vertices, faces, Georeference(latitude, longitude, "", text if len(text) <= 40 else "WKT"))
+    except Error:
+        raise
+    except (laspy.errors.LaspyException, OSError, ValueError, RuntimeError, EOFError) as error:
+        raise input_error("record-garbled", f"laspy cannot read the file: {str(error)[:300] or type(error).__name__}", file,
+                          "give a whole LAS or LAZ file") from None
