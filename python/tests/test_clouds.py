@@ -123,4 +123,7 @@ def test_files_that_are_cut_short_are_refused(tmp_path):
     for length in (0, 4, 100, 300, len(whole) // 2, len(whole) - 1):
         cut.write_bytes(whole[:length])
         refused(lambda: vt.Scene.from_laz(cut))
+    for at in (100, 243):  # records of variable length that are not there: thousands of millions of them
+        cut.write_bytes(whole[:at] + b"\xff\xff\xff\xff" + whole[at + 4:])
+        assert refused(lambda: vt.Scene.from_laz(cut)).code == "record-garbled"
     assert refused(lambda: vt.Scene.from_laz(tmp_path / "none.laz")).code == "file-not-found"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import struct
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -19,7 +20,10 @@ Numbers = npt.NDArray[np.float64]
 
 MOST_CELLS = 2_000_000
 """Of the grid: the solid has somewhat more than two triangles for each."""
-_CHUNK = 1_000_000
+_CHUNK_BYTES = 1 << 26
+"""Of the points that are read at once."""
+_HEADER, _VLR, _EVLR = 227, 54, 60
+"""The least bytes of a header, and of what says how long a record of variable length is: LAS 1.4, 2.4 to 2.8."""
 _BELOW_M = 1.0
 """How far the base is under the lowest point."""
 
@@ -154,8 +158,24 @@ def _z_unit_m(crs: str, given: Any) -> float:
     return float(_core.vertical_unit_m(crs))
 
 
+def _check_header(file: str) -> None:
+    """Refuses more records of variable length than the file has bytes for: laspy would go through all of them."""
+    size = os.path.getsize(file)
+    with open(file, "rb") as stream:
+        header = stream.read(375)
+    fix = "give a whole LAS or LAZ file"
+    if len(header) < _HEADER or header[:4] != b"LASF":
+        raise input_error("record-garbled", "this is no LAS or LAZ file, or it is cut short", file, fix)
+    records, = struct.unpack_from("<I", header, 100)
+    needed = records * _VLR
+    if header[25] >= 4 and len(header) == 375:
+        needed += struct.unpack_from("<I", header, 243)[0] * _EVLR
+    if needed > size:
+        raise input_error("record-garbled", f"the header states more records than the file's {size:,} bytes can hold", file, fix)
+
+
 def _chunks(reader: Any, without: list[int]) -> Iterator[Numbers]:
-    for chunk in reader.chunk_iterator(_CHUNK):
+    for chunk in reader.chunk_iterator(max(1, _CHUNK_BYTES // reader.header.point_format.size)):
         taken = ~np.isin(np.array(chunk.classification), without)
         yield np.column_stack([np.array(chunk.x), np.array(chunk.y), np.array(chunk.z)])[taken]
 
@@ -168,6 +188,7 @@ def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any,
     left_out = [whole(one, f"without[{i}]", 0, 255) for i, one in enumerate(items(without, "without", "classes"))]
     if not os.path.isfile(file):
         raise input_error("file-not-found", "there is no such file", file, "check the name")
+    _check_header(file)
     try:
         with laspy.open(file) as reader:
             named = crs if crs is not None else reader.header.parse_crs()
