@@ -20,8 +20,9 @@ Numbers = npt.NDArray[np.float64]
 NOT_BUILT = ("IfcOpeningElement", "IfcSpace", "IfcSpatialZone", "IfcVirtualElement", "IfcAnnotation", "IfcGrid")
 """What is nothing that could hide."""
 _BODIES = (None, "", "Body", "Body-FallBack", "Facetation", "Tessellation", "SurveyPoints")
-_SOLIDS = ("SweptSolid", "Brep", "AdvancedBrep", "AdvancedSweptSolid", "CSG", "Clipping", "SurfaceModel", "Tessellation",
-           "SolidModel", "SectionedSpine", "MappedRepresentation", "Surface3D", "Surface")
+_NO_SURFACES = ("Point", "PointCloud", "Curve", "Curve2D", "Curve3D", "Segment", "Annotation2D", "GeometricCurveSet", "Text",
+                "LightSource")
+"""Types of representations in which nothing hides."""
 _KINDS = {"IfcSite": "ground"}
 _SCALE_NEAR_1 = 0.01
 """How far a map's scale factor may be from 1: those of projections are within 0.1 %."""
@@ -55,7 +56,8 @@ def _bodies(file: Any) -> dict[str, Any]:
         shape = product.Representation
         if shape is None or any(product.is_a(name) for name in NOT_BUILT):
             continue
-        if any(one.RepresentationIdentifier in _BODIES and one.RepresentationType in _SOLIDS for one in shape.Representations):
+        if any(one.RepresentationIdentifier in _BODIES and one.RepresentationType not in _NO_SURFACES
+               for one in shape.Representations):
             found[product.GlobalId] = product
     return found
 
