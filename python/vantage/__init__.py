@@ -25,7 +25,7 @@ from . import _arrays, _checks, _html, _plot, _profile
 from ._areas import Area, Face, areas
 from ._check import BrokenLimit, FlightCheck, GimbalUse, LinkCheck, NearestPass, NotSeen, Span, TargetCheck, check
 from ._core import version as __version__
-from ._errors import CancelledError, Error, InputError, InternalError, OutputError
+from ._errors import CancelledError, Error, InputError, InternalError, NotInBuildError, OutputError
 from ._field import fraction_field
 from ._flight import Flight
 from ._mesh import Cause, Note
@@ -47,7 +47,7 @@ from ._volume import Volume, intersect, unite
 __all__ = [
     "Answers", "Area", "BrokenLimit", "CancelledError", "Cause", "Error", "Face", "Flight", "FlightCheck", "Found",
     "Georeference", "GimbalUse", "InputError", "InternalError", "LeftOut", "LinkCheck", "Mission", "Navigation",
-    "NearestPass", "Note", "NotSeen", "Orbit", "Orbits", "OutputError", "Positions", "PositionView", "Result", "Results", "Scene",
+    "NearestPass", "Note", "NotInBuildError", "NotSeen", "Orbit", "Orbits", "OutputError", "Positions", "PositionView", "Result", "Results", "Scene",
     "SceneObject", "Sensor", "Slice", "Span", "Standpoint", "Standpoints", "Target", "TargetCheck", "Tile", "Tiles",
     "Tour", "TourBound", "TourSettings", "View", "Viewer", "Visit", "Volume", "__version__", "areas", "cameras", "check",
     "compute", "compute_many", "devices", "error_codes", "fewest_positions", "fraction_field", "intersect",

@@ -35,6 +35,10 @@ class InputError(Error, ValueError):
     """Something that the caller passed or named is wrong."""
 
 
+class NotInBuildError(InputError):
+    """Something that this build of vantage lacks: the package for WebAssembly has no maps, say. The native package never raises it."""
+
+
 class OutputError(Error):
     """A result could not be written; nothing was left half-written."""
 
