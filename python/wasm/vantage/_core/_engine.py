@@ -28,7 +28,7 @@ _TYPES: dict[str, np.dtype[Any]] = {"f8": np.dtype("<f8"), "u4": np.dtype("<u4")
 
 def error_of(told: Mapping[str, Any]) -> Error:
     """The error that the engine tells of."""
-    if told["code"] == "component-missing":
+    if told["code"] in ("component-missing", "library-missing"):
         return NotInBuildError("input", told["code"], told["problem"], told["where"],
                                "this build of vantage runs in WebAssembly; the native package for Linux x86-64 has it", told["object"])
     return make(told["kind"], told["code"], told["problem"], told["where"], told["fix"], told["object"])
