@@ -73,7 +73,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 nightly: tested benchmarks package  ## what takes too long for every change: lint and sanitizers over all, wheel, QGIS, Blender, builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
-	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender cesium jupyter
+	@$(MAKE) --no-print-directory tsan wheelcheck qgis blender cesium jupyter npm wheelwasm
 	ctest --preset release --parallel $(JOBS) --label-regex nightly
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
@@ -162,6 +162,19 @@ cesium: package  ## a volume in CesiumJS, picked, its place compared with PROJ's
 	@integrations/cesium/check.sh
 	@integrations/cesium/check_czml.sh
 
+.PHONY: npm
+npm: build  ## the npm package, dist/vantage-engine-*.tgz: the engine in WebAssembly; its tests in Node.js and Chromium
+	@scripts/install_packages.sh --web
+	@JOBS=$(JOBS) scripts/build_web.sh --package
+	@scripts/build_npm.sh
+
+.PHONY: wheelwasm
+wheelwasm: build  ## a wheel for machines without a native one, in dist/, over WebAssembly; its tests
+	@scripts/install_packages.sh --web
+	@JOBS=$(JOBS) scripts/build_web.sh --package
+	@scripts/build_wasm_wheel.py
+	@scripts/check_wasm_wheel.sh
+
 .PHONY: gallery
 gallery: web build  ## reports of the real scenes of docs/gallery, in build/gallery
 	@mkdir -p build/gallery
@@ -170,7 +183,7 @@ gallery: web build  ## reports of the real scenes of docs/gallery, in build/gall
 
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
-	rm -rf build build-*/ dist/ web/dist/ web/node_modules/ integrations/cesium/node_modules/
+	rm -rf build build-*/ dist/ web/dist/ web/node_modules/ integrations/cesium/node_modules/ web/npm/dist/ web/npm/example/dist/
 
 # All that the installed packages allow: `make build` needs neither those of the tests nor those of the benchmarks.
 .PHONY: tested

@@ -10,6 +10,17 @@
 
 namespace vantage::internal::parallel {
 
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+
+// WebAssembly without threads: std::async would never be ready there.
+void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask) {
+  ask();
+  body();
+  ask();
+}
+
+#else
+
 void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask) {
   constexpr std::chrono::milliseconds kPause{2};
   // A new thread is bound by no limit: left to itself it would take all the threads that the machine has.
@@ -32,6 +43,8 @@ void run_while_asking(const std::function<void()>& body, const std::function<voi
   if (failure) std::rethrow_exception(failure);
   running.get();
 }
+
+#endif
 
 }  // namespace vantage::internal::parallel
 

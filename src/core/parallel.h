@@ -29,7 +29,8 @@ int thread_limit();
 
 /// Runs `body` on a thread of its own, with as many threads for the parallel calls made inside as the caller has, and
 /// calls `ask` on the caller's thread every two milliseconds meanwhile. Ends when `body` has. An exception thrown by
-/// either is thrown on then, that of `ask` first; it should tell `body` to stop before it throws.
+/// either is thrown on then, that of `ask` first; it should tell `body` to stop before it throws. Where there are no
+/// threads, as in WebAssembly, it is asked before `body` and after it alone.
 void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask);
 
 /// Sorts with all threads. `less` must be a total order on distinct elements, so that the result is the same whatever

@@ -130,7 +130,7 @@ class Engine:
                                   "call it when the work has ended; in the native package for Linux x86-64 it can")
         return self._lock
 
-    def call(self, name: str, progress: Progress = None, **arguments: Any) -> Any:
+    def call(self, name: str, progress: Progress = None, /, **arguments: Any) -> Any:
         """What the engine answers. Arrays in the arguments are copied into its memory, for this call."""
         watch = _Watch(progress)
         with self._lock_once():
@@ -231,7 +231,7 @@ class Held:
             raise make("internal", "internal-defect", "this object was lost when the engine stopped", "", "make it anew", None)
         return self._number
 
-    def _call(self, name: str, progress: Progress = None, **arguments: Any) -> Any:
+    def _call(self, name: str, progress: Progress = None, /, **arguments: Any) -> Any:
         return self.engine.call(name, progress, **arguments)
 
 
