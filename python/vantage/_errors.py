@@ -28,7 +28,7 @@ class Error(Exception):
         self.kind, self.code, self.problem, self.where, self.fix, self.object = kind, code, problem, where, fix, object
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return make, (self.kind, self.code, self.problem, self.where, self.fix, self.object)
+        return type(self), (self.kind, self.code, self.problem, self.where, self.fix, self.object)
 
 
 class InputError(Error, ValueError):

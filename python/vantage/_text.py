@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ._checks import shown, text as checked_text
-from ._errors import Error, input_error, make
+from ._errors import Error, input_error
 
 T = TypeVar("T")
 
@@ -77,13 +77,13 @@ class Text:
         if not match:
             whole = re.match(rf"(?:/.*/)?{NAME}(?:, |$)", error.where)  # of the mission, no line of it
             where = error.where[whole.end():] if whole else error.where
-            return make(error.kind, error.code, error.problem, where, error.fix, error.object)
+            return type(error)(error.kind, error.code, error.problem, where, error.fix, error.object)
         argument = self._arguments[min(int(match[1]), len(self._arguments)) - 1] if self._arguments else ""
         rest = error.where[match.end():].strip(" ,:")
         # "sensor.incidence" says more than the line of the section; but not of which target something is.
         is_exact = re.fullmatch(r"\w+(\.\w+)+", rest) and not argument.startswith("target")
         where = rest if is_exact else f"{argument}, {rest}" if rest else argument
-        return make(error.kind, error.code, error.problem, where, error.fix, error.object)
+        return type(error)(error.kind, error.code, error.problem, where, error.fix, error.object)
 
 
 def _key(key: Any, argument: str) -> str:

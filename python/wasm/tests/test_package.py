@@ -119,7 +119,7 @@ def test_what_is_missing_is_named(name: str) -> None:
 
 def test_maps_and_tours_are_missing(ground: vt.Scene) -> None:
     for ask in (lambda: vt.Scene.from_osm(ROOT / "examples/town/town.osm"), lambda: vt.devices(),
-                lambda: vt.compute(ground, SQUARE, max_range=50).verify(), lambda: vt.tour(ground, [SQUARE], max_range=50)):
+                lambda: vt.compute(ground, SQUARE, max_range=50).verify(), lambda: vt.tour(vt.Mission.of(ground, SQUARE, max_range=50))):
         with pytest.raises(vt.NotInBuildError):
             ask()
 

@@ -77,11 +77,11 @@ class Scene(Held):
 
     @property
     def projection(self) -> str | None:
-        return self._facts["projection"]  # type: ignore[no-any-return]
+        return self._facts["projection"]
 
     @property
     def attribution(self) -> str:
-        return self._facts["attribution"]  # type: ignore[no-any-return]
+        return self._facts["attribution"]
 
     @property
     def source(self) -> pathlib.Path:
@@ -89,11 +89,11 @@ class Scene(Held):
 
     @property
     def sea_level_m(self) -> float | None:
-        return self._facts["sea_level_m"]  # type: ignore[no-any-return]
+        return self._facts["sea_level_m"]
 
     @property
     def whole(self) -> list[float] | None:
-        return self._facts["whole"]  # type: ignore[no-any-return]
+        return self._facts["whole"]
 
     @functools.cached_property
     def hash(self) -> str:
@@ -254,10 +254,10 @@ class SolidIndex(Held):
         super().__init__(volume.engine, volume.engine.call("solid_index", volume=volume))
 
     def depths(self, points: Numbers, threads: int = 0) -> Numbers:
-        return self._call("index_depths", index=self, points=points)  # type: ignore[no-any-return]
+        return self._call("index_depths", index=self, points=points)
 
     def contains(self, points: Numbers, threads: int = 0, progress: Progress = None) -> Numbers:
-        return self._call("index_contains", progress, index=self, points=points)  # type: ignore[no-any-return]
+        return self._call("index_contains", progress, index=self, points=points)
 
     def comes_near(self, other: SolidIndex, within_m: float) -> bool:
         return bool(self._call("index_comes_near", index=self, other=other, within_m=within_m))
