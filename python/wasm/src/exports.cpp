@@ -1,6 +1,6 @@
-// What Python calls of the engine in WebAssembly: one function, which takes the name of a call and its arguments as JSON
-// and answers JSON; python/wasm/vantage/_core/_engine.py is the other side. Arrays are passed by their places in the
-// memory.
+// What Python calls of the engine in WebAssembly: one function, which takes the name of a call and its arguments as
+// JSON and answers JSON; python/wasm/vantage/_core/_engine.py is the other side. Arrays are passed by their places in
+// the memory.
 #include <emscripten/emscripten.h>
 
 #include <algorithm>
@@ -122,9 +122,12 @@ Json projection_json(const std::optional<Georeference>& place) {
 }
 
 Json error_json(const Error& error) {
-  return {{"kind", name_of(error.kind())}, {"code", vantage::name_of(error.code())},
-          {"problem", error.problem()},    {"where", error.where()},
-          {"fix", error.fix()},            {"object", error.object() ? Json(*error.object()) : Json()}};
+  return {{"kind", name_of(error.kind())},
+          {"code", vantage::name_of(error.code())},
+          {"problem", error.problem()},
+          {"where", error.where()},
+          {"fix", error.fix()},
+          {"object", error.object() ? Json(*error.object()) : Json()}};
 }
 
 bool tell_progress(std::string_view stage, double fraction) {

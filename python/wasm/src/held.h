@@ -1,4 +1,5 @@
-// What Python holds of the engine in WebAssembly: objects by number. python/src/*.h has the same for the native package.
+// What Python holds of the engine in WebAssembly: objects by number. python/src/*.h has the same for the native
+// package.
 #pragma once
 
 #include <cstdint>

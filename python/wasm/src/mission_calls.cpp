@@ -22,8 +22,7 @@ std::vector<KeepInMesh> meshes_of(const Json& rows) {
 }
 
 Mission resolved(const Json& a, const HeldScene& scene) {
-  MissionFile file =
-      read_mission_text(a.at("text").get<std::string>(), a.at("name").get<std::string>(), scene.source);
+  MissionFile file = read_mission_text(a.at("text").get<std::string>(), a.at("name").get<std::string>(), scene.source);
   file.sea_level_m = scene.sea_level_m;
   Mission mission = resolve_mission(file, scene.loaded, tell_progress);
   for (KeepInMesh& mesh : meshes_of(a.at("meshes"))) mission.navigation.meshes.push_back(std::move(mesh));
@@ -94,7 +93,8 @@ Json keep_result(std::shared_ptr<HeldMission> mission, Result result) {
   made->result = std::move(result);
   Json spheres;
   if (made->result.spheres) spheres = spheres_json({made->mission->mission->as_written.spheres, *made->result.spheres});
-  return {{"result", keep(made)}, {"mission", keep(made->mission)}, {"volume", keep(made->volume)}, {"spheres", spheres}};
+  return {
+      {"result", keep(made)}, {"mission", keep(made->mission)}, {"volume", keep(made->volume)}, {"spheres", spheres}};
 }
 
 Json run(const Json& a) {
@@ -232,7 +232,9 @@ void add_mission_calls(Calls& calls) {
   calls["read_mission"] = &read;
   calls["mission_facts"] = &facts;
   calls["mission_hash"] = [](const Json& a) -> Json { return mission_hash(*held<HeldMission>(a, "mission")->mission); };
-  calls["mission_notes"] = [](const Json& a) { return json(mission_warnings(*held<HeldMission>(a, "mission")->mission)); };
+  calls["mission_notes"] = [](const Json& a) {
+    return json(mission_warnings(*held<HeldMission>(a, "mission")->mission));
+  };
   calls["one_mission"] = [](const Json& a) -> Json {
     return keep(one(held<HeldMission>(a, "mission"), a.at("index").get<std::size_t>()));
   };
@@ -246,7 +248,9 @@ void add_mission_calls(Calls& calls) {
   calls["query"] = &query;
   calls["answers"] = &answers;
   calls["fractions"] = &fractions;
-  calls["free_mission"] = [](const Json& a) -> Json { return table<HeldMission>().erase(a.at("object").get<Handle>()); };
+  calls["free_mission"] = [](const Json& a) -> Json {
+    return table<HeldMission>().erase(a.at("object").get<Handle>());
+  };
   calls["free_result"] = [](const Json& a) -> Json { return table<HeldResult>().erase(a.at("object").get<Handle>()); };
   calls["free_query"] = [](const Json& a) -> Json { return table<HeldQuery>().erase(a.at("object").get<Handle>()); };
 }

@@ -76,7 +76,8 @@ Json position(const Json& a) {
     throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", "",
                 "use positions in the scene's frame, or give the scene an origin");
   }
-  const Eigen::Vector2d at = scene_position(*place, a.at("longitude_deg").get<double>(), a.at("latitude_deg").get<double>());
+  const Eigen::Vector2d at =
+      scene_position(*place, a.at("longitude_deg").get<double>(), a.at("latitude_deg").get<double>());
   return {at.x(), at.y()};
 }
 

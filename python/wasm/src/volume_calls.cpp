@@ -50,8 +50,12 @@ Json facts(const Json& a) {
           {"lift_m", volume.lift_m},
           {"rounding_m", held_volume->rounding_m},
           {"stated_hash", held_volume->stated_hash},
-          {"seconds", Json{{"read", s.read}, {"prepare", s.prepare}, {"engine", s.engine},
-                           {"navigation", s.navigation}, {"write", s.write}, {"total", s.total}}},
+          {"seconds", Json{{"read", s.read},
+                           {"prepare", s.prepare},
+                           {"engine", s.engine},
+                           {"navigation", s.navigation},
+                           {"write", s.write},
+                           {"total", s.total}}},
           {"provenance", provenance_json(volume)},
           {"place", place_json(volume.georeference)},
           {"projection", projection_json(volume.georeference)}};
@@ -82,16 +86,14 @@ Json read(const Json& a) {
 }
 
 Json save(const Json& a) {
-  const WrittenVolume written =
-      write_volume(volume_at(a), a.at("file").get<std::string>(), a.at("up") == "y" ? UpAxis::y : UpAxis::z,
-                   a.at("scale").get<double>());
+  const WrittenVolume written = write_volume(volume_at(a), a.at("file").get<std::string>(),
+                                             a.at("up") == "y" ? UpAxis::y : UpAxis::z, a.at("scale").get<double>());
   return {written.rounding_m, written.facets};
 }
 
 Json compare(const Json& a) {
   const auto name = a.at("name").get<std::string>(), other_name = a.at("other_name").get<std::string>();
-  Comparison found =
-      compare_volumes(volume_at(a).mesh, volume_at(a, "other").mesh, name, other_name, tell_progress);
+  Comparison found = compare_volumes(volume_at(a).mesh, volume_at(a, "other").mesh, name, other_name, tell_progress);
   const std::string text = json_text(found, name, other_name, {});
   return {text, keep_volume(volume_of_mesh(std::move(found.only_a), "only in " + name)),
           keep_volume(volume_of_mesh(std::move(found.only_b), "only in " + other_name))};
@@ -139,11 +141,15 @@ Json polygons_json(const std::vector<PlanPolygon>& polygons) {
 }
 
 void add_solid_calls(Calls& calls) {
-  calls["slice_volume"] = [](const Json& a) { return polygons_json(slice_mesh(volume_at(a).mesh, a.at("z_m").get<double>())); };
+  calls["slice_volume"] = [](const Json& a) {
+    return polygons_json(slice_mesh(volume_at(a).mesh, a.at("z_m").get<double>()));
+  };
   calls["intersect_volumes"] = [](const Json& a) -> Json {
     return keep_volume(intersect_volumes(volumes_at(a), tell_progress));
   };
-  calls["unite_volumes"] = [](const Json& a) -> Json { return keep_volume(unite_volumes(volumes_at(a), tell_progress)); };
+  calls["unite_volumes"] = [](const Json& a) -> Json {
+    return keep_volume(unite_volumes(volumes_at(a), tell_progress));
+  };
   calls["solid_index"] = [](const Json& a) -> Json { return keep(std::make_shared<SolidIndex>(volume_at(a).mesh)); };
   calls["index_depths"] = [](const Json& a) -> Json {
     return answer_array(held<SolidIndex>(a, "index")->depths_m(points_of(a.at("points"))));
@@ -163,9 +169,7 @@ void add_volume_calls(Calls& calls) {
   calls["volume_facts"] = &facts;
   calls["volume_measures"] = &measures;
   calls["volume_hash"] = [](const Json& a) -> Json { return volume_hash(volume_at(a).mesh); };
-  calls["volume_report"] = [](const Json& a) -> Json {
-    return report_json(volume_at(a), measure(volume_at(a).mesh));
-  };
+  calls["volume_report"] = [](const Json& a) -> Json { return report_json(volume_at(a), measure(volume_at(a).mesh)); };
   calls["read_volume"] = &read;
   calls["save_volume"] = &save;
   calls["volume_from_arrays"] = [](const Json& a) -> Json {
