@@ -138,6 +138,30 @@ def test_progress_stops_and_its_error_comes_through(ground: vt.Scene) -> None:
     assert vt.compute(ground, SQUARE, max_range=50).outcome == "computed"
 
 
+def test_interrupt_while_a_file_is_read(ground: vt.Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(number: int, size: int) -> bytes:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(_system.os, "read", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            vt.Scene.from_mesh(ROOT / "examples/plaza/plaza.obj")
+    assert vt.compute(ground, SQUARE, max_range=50).outcome == "computed"
+
+
+def test_engine_that_stopped_is_replaced(ground: vt.Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    stopped = ground._core.engine
+    with monkeypatch.context() as patched:
+        patched.setitem(stopped._exports, "vantage_python_call", lambda *_: 1 // 0)
+        with pytest.raises(vt.InternalError):
+            ground.prepare()
+    with pytest.raises(vt.InternalError):
+        ground.prepare()
+    again = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [0, 99, 0]], [[0, 1, 2]])
+    assert again._core.engine is not stopped
+    assert again.prepare().hash != ""
+
+
 def test_threads_wait_for_each_other(ground: vt.Scene) -> None:
     volumes: list[float] = []
     threads = [threading.Thread(target=lambda: volumes.append(vt.compute(ground, SQUARE, max_range=50).volume_m3)) for _ in range(4)]

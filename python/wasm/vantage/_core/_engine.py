@@ -155,19 +155,30 @@ class Engine:
         try:
             request = json.dumps({"call": name, "arguments": self._passed(arguments, places)})
             places.append(self._put(os.fsencode(request) + b"\0"))
-            at = self._exports["vantage_python_call"](self._store, places[-1])
+            at = self._run(places[-1])
             answer: dict[str, Any] = json.loads(self._text(at).decode(errors="surrogateescape"))
             answer["value"] = self._copied(answer.get("value"))
             return answer
-        except (wasmtime.Trap, wasmtime.WasmtimeError, RuntimeError) as error:
-            self._broken = str(error).splitlines()[0] if str(error) else type(error).__name__
-            _forget(self)
-            raise make("internal", "internal-defect", f"the engine has stopped: {self._broken}", "",
-                       "a scene that is smaller may fit; else please report this", None) from None
         finally:
             if not self._broken:
                 for place in places:
                     self._exports["free"](self._store, place)
+
+    def _run(self, request: int) -> int:
+        """Whatever flies through the engine leaves it in the midst of its work: it is used no more."""
+        try:
+            return int(self._exports["vantage_python_call"](self._store, request))
+        except BaseException as error:
+            self._broken = str(error).splitlines()[0] if str(error) else type(error).__name__
+            _forget(self)
+            if not isinstance(error, Exception):
+                raise
+            raise make("internal", "internal-defect", f"the engine has stopped: {self._broken}", "",
+                       "a scene that is smaller may fit; else please report this", None) from None
+
+    def remember(self, error: BaseException) -> None:
+        """What this call is to raise when the engine has come back."""
+        self._watch.raised = error
 
     def _text(self, at: int) -> bytes:
         found, at = b"", at & 0xFFFFFFFF

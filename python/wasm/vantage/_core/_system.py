@@ -55,6 +55,8 @@ class Memory(Protocol):
 
     def grow_to(self, size: int) -> bool: ...
 
+    def remember(self, error: BaseException) -> None: ...
+
 
 class System:
     """The functions that the engine imports, by their names. Each answers as the C library expects it."""
@@ -80,6 +82,9 @@ class System:
                 return int(work(*arguments) or 0)
             except OSError as error:
                 return sign * _NUMBERS.get(errno.errorcode.get(error.errno or 0, ""), _NUMBERS["EIO"])
+            except BaseException as error:  # Ctrl-C, say: it must not fly through the engine
+                self._memory.remember(error)
+                return sign * _NUMBERS["EIO"]
 
         return call
 
