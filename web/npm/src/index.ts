@@ -198,7 +198,7 @@ export async function compute(mission: string, files: Files = {}, options: Compu
 }
 
 const MISSION = "mission.yaml";
-const FOLDER = "/work";
+const FOLDER = "/job";
 
 function write(calls: Calls, folder: string, name: string, content: Uint8Array | string): void {
   const parts = name.split("/");

@@ -67,7 +67,7 @@ test("errors have a code and a place", () => {
   const bad = (mission, files, code) => assert.throws(() => engine.compute(mission, files), (error) => {
     assert.ok(error instanceof VantageError);
     assert.equal(error.code, code);
-    assert.ok(!`${error.where}${error.problem}`.includes("/work"));
+    assert.ok(!`${error.where}${error.problem}`.includes("/job"));
     return true;
   });
   bad(`scene: {mesh: none.obj}\n${square}sensor: {max_range: 60}\n`, {}, "file-not-found");
