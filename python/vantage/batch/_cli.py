@@ -60,7 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("targets", help="GeoParquet, Parquet or GeoJSON, with a column id, and geometry, osm, object, ...")
     parser.add_argument("-o", "--output", required=True, help="a folder, or s3://bucket/folder")
     scene = parser.add_argument_group("scene")
-    scene.add_argument("--scene", required=True, help="the map, mesh or raster")
+    scene.add_argument("--scene", required=True, help="the map, mesh, raster or tileset.json")
     scene.add_argument("--center", type=_pair, metavar="LAT,LON", help="the middle of the part that is used")
     scene.add_argument("--radius", type=float, metavar="M", help="its radius")
     scene.add_argument("--bbox", type=_four, metavar="W,S,E,N", help="instead of these, degrees")

@@ -19,7 +19,7 @@ from .._requests import given
 from .._result import Result
 from .._scene import Scene
 from .._volume import Volume
-from ._scenes import ARRAYS
+from ._scenes import ARRAYS, shown_request
 from ._store import Store
 from ._table import Table
 
@@ -62,7 +62,7 @@ def agree(store: Store, mine: Mapping[str, str], scene: Mapping[str, Any]) -> di
             if store.names(name):
                 raise make("output", "folder-in-use", f"there is a {name} already, but no {MANIFEST} of a run",
                            store.where(name), "choose another folder, or move it away", None)
-        content = {**mine, "scene": dict(scene)}
+        content = {**mine, "scene": shown_request(scene)}
         store.put(MANIFEST, (json.dumps(content, indent=2, default=os.fspath) + "\n").encode())
         return {}
     try:

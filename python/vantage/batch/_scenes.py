@@ -25,7 +25,8 @@ from ._store import Store
 
 AnyScene = Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]]
 
-_FILES = ("mesh", "osm", "raster", "terrain")
+_SCENES = ("mesh", "osm", "raster", "tiles")
+_FILES = (*_SCENES, "terrain")
 ARRAYS = "scene.npz"
 
 _kept: dict[str, Scene] = {}
@@ -46,19 +47,28 @@ def request_of(scene: AnyScene) -> dict[str, Any]:
         return {"arrays": scene.hash}
     if isinstance(scene, Mapping):
         request = {key: value for key, value in scene.items() if value is not None}
-        if sum(key in request for key in ("mesh", "osm", "raster")) != 1:
+        if sum(key in request for key in _SCENES) != 1:
             raise input_error("missing-key", "the scene does not name one file", "scene",
-                              'write scene={"osm": "city.osm.pbf"}, with mesh, osm or raster')
+                              'write scene={"osm": "city.osm.pbf"}, with mesh, osm, raster or tiles')
     else:
         path = os.fspath(scene)
         name = path.lower()
         kind = "osm" if name.endswith((".osm", ".osm.gz", ".osm.bz2", ".pbf")) else \
-            "raster" if name.endswith((".tif", ".tiff", ".hgt", ".hgt.zip")) else "mesh"
+            "raster" if name.endswith((".tif", ".tiff", ".hgt", ".hgt.zip")) else \
+            "tiles" if os.path.basename(name.split("?")[0]) == "tileset.json" else "mesh"
         request = {kind: path}
     for key in _FILES:
         if key in request and "://" not in os.fspath(request[key]):
             request[key] = os.path.abspath(os.fspath(request[key]))
     return request
+
+
+def shown_request(request: Mapping[str, Any]) -> dict[str, Any]:
+    """The same without what follows the path of a tileset's address: keys are not written into results."""
+    shown = dict(request)
+    if "://" in os.fspath(shown.get("tiles", "")):
+        shown["tiles"] = os.fspath(shown["tiles"]).partition("?")[0]
+    return shown
 
 
 def load(request: Mapping[str, Any], store: Store, progress: Progress = None) -> Scene:
@@ -72,8 +82,8 @@ def load(request: Mapping[str, Any], store: Store, progress: Progress = None) ->
     keys = dict(request)
     for key in _FILES:
         if key in keys:
-            keys[key] = _here(os.fspath(keys[key]), store.options)
-    kind = next(key for key in ("mesh", "osm", "raster") if key in keys)
+            keys[key] = _here(os.fspath(keys[key]), store.options) if key != "tiles" else _tileset(os.fspath(keys[key]))
+    kind = next(key for key in _SCENES if key in keys)
     read: Callable[..., Scene] = getattr(Scene, f"from_{kind}")
     path = keys.pop(kind)
     try:
@@ -149,6 +159,14 @@ def _new_folder() -> str:
                        error.filename or "", "make room there, or set TMPDIR to a folder that can be written",
                        None) from error
         return _folders[-1].path
+
+
+def _tileset(path: str) -> str:
+    """Its other files are found from where it lies: it is not copied."""
+    if "://" in path and not path.startswith(("http://", "https://")):
+        raise input_error("not-applicable", "a tileset is read from a folder or by HTTP", path,
+                          "copy the whole tileset into a folder that all workers see")
+    return path
 
 
 def _here(path: str, options: Mapping[str, Any]) -> str:
