@@ -243,6 +243,7 @@ enum class WarningCode {
   plan_joined,         ///< several tracks of a plan are flown one after the other
   plan_assumed,        ///< a plan leaves something open, and it says what was taken
   volume_small,        ///< the volume is smaller than a cubic metre, far less than the range allows
+  tiles_missing,       ///< files of a tileset are missing or cannot be read: what they hold hides nothing
   // of a volume's file
   volume_changed,           ///< the mesh is not the one that the file was written with
   volume_of_other_scene,    ///< the volume was computed in another scene

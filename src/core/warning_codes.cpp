@@ -31,6 +31,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::plan_joined, "plan-joined"},
     WarningRow{WarningCode::plan_assumed, "plan-assumed"},
     WarningRow{WarningCode::volume_small, "volume-small"},
+    WarningRow{WarningCode::tiles_missing, "tiles-missing"},
     WarningRow{WarningCode::volume_changed, "volume-changed"},
     WarningRow{WarningCode::volume_of_other_scene, "volume-of-other-scene"},
     WarningRow{WarningCode::volume_of_other_mission, "volume-of-other-mission"},
