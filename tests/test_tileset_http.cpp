@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -32,6 +33,8 @@ struct Answer {
   int status = 200;
   std::string body;
   std::string headers = {};
+  int bytes_per_s = 0;     ///< 0: at once
+  bool is_silent = false;  ///< the connection is closed without an answer
 };
 
 /// Answers one request after the other, on a port of its own.
@@ -87,10 +90,12 @@ class Server {
       const std::string text = "HTTP/1.1 " + std::to_string(answer.status) +
                                " x\r\nContent-Length: " + std::to_string(answer.body.size()) +
                                "\r\nConnection: close\r\n" + answer.headers + "\r\n" + answer.body;
-      for (std::size_t sent = 0; sent < text.size();) {
-        const ssize_t more = ::send(connection, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+      for (std::size_t sent = 0; sent < text.size() && !answer.is_silent && !is_over_;) {
+        const std::size_t left = text.size() - sent;
+        const ssize_t more = ::send(connection, text.data() + sent, answer.bytes_per_s > 0 ? 1 : left, MSG_NOSIGNAL);
         if (more <= 0) break;
         sent += static_cast<std::size_t>(more);
+        if (answer.bytes_per_s > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1000 / answer.bytes_per_s));
       }
       ::close(connection);
     }
@@ -111,15 +116,20 @@ bool has(const std::string& target, const std::string& part) { return target.fin
 class Photorealistic {
  public:
   int files_in_session = 1000;
+  int sessions = 1;  ///< that it gives, one after the other, once the last is over
 
   Answer answer(const std::string& target) {
     if (!has(target, "key=SECRET")) return {403, "no key"};
     if (has(target, "/v1/3dtiles/root.json")) {
       json root = tile_json(1e6, "", 100);
-      root["children"] = {tile_json(1e3, "/v1/3dtiles/datasets/abc/files/top.json?session=S1")};
+      if (left_ <= 0 && number_ < sessions) {
+        ++number_;
+        left_ = files_in_session;
+      }
+      root["children"] = {tile_json(1e3, "/v1/3dtiles/datasets/abc/files/top.json?a=1&session=" + session())};
       return {200, tileset_json(root).dump()};
     }
-    if (!has(target, "session=S1") || files_in_session-- <= 0) return {403, "over"};
+    if (!has(target, "session=" + session()) || left_-- <= 0) return {403, "over"};
     if (has(target, "top.json")) {
       json root = tile_json(1e3, "coarse.glb");
       root["children"] = {tile_json(1, "a.glb"), tile_json(1, "/v1/3dtiles/datasets/abc/files/b.glb")};
@@ -127,6 +137,11 @@ class Photorealistic {
     }
     return {200, box_glb({{}})};
   }
+
+ private:
+  std::string session() const { return "S" + std::to_string(number_); }
+
+  int number_ = 0, left_ = 0;
 };
 
 /// Skips where there is no libcurl.
@@ -167,6 +182,71 @@ TEST(TilesetHttp, AnEndedSessionIsOneError) {
   const Error wrong = expect_code([&] { read_tileset(server.url("/v1/3dtiles/root.json?key=WRONG")); },
                                   ErrorCode::file_unreadable, "root.json");
   EXPECT_FALSE(has(wrong.what(), "WRONG"));
+}
+
+TEST(TilesetHttp, AsksForANewSessionWhenOneEnds) {
+  VANTAGE_REQUIRE_CURL();
+  Photorealistic tiles;
+  tiles.files_in_session = 1;
+  tiles.sessions = 3;
+  Server server([&](const std::string& target) { return tiles.answer(target); });
+  const TilesetScene read = read_tileset(server.url("/v1/3dtiles/root.json?key=SECRET"));
+  EXPECT_EQ(read.report.contents, 2u);
+  EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+  std::vector<std::string> sessions;
+  for (const std::string& target : server.asked()) {
+    sessions.push_back(has(target, "root.json") ? "root" : target.substr(target.find("session=") + 8, 2));
+    EXPECT_TRUE(has(target, "key=SECRET")) << target;
+  }
+  EXPECT_EQ(sessions, (std::vector<std::string>{"root", "S1", "S1", "root", "S2", "S2", "root", "S3"}));
+}
+
+TEST(TilesetHttp, StopsWhenNoSessionFollows) {
+  VANTAGE_REQUIRE_CURL();
+  Photorealistic tiles;
+  tiles.files_in_session = 1;
+  tiles.sessions = 2;
+  Server server([&](const std::string& target) { return tiles.answer(target); });
+  const Error over = expect_code([&] { read_tileset(server.url("/v1/3dtiles/root.json?key=SECRET")); },
+                                 ErrorCode::file_unreadable, "127.0.0.1");
+  EXPECT_TRUE(has(over.problem(), "403")) << over.what();
+  EXPECT_TRUE(has(over.problem(), " 3 ")) << over.what();  // root, top and a tile were read
+  EXPECT_EQ(server.asked().size(), 7u);
+}
+
+TEST(TilesetHttp, AServerThatNoLongerAnswersEndsTheReading) {
+  VANTAGE_REQUIRE_CURL();
+  Server server([&](const std::string& target) -> Answer {
+    if (has(target, "a.glb")) return {200, box_glb({{}})};
+    if (!has(target, "tileset.json")) return {200, "", "", 0, true};
+    json root = tile_json(10);
+    root["refine"] = "ADD";
+    root["children"] = {tile_json(0, "a.glb")};
+    for (int i = 0; i < 1000; ++i) root["children"].push_back(tile_json(0, std::to_string(i) + ".glb"));
+    return {200, tileset_json(root).dump()};
+  });
+  const Error over =
+      expect_code([&] { read_tileset(server.url("/tileset.json")); }, ErrorCode::file_unreadable, "4.glb");
+  EXPECT_TRUE(has(over.problem(), " 5 ")) << over.what();
+  EXPECT_TRUE(has(over.problem(), " 2 ")) << over.what();
+  EXPECT_EQ(server.asked().size(), 2u + 3 + 4);  // the first is tried three times
+}
+
+TEST(TilesetHttp, ASlowServerIsNotWaitedFor) {
+  VANTAGE_REQUIRE_CURL();
+  Server server([](const std::string&) { return Answer{200, std::string(10'000, 'x'), "", 20}; });
+  internal::tiles::HttpPatience patience;
+  patience.slow_s = 1;
+  patience.tries = patience.failures_in_a_row = 1;
+  internal::tiles::HttpSource slow(server.url("/tileset.json"), patience);
+  const auto start = std::chrono::steady_clock::now();
+  expect_code([&] { slow.read(slow.root(), {}); }, ErrorCode::file_unreadable, "127.0.0.1");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+  patience.all_files_s = 0;
+  internal::tiles::HttpSource late(server.url("/tileset.json"), patience);
+  const std::size_t before = server.asked().size();
+  expect_code([&] { late.read(late.root(), {}); }, ErrorCode::file_unreadable, "127.0.0.1");
+  EXPECT_EQ(server.asked().size(), before);
 }
 
 TEST(TilesetHttp, MissingFilesAreHolesAndOtherServersAreNotAsked) {

@@ -20,7 +20,7 @@ HttpClient::HttpClient(const std::string& where) {
               "download the tileset, or use the program");
 }
 HttpClient::~HttpClient() = default;
-HttpAnswer HttpClient::get(const std::string& /*url*/, std::size_t /*most_bytes*/,
+HttpAnswer HttpClient::get(const std::string& /*url*/, std::size_t /*most_bytes*/, const HttpPatience& /*patience*/,
                            const core::ProgressReporter& /*progress*/) {
   return {};
 }
@@ -37,6 +37,7 @@ enum CurlOption : int {
   kErrorBuffer = 10010,
   kWriteFunction = 20011,
   kUserAgent = 10018,
+  kTimeout = 13,
   kLowSpeedLimit = 19,
   kLowSpeedTime = 20,
   kNoProgress = 43,
@@ -93,13 +94,15 @@ const CurlLibrary* curl() {
 struct Gathering {
   std::string* body;
   std::size_t most;
+  bool is_too_large;
   core::ProgressBridge* bridge;
 };
 
 std::size_t take_bytes(char* data, std::size_t size, std::size_t count, void* gathering) noexcept {
   auto& into = *static_cast<Gathering*>(gathering);
   const std::size_t bytes = size * count;
-  if (bytes > into.most - into.body->size()) return 0;  // curl gives up
+  into.is_too_large = bytes > into.most - into.body->size();
+  if (into.is_too_large) return 0;  // curl gives up
   try {
     into.body->append(data, bytes);
   } catch (const std::bad_alloc&) {
@@ -126,12 +129,13 @@ HttpClient::HttpClient(const std::string& where) {
 
 HttpClient::~HttpClient() { curl()->easy_cleanup(handle_); }
 
-HttpAnswer HttpClient::get(const std::string& url, std::size_t most_bytes, const core::ProgressReporter& progress) {
+HttpAnswer HttpClient::get(const std::string& url, std::size_t most_bytes, const HttpPatience& patience,
+                           const core::ProgressReporter& progress) {
   constexpr std::size_t kErrorSize = 256;  // CURL_ERROR_SIZE
   const CurlLibrary& library = *curl();
   HttpAnswer answer;
   core::ProgressBridge bridge(progress);
-  Gathering gathering{&answer.body, most_bytes, &bridge};
+  Gathering gathering{&answer.body, most_bytes, false, &bridge};
   std::array<char, kErrorSize> words{};
   const std::string agent = std::string("vantage/") + VANTAGE_VERSION;
   library.easy_reset(handle_);  // the connection stays
@@ -139,9 +143,10 @@ HttpAnswer HttpClient::get(const std::string& url, std::size_t most_bytes, const
   library.easy_setopt(handle_, kProtocols, kHttpAndHttps);
   library.easy_setopt(handle_, kFollowLocation, 0L);
   library.easy_setopt(handle_, kNoSignal, 1L);
-  library.easy_setopt(handle_, kConnectTimeout, 30L);
-  library.easy_setopt(handle_, kLowSpeedLimit, 1L);
-  library.easy_setopt(handle_, kLowSpeedTime, 30L);
+  library.easy_setopt(handle_, kConnectTimeout, patience.connect_s);
+  library.easy_setopt(handle_, kLowSpeedLimit, patience.slow_bytes_per_s);
+  library.easy_setopt(handle_, kLowSpeedTime, patience.slow_s);
+  library.easy_setopt(handle_, kTimeout, patience.file_s);
   library.easy_setopt(handle_, kAcceptEncoding, "");
   library.easy_setopt(handle_, kUserAgent, agent.c_str());
   library.easy_setopt(handle_, kErrorBuffer, words.data());
@@ -157,6 +162,7 @@ HttpAnswer HttpClient::get(const std::string& url, std::size_t most_bytes, const
   library.easy_getinfo(handle_, kRedirectUrl, &moved);
   if (moved) answer.moved_to = moved;
   if (fault != 0) answer.fault = words[0] != '\0' ? words.data() : library.easy_strerror(fault);
+  answer.is_too_large = gathering.is_too_large;
   library.easy_setopt(handle_, kErrorBuffer, static_cast<char*>(nullptr));
   return answer;
 }
