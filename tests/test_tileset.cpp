@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,6 +14,7 @@
 #include "support/tile_files.h"
 #include "tiles/content.h"
 #include "tiles/instances.h"
+#include "vantage/mission.h"
 #include "vantage/scene_source.h"
 #include "vantage/tileset.h"
 
@@ -258,6 +260,32 @@ TEST(Tileset, ObjectsAreFeaturesOfStructuralMetadata) {
   EXPECT_EQ(ids_of(tiles.read()), (std::set<std::string>{"NL.1", "NL.22"}));
 }
 
+TEST(Tileset, GarbledPropertiesCostNoGeometry) {
+  std::string offsets;
+  for (const std::uint32_t offset : {0u, 4u, 900u}) offsets += bytes_of(offset);
+  const auto read_with = [&](const json& table) {
+    Tileset tiles(tileset_json(tile_json(0, "a.glb")));
+    json extra;
+    extra["more"] = {"NL.1NL.22", offsets};
+    extra["extensions"]["EXT_structural_metadata"] = {
+        {"schema", {{"classes", {{"b", {{"properties", {{"identificatie", {{"type", "STRING"}}}}}}}}}}},
+        {"propertyTables", json::array({table})}};
+    tiles.add("a.glb", box_glb({{{0, 0, 0}, 5, 1}, {{4, 0, 0}, 6, 0}}, "_FEATURE_ID_0", extra));
+    const TilesetScene read = tiles.read();
+    EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+    EXPECT_EQ(read.report.triangles, 24u);
+    EXPECT_GT(read.report.unreadable_properties, 0u);
+    return ids_of(read);
+  };
+  json table = {
+      {"class", "b"}, {"count", 2}, {"properties", {{"identificatie", {{"values", 3}, {"stringOffsets", 4}}}}}};
+  EXPECT_EQ(read_with(table), (std::set<std::string>{"NL.1", "a.glb#1"}));
+  table["properties"]["identificatie"]["stringOffsets"] = 77;  // no such buffer view
+  EXPECT_EQ(read_with(table), (std::set<std::string>{"a.glb#0", "a.glb#1"}));
+  table["count"] = "two";
+  EXPECT_EQ(read_with(table), (std::set<std::string>{"a.glb#0", "a.glb#1"}));
+}
+
 TEST(Tileset, ReadsInstancesAndComposites) {
   json root = tile_json(0, "all.cmpt");
   Tileset tiles(tileset_json(root, 1, "1.0"));
@@ -309,6 +337,69 @@ TEST(Tileset, ReadsImplicitTrees) {
   EXPECT_EQ(ids_of(read), (std::set<std::string>{"c/1_1_0.glb", "c/2_1_2.glb"}));
   EXPECT_EQ(read.report.largest_error_m, 8);
   EXPECT_EQ(read.report.documents, 3u);
+}
+
+TEST(Tileset, ImplicitTreesMayAnnounceManyLevels) {
+  json root = tile_json(16, "c/%7Blevel%7D_%7bx%7d_{y}.glb", 8);
+  root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                            {"subtreeLevels", 1},
+                            {"availableLevels", 1000},
+                            {"subtrees", {{"uri", "s/%7Blevel%7D.subtree"}}}};
+  Tileset tiles(tileset_json(root));
+  json all = {{"tileAvailability", {{"constant", 1}}},
+              {"contentAvailability", {{{"constant", 1}}}},
+              {"childSubtreeAvailability", {{"constant", 0}}}};
+  tiles.add("s/0.subtree", subtree(all));
+  tiles.add("c/0_0_0.glb", box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+  EXPECT_EQ(ids_of(read), std::set<std::string>{"c/0_0_0.glb"});
+  // One child below the other: too many are a hole, and the last that can be read stands for them.
+  const json one = {{"buffers", {{{"byteLength", 1}}}},
+                    {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}}}},
+                    {"tileAvailability", {{"constant", 1}}},
+                    {"contentAvailability", {{{"constant", 0}}}},
+                    {"childSubtreeAvailability", {{"bitstream", 0}}}};
+  for (int i = 0; i < 70; ++i) {
+    tiles.add("s/" + std::to_string(i) + ".subtree", subtree(one, std::string("\x01\0\0\0\0\0\0\0", 8)));
+  }
+  all["childSubtreeAvailability"] = one["childSubtreeAvailability"];
+  all["buffers"] = one["buffers"];
+  all["bufferViews"] = one["bufferViews"];
+  tiles.add("s/0.subtree", subtree(all, std::string("\x01\0\0\0\0\0\0\0", 8)));
+  TilesetOptions fine;
+  fine.detail_m = 0;
+  const TilesetScene deep = tiles.read(fine);
+  EXPECT_EQ(deep.report.holes, 1u) << deep.report.first_hole;
+  EXPECT_EQ(deep.report.coarser_kept, 1u);
+  EXPECT_EQ(ids_of(deep), std::set<std::string>{"c/0_0_0.glb"});
+}
+
+TEST(Tileset, AContentMayStandBesideSeveral) {
+  const auto read_with = [](const std::string& content, json availability) {
+    json root = tile_json(16, content, 8);
+    root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                              {"subtreeLevels", 1},
+                              {"availableLevels", 1},
+                              {"subtrees", {{"uri", "s.subtree"}}}};
+    root["extensions"]["3DTILES_multiple_contents"]["contents"] = {{{"uri", "a.glb"}}, {{"uri", "b.glb"}}};
+    Tileset tiles(tileset_json(root));
+    availability["tileAvailability"] = {{"constant", 1}};
+    availability["childSubtreeAvailability"] = {{"constant", 0}};
+    availability["extensions"]["3DTILES_multiple_contents"]["contentAvailability"] = {{{"constant", 1}},
+                                                                                      {{"constant", 0}}};
+    tiles.add("s.subtree", subtree(availability));
+    for (const char* name : {"a.glb", "b.glb", "c.glb"}) tiles.add(name, box_glb({{}}));
+    const TilesetScene read = tiles.read();
+    EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+    EXPECT_EQ(read.report.triangles, 12 * read.report.contents);
+    return ids_of(read);
+  };
+  using Ids = std::set<std::string>;
+  const json own = {{"contentAvailability", {{"constant", 0}}}};
+  EXPECT_EQ(read_with("c.glb", json::object()), (Ids{"a.glb", "c.glb"}));
+  EXPECT_EQ(read_with("c.glb", own), Ids{"a.glb"});
+  EXPECT_EQ(read_with("a.glb", json::object()), Ids{"a.glb"});  // the same, for programs that know no others
 }
 
 TEST(Tileset, GarbledAvailabilityIsAHole) {
@@ -452,6 +543,44 @@ TEST(Tileset, CountsHolesAndGoesOn) {
   expect_error([&] { tiles.read(); }, ErrorCode::mesh_empty, "tileset.json");
 }
 
+TEST(Tileset, KeepsACoarserTileWhereAFinerOneIsMissing) {
+  json root = tile_json(50, "coarse.glb");
+  root["refine"] = "REPLACE";
+  root["children"] = {tile_json(5, "fine.glb"), tile_json(0, "other.glb")};
+  root["children"][0]["children"] = {tile_json(0, "finest.glb"), tile_json(0, "more/tileset.json")};
+  Tileset tiles(tileset_json(root));
+  for (const char* name : {"coarse.glb", "fine.glb", "finest.glb", "other.glb", "more/c.glb"}) {
+    tiles.add(name, box_glb({{}}));
+  }
+  tiles.add("more/tileset.json", tileset_json(tile_json(0, "c.glb")).dump());
+  using Ids = std::set<std::string>;
+  const auto expect_read = [&](const Ids& ids, std::size_t holes, std::size_t kept, double error_m) {
+    const TilesetScene read = tiles.read();
+    EXPECT_EQ(ids_of(read), ids);
+    EXPECT_EQ(read.report.holes, holes);
+    EXPECT_EQ(read.report.coarser_kept, kept);
+    EXPECT_EQ(read.report.largest_error_m, error_m);
+    EXPECT_EQ(read.report.coarse, 0u);
+  };
+  expect_read({"finest.glb", "other.glb", "more/c.glb"}, 0, 0, 0);
+  std::filesystem::remove(tiles.path() / "more/c.glb");
+  expect_read({"fine.glb", "finest.glb", "other.glb"}, 1, 1, 5);
+  std::filesystem::remove(tiles.path() / "more/tileset.json");
+  expect_read({"fine.glb", "finest.glb", "other.glb"}, 1, 1, 5);
+  std::filesystem::remove(tiles.path() / "finest.glb");
+  expect_read({"fine.glb", "other.glb"}, 2, 1, 5);  // once for both
+  std::filesystem::remove(tiles.path() / "fine.glb");
+  expect_read({"coarse.glb", "other.glb"}, 3, 1, 50);
+  std::filesystem::remove(tiles.path() / "coarse.glb");
+  expect_read({"other.glb"}, 4, 0, 0);
+}
+
+TEST(Tileset, QueriesMayHoldAddresses) {
+  Tileset tiles(tileset_json(tile_json(0, "a.glb?from=http://example.org/a#x")));
+  tiles.add("a.glb", box_glb({{}}));
+  EXPECT_EQ(ids_of(tiles.read()), std::set<std::string>{"a.glb"});
+}
+
 TEST(Tileset, FollowsExternalTilesetsButNotInCircles) {
   json root = tile_json(10);
   root["refine"] = "ADD";
@@ -508,6 +637,25 @@ TEST(Tileset, IsAKindOfScene) {
   ASSERT_TRUE(loaded.tileset);
   EXPECT_EQ(loaded.tileset->triangles, 12u);
   EXPECT_FALSE(notes_of(loaded).empty());
+}
+
+TEST(Tileset, MissionsWarnOfMissingTiles) {
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = {tile_json(0, "a.glb"), tile_json(0, "b.glb")};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  const auto has_warning = [&] {
+    const MissionFile file = read_mission_text(
+        "scene: {tiles: tileset.json}\ntarget: {vertices: [[5, 0, 2], [6, 0, 2], [6, 1, 2]]}\nsensor: {max_range: 9}\n",
+        tiles.path() / "mission.yaml");
+    const std::vector<Warning> warnings = mission_warnings(resolve_mission(file));
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const Warning& one) { return one.code == WarningCode::tiles_missing; });
+  };
+  EXPECT_TRUE(has_warning());
+  tiles.add("b.glb", box_glb({{{3, 0, 3}}}));
+  EXPECT_FALSE(has_warning());
 }
 
 TEST(Tileset, ManyChildrenAreReadInTime) {

@@ -22,6 +22,7 @@ using testing::b3dm;
 using testing::box_glb;
 using testing::bytes_of;
 using testing::expect_code;
+using testing::gzip;
 using testing::subtree;
 using testing::TemporaryDirectory;
 using testing::tile_json;
@@ -206,6 +207,77 @@ TEST(TilesetHostile, TilesWithoutEndAreRefused) {
   TemporaryDirectory folder;
   write_files(folder, files);
   expect_code([&] { read_tileset(folder / "tileset.json"); }, ErrorCode::region_invalid, "");
+}
+
+TEST(TilesetHostile, OneTileCannotBringMoreThanItsLimit) {
+  // One small compressed file by many names: 40 times 60 MiB.
+  constexpr std::size_t kBytes = std::size_t{60} << 20U;
+  json gltf = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
+  gltf["nodes"] = {{{"mesh", 0}}};
+  json primitives = json::array();
+  for (int i = 0; i < 40; ++i) {
+    gltf["buffers"].push_back({{"uri", "x.bin?" + std::to_string(i)}, {"byteLength", kBytes}});
+    gltf["bufferViews"].push_back({{"buffer", i}, {"byteOffset", 0}, {"byteLength", 36}});
+    gltf["accessors"].push_back({{"bufferView", i}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}});
+    primitives.push_back({{"attributes", {{"POSITION", i}}}});
+  }
+  gltf["meshes"] = {{{"primitives", primitives}}};
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = {tile_json(0, "a.glb"), tile_json(0, "many.gltf")};
+  Files files;
+  files["tileset.json"] = tileset_json(root).dump();
+  files["many.gltf"] = gltf.dump();
+  files["a.glb"] = box_glb({{}});
+  files["x.bin"] = gzip(std::string(kBytes, '\0'));
+  TemporaryDirectory folder;
+  write_files(folder, files);
+  const TilesetScene read = read_tileset(folder / "tileset.json");
+  EXPECT_EQ(read.report.holes, 1u);
+  EXPECT_EQ(read.report.triangles, 12u);
+  EXPECT_NE(read.report.first_hole.find("512 MiB"), std::string::npos) << read.report.first_hole;
+}
+
+TEST(TilesetHostile, ATilesetThatIsNamedOftenIsParsedOnce) {
+  json much = tile_json(0);
+  for (int i = 0; i < 50'000; ++i) much["extras"].push_back(i);
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"].push_back(tile_json(0, "a.glb"));
+  for (int i = 0; i < 1000; ++i) root["children"].push_back(tile_json(0, "much.json?" + std::to_string(i)));
+  Files files;
+  files["tileset.json"] = tileset_json(root).dump();
+  files["much.json"] = tileset_json(much).dump();
+  files["a.glb"] = box_glb({{}});
+  TemporaryDirectory folder;
+  write_files(folder, files);
+  const TilesetScene read = read_tileset(folder / "tileset.json");
+  EXPECT_EQ(read.report.documents, 1001u);
+  EXPECT_EQ(read.report.holes, 0u);
+  const std::size_t once = files["tileset.json"].size() + files["much.json"].size() + files["a.glb"].size();
+  EXPECT_EQ(read.report.bytes, once);
+}
+
+TEST(TilesetHostile, NestedTilesetsShareOneLimit) {
+  // Each takes 330 MB when it is parsed, and all that contain a tile are kept.
+  std::string arrays = "[0";
+  for (int i = 0; i < 3'400'000; ++i) arrays += ",[]";
+  Files files;
+  for (int i = 0; i < 5; ++i) {
+    json root = tile_json(10, "a.glb");
+    root["refine"] = "ADD";
+    root["children"] = {tile_json(5, "t" + std::to_string(i + 1) + ".json")};
+    const std::string text = tileset_json(root).dump();
+    files[i == 0 ? "tileset.json" : "t" + std::to_string(i) + ".json"] =
+        gzip(text.substr(0, text.size() - 1) + ",\"extras\":" + arrays + "]}");
+  }
+  files["a.glb"] = box_glb({{}});
+  TemporaryDirectory folder;
+  write_files(folder, files);
+  const TilesetScene read = read_tileset(folder / "tileset.json");
+  EXPECT_EQ(read.report.documents, 3u);
+  EXPECT_EQ(read.report.holes, 1u);
+  EXPECT_NE(read.report.first_hole.find("t3.json"), std::string::npos) << read.report.first_hole;
 }
 
 TEST(TilesetHostile, DeepNestingIsRefused) {

@@ -48,6 +48,9 @@ struct TilesetReport {
   /// behind it.
   std::size_t holes = 0;
   std::string first_hole = {};  ///< the first of them, and what is wrong with it
+  /// Coarser tiles that were taken, too, as finer ones that were to replace them cannot be read.
+  std::size_t coarser_kept = 0;
+  std::size_t unreadable_properties = 0;  ///< names and ids of features that are garbled: taken as missing
 
   double largest_error_m = 0;  ///< the geometric error of the coarsest tile that was taken
   std::size_t coarse = 0;  ///< tiles that were taken though their error is larger than asked: they have no finer ones
@@ -79,13 +82,15 @@ VANTAGE_API bool is_web_address(const std::filesystem::path& file);
 /// A tile that is finer than `detail_m` or has no finer ones is taken. With REPLACE refinement finer tiles stand for
 /// their parent, with ADD they are added to it. A tileset on the earth is turned, not bent, into the frame about the
 /// origin: straight lines stay straight, and z is the height above the plane that touches the ellipsoid at the origin.
-/// A file that cannot be read is a hole: see the report, and Scene::notes.
+/// A file that cannot be read is a hole: see the report, and Scene::notes. Where it was to replace a coarser tile (up
+/// to three levels above), that is taken as well.
 ///
 /// Throws Error(input) for: a tileset.json that cannot be read, options that are out of range, a centre outside of the
 /// tileset, nothing within the radius, no file that can be read, a tileset without end (more than 5 million tiles,
-/// 20,000 tileset.json and subtrees, or 200 million triangles); where a file needs a library that vantage was built
-/// without, or libcurl is not installed; a server that refuses the key or ends the session (401, 403). Error(cancelled)
-/// when told to stop. Cost: linear in the tiles looked at and the files read, on one thread.
+/// 20,000 tileset.json and subtrees with 1 GiB of text, 32 GiB of files, or 200 million triangles); where a file needs
+/// a library that vantage was built without, or libcurl is not installed; a server that refuses the key or ends the
+/// session (401, 403). Error(cancelled) when told to stop. Cost: linear in the tiles looked at and the files read, on
+/// one thread.
 VANTAGE_API TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options = {},
                                       const Progress& progress = {});
 

@@ -70,6 +70,8 @@ void add_tileset(Json& json, const TilesetReport& report) {
                      {"objects_outside", report.objects_outside},
                      {"holes", report.holes},
                      {"first_hole", report.first_hole.empty() ? Json(nullptr) : Json(report.first_hole)},
+                     {"coarser_kept", report.coarser_kept},
+                     {"unreadable_properties", report.unreadable_properties},
                      {"largest_error_m", report.largest_error_m},
                      {"coarse", report.coarse},
                      {"rim_drop_m", report.rim_drop_m},

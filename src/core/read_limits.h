@@ -9,6 +9,14 @@
 namespace vantage::internal::core {
 
 struct ReadLimits {
+  /// Those of a tile of 3D Tiles: it is a part of a city, made by a stranger, and a tileset has thousands of them.
+  static ReadLimits of_tiles() {
+    ReadLimits limits;
+    limits.decompressed_bytes = std::uint64_t{512} << 20;
+    limits.json_bytes = std::uint64_t{1} << 30;  // of all tilesets together that contain each other
+    return limits;
+  }
+
   /// Decompressed bytes of one file. A whole city of 100 million triangles is about 4 GB as OBJ.
   std::uint64_t decompressed_bytes = std::uint64_t{4} << 30;
 

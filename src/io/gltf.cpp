@@ -71,6 +71,8 @@ class GltfReader {
     return mesh;
   }
 
+  std::uint64_t unreadable_properties() const { return features_ ? features_->unreadable() : 0; }
+
   /// CESIUM_RTC (Cesium): what all positions are about.
   Vec3 center() const {
     const Json* const about = document_.extension(document_.root(), "CESIUM_RTC");
@@ -379,6 +381,7 @@ TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& 
   TileMesh result;
   result.mesh = reader.read();
   result.center = reader.center();
+  result.unreadable_properties = reader.unreadable_properties();
   return result;
 }
 

@@ -87,6 +87,18 @@ const Features::Table* Features::table(std::uint64_t index) {
   return &(tables_[index] = table);
 }
 
+/// Null where there is none, or a garbled one.
+const Features::Table* Features::table_or_nothing(std::uint64_t index) {
+  if (index == FeatureIds::kNoTable) return nullptr;
+  try {
+    return table(index);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::mesh_syntax) throw;
+    ++unreadable_;
+    return nullptr;
+  }
+}
+
 /// Of several sets of features the first whose table says who these are, or else the first.
 std::optional<FeatureIds> Features::best_of(const Json& sets,
                                             const std::function<Accessor(const std::string&)>& attribute) {
@@ -100,7 +112,8 @@ std::optional<FeatureIds> Features::best_of(const Json& sets,
     if (const auto number = document_.whole(set, "attribute")) {
       ids.values = attribute("_FEATURE_ID_" + std::to_string(*number));
     }
-    const Table* const known = ids.table == FeatureIds::kNoTable ? nullptr : table(ids.table);
+    const Table* const known = table_or_nothing(ids.table);
+    if (!known) ids.table = FeatureIds::kNoTable;
     const bool says_who = known && (!known->known.id.empty() || !known->known.name.empty());
     if (says_who) return ids;
     if (!best) best = ids;
@@ -141,9 +154,20 @@ SceneObject Features::identity(std::uint64_t index, std::uint64_t id) {
   const Table* const known = index == FeatureIds::kNoTable ? nullptr : table(index);
   if (!known || id >= known->count) return identity_of({}, tile_, id);
   const IdentityProperties& names = known->known;
-  return identity_of({value(*known, names.id, id), value(*known, names.number, id), value(*known, names.name, id),
-                      value(*known, names.address, id), value(*known, names.kind, id)},
+  const auto text = [&](const std::string& name) { return value_or_nothing(*known, name, id); };
+  return identity_of({text(names.id), text(names.number), text(names.name), text(names.address), text(names.kind)},
                      tile_, id);
+}
+
+/// A garbled table says less of who hides something. It must not take away what hides.
+std::string Features::value_or_nothing(const Table& from, const std::string& name, std::uint64_t row) {
+  try {
+    return value(from, name, row);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::mesh_syntax) throw;
+    ++unreadable_;
+    return {};
+  }
 }
 
 /// As text; empty for what is neither a text nor a number.

@@ -37,7 +37,10 @@ class Features {
   /// The same for instances of a node.
   std::optional<FeatureIds> of_node(const Json& node);
 
+  /// A property that cannot be read is taken as missing.
   SceneObject identity(std::uint64_t table, std::uint64_t id);
+  /// How many were.
+  std::uint64_t unreadable() const { return unreadable_; }
 
  private:
   struct Table {
@@ -49,7 +52,9 @@ class Features {
 
   const Json* member(const Json& object, const char* key) const;
   const Table* table(std::uint64_t index);
+  const Table* table_or_nothing(std::uint64_t index);
   std::optional<FeatureIds> best_of(const Json& sets, const std::function<Accessor(const std::string&)>& attribute);
+  std::string value_or_nothing(const Table& table, const std::string& property, std::uint64_t row);
   std::string value(const Table& table, const std::string& property, std::uint64_t row);
   std::string text_value(const Json& property, std::uint64_t row, std::uint64_t count);
 
@@ -57,6 +62,7 @@ class Features {
   Batch batch_;
   std::string tile_;
   std::map<std::uint64_t, Table> tables_;
+  std::uint64_t unreadable_ = 0;
 };
 
 }  // namespace vantage::internal::io::gltf

@@ -37,7 +37,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   ValueBuilder(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits)
       : text_(text), progress_(progress), limits_(limits) {}
 
-  json result() { return std::move(root_); }
+  MeasuredJson result() { return {std::move(root_), bytes_}; }
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -141,6 +141,11 @@ std::string words_of(const json::exception& error) {
 }
 
 json parse_json(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
+  return parse_json_measured(text, progress, limits).value;
+}
+
+MeasuredJson parse_json_measured(std::string_view text, const core::ProgressReporter& progress,
+                                 const core::ReadLimits& limits) {
   ValueBuilder builder(text, progress, limits);
   json::sax_parse(text.begin(), text.end(), &builder);
   return builder.result();

@@ -27,4 +27,12 @@ std::string words_of(const nlohmann::json::exception& error);
 nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress,
                           const core::ReadLimits& limits);
 
+/// The same with the memory that the value takes, as far as it can be told: what ReadLimits::json_bytes limits.
+struct MeasuredJson {
+  nlohmann::json value;
+  std::uint64_t bytes = 0;
+};
+MeasuredJson parse_json_measured(std::string_view text, const core::ProgressReporter& progress,
+                                 const core::ReadLimits& limits);
+
 }  // namespace vantage::internal::io

@@ -36,9 +36,12 @@ std::string without_end(std::string text) {
 
 /// A mesh that may have no triangles.
 std::optional<io::TileMesh> surfaces_of(const io::MeshSource& source, const core::ProgressReporter& progress,
-                                        const core::ReadLimits& limits, const io::TileContext& tile) {
+                                        const core::ReadLimits& limits, const io::TileContext& tile,
+                                        std::uint64_t& unreadable_properties) {
   try {
-    return io::read_gltf_tile(source, progress, limits, tile);
+    io::TileMesh mesh = io::read_gltf_tile(source, progress, limits, tile);
+    unreadable_properties += mesh.unreadable_properties;
+    return mesh;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::mesh_empty) return std::nullopt;
     throw;
@@ -59,7 +62,7 @@ void ContentReader::fail(const std::string& address, const std::string& problem)
 
 bool ContentReader::read(const std::string& address, const std::string& bytes, const Placement& placement) {
   models_.clear();
-  repeated_ = 0;
+  repeated_ = kept_ = other_bytes_ = 0;
   most_repeated_ = limits_.repeated_triangles + bytes.size() / 3;
   try {
     const bool any = read_part(address, bytes, placement, 0);
@@ -130,8 +133,9 @@ ContentReader::Parts ContentReader::split(const std::string& address, std::strin
 
 bool ContentReader::read_gltf(const std::string& address, std::string_view bytes, const Placement& placement) {
   const io::MeshSource source(source_.shown(address), std::string(bytes));
-  const auto from_here = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
-  const auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here});
+  const auto from_here = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
+  const auto mesh =
+      surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here}, unreadable_properties_);
   if (!mesh) return false;
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(mesh->center) * upright(placement.gltf_up),
                  source_.shown(address));
@@ -148,8 +152,8 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
   if (!features.is_empty() && features.whole("BATCH_LENGTH") > 0) {
     context.batch = [&batch](std::uint64_t id) { return batch.identity(id); };
   }
-  context.read_file = [&](const std::string& uri) { return source_.read(source_.resolve(address, uri), progress_); };
-  const auto mesh = surfaces_of(source, progress_, limits_, context);
+  context.read_file = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
+  const auto mesh = surfaces_of(source, progress_, limits_, context, unreadable_properties_);
   if (!mesh) return false;
   const Vec3 center = mesh->center + Vec3(about[0], about[1], about[2]);
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(center) * upright(placement.gltf_up),
@@ -157,15 +161,34 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
   return true;
 }
 
+/// A file that the content refers to. A small content may name one large file by many URIs, or in many parts.
+std::string ContentReader::other_file(const std::string& address) {
+  std::string bytes = source_.read(address, progress_);
+  other_bytes_ += bytes.size();
+  all_other_bytes_ += bytes.size();
+  if (other_bytes_ > limits_.decompressed_bytes) {
+    throw Error(ErrorCode::mesh_too_large,
+                "the files that one tile refers to have more than " +
+                    std::to_string(limits_.decompressed_bytes >> 20U) + " MiB together",
+                source_.shown(address), "export the tileset in smaller tiles");
+  }
+  return bytes;
+}
+
 /// The model of an i3dm that is another file. The parts of a composite may share one: it is read once.
 const std::optional<io::TileMesh>& ContentReader::model(const std::string& address, const std::string& uri) {
-  constexpr std::size_t kMostKept = 16;
+  constexpr std::size_t kMostKept = 16, kMostTriangles = 1'000'000;
   const std::string file = source_.resolve(address, uri);
   if (const auto known = models_.find(file); known != models_.end()) return known->second;
-  const io::MeshSource source(source_.shown(file), source_.read(file, progress_));
-  const auto from_model = [&](const std::string& name) { return source_.read(source_.resolve(file, name), progress_); };
-  auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_model});
-  if (models_.size() >= kMostKept) models_.clear();
+  const io::MeshSource source(source_.shown(file), other_file(file));
+  const auto from_model = [&](const std::string& name) { return other_file(source_.resolve(file, name)); };
+  auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_model}, unreadable_properties_);
+  const std::size_t triangles = mesh ? mesh->mesh.triangles.size() : 0;
+  if (models_.size() >= kMostKept || kept_ + triangles > kMostTriangles) {
+    models_.clear();
+    kept_ = 0;
+  }
+  kept_ += triangles;
   return models_[file] = std::move(mesh);
 }
 
@@ -189,10 +212,8 @@ bool ContentReader::read_instanced(const std::string& address, std::string_view 
   const bool is_apart = load_word(bytes, 28) == 0;  // the model is another file
   if (!is_apart) {
     const io::MeshSource source(source_.shown(address), std::string(parts.rest));
-    const auto from_here = [&](const std::string& uri) {
-      return source_.read(source_.resolve(address, uri), progress_);
-    };
-    own = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here});
+    const auto from_here = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
+    own = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here}, unreadable_properties_);
   }
   const std::optional<io::TileMesh>& mesh = is_apart ? model(address, without_end(std::string(parts.rest))) : own;
   if (!mesh) return false;

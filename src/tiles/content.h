@@ -26,6 +26,12 @@ class ContentReader {
                 const core::ReadLimits& limits)
       : source_(source), collector_(collector), progress_(progress), limits_(limits) {}
 
+  /// Bytes of other files that all contents referred to so far, each time that one was read.
+  std::uint64_t bytes_of_other_files() const { return all_other_bytes_; }
+
+  /// Names and ids of features that are garbled.
+  std::uint64_t unreadable_properties() const { return unreadable_properties_; }
+
   /// Adds the surfaces of a content to the collector. Returns whether there are any: a cloud of points has none.
   /// Throws Error(input).
   bool read(const std::string& address, const std::string& bytes, const Placement& placement);
@@ -38,6 +44,7 @@ class ContentReader {
   bool read_batched(const std::string& address, std::string_view bytes, const Placement& placement);
   bool read_instanced(const std::string& address, std::string_view bytes, const Placement& placement);
   const std::optional<io::TileMesh>& model(const std::string& address, const std::string& uri);
+  std::string other_file(const std::string& address);
   void count_repeated(const std::string& address, std::uint64_t instances, std::uint64_t triangles);
   bool read_gltf(const std::string& address, std::string_view bytes, const Placement& placement);
   Parts split(const std::string& address, std::string_view bytes, std::size_t header) const;
@@ -47,8 +54,11 @@ class ContentReader {
   Collector& collector_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
+  std::uint64_t all_other_bytes_ = 0, unreadable_properties_ = 0;
   // Of the content that is being read:
   std::map<std::string, std::optional<io::TileMesh>> models_;  // other files, by address
+  std::uint64_t kept_ = 0;                                     // triangles of these
+  std::uint64_t other_bytes_ = 0;                              // of other files, each time that one is read
   std::uint64_t repeated_ = 0, most_repeated_ = 0;             // triangles of instances
 };
 

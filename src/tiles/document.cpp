@@ -39,7 +39,9 @@ TilesetDocument::TilesetDocument(std::string address, std::string shown, std::st
     : address_(std::move(address)), shown_(std::move(shown)) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   try {
-    json_ = io::parse_json(text, progress, limits);
+    io::MeasuredJson parsed = io::parse_json_measured(text, progress, limits);
+    json_ = std::move(parsed.value);
+    memory_bytes_ = parsed.bytes;
   } catch (const io::JsonProblem& problem) {
     std::string where = shown_;
     if (problem.line > 0) {
@@ -113,8 +115,8 @@ std::optional<double> TilesetDocument::number(const Json& object, const char* ke
   return value;
 }
 
-std::vector<ContentName> TilesetDocument::contents(const Json& described) const {
-  std::vector<ContentName> found;
+void TilesetDocument::read_contents(const Json& described, Tile& tile) const {
+  std::vector<ContentName>& found = tile.contents;
   const auto add = [&](const Json& content) {
     if (!content.is_object()) fail("a \"content\" is not an object");
     const Json* uri = find_in(content, "uri");
@@ -132,9 +134,16 @@ std::vector<ContentName> TilesetDocument::contents(const Json& described) const 
   if (const Json* const multiple = extension_of(described, "3DTILES_multiple_contents")) {
     const Json* const list = multiple->is_object() ? find_in(*multiple, "contents") : nullptr;
     const Json* const older = multiple->is_object() ? find_in(*multiple, "content") : nullptr;
+    const std::size_t own = found.size();
     if (list || older) add_all(list ? *list : *older);
+    tile.extension_contents = found.size() - own;
+    // The extension forbids a "content" beside it. Where there is one for older programs it is one of the others.
+    for (std::size_t i = own; i < found.size() && own == 1; ++i) {
+      if (found[i].uri != found[0].uri) continue;
+      found.erase(found.begin());
+      break;
+    }
   }
-  return found;
 }
 
 Tile TilesetDocument::tile(const Json& described) const {
@@ -142,7 +151,7 @@ Tile TilesetDocument::tile(const Json& described) const {
   Tile tile;
   try {
     if (const Json* const bounds = find_in(described, "boundingVolume")) tile.bounds = parse_volume(*bounds);
-    tile.contents = contents(described);
+    read_contents(described, tile);
   } catch (const std::string& problem) {
     fail(problem);
   }

@@ -28,6 +28,7 @@ struct Tile {
   std::optional<double> error_m;
   std::optional<Refinement> refinement;
   std::vector<ContentName> contents;
+  std::size_t extension_contents = 0;  ///< how many of them, the last, are of 3DTILES_multiple_contents
   const Json* implicit = nullptr;
   const Json* children = nullptr;  ///< an array, or nothing
 };
@@ -43,6 +44,8 @@ class TilesetDocument {
   const std::string& shown() const { return shown_; }
   const Json& root() const { return *root_; }
   double error_m() const { return error_m_; }
+  /// Memory that the parsed text takes, about.
+  std::uint64_t memory_bytes() const { return memory_bytes_; }
   GltfUp gltf_up() const { return up_; }
 
   /// Throws Error(input) for one that is garbled.
@@ -52,11 +55,12 @@ class TilesetDocument {
  private:
   void check_version(const Json& json);
   void check_ellipsoid(const Json& json);
-  std::vector<ContentName> contents(const Json& described) const;
+  void read_contents(const Json& described, Tile& tile) const;
   std::optional<double> number(const Json& object, const char* key) const;
 
   std::string address_, shown_;
   Json json_;
+  std::uint64_t memory_bytes_ = 0;
   const Json* root_ = nullptr;
   double error_m_ = 0;
   GltfUp up_ = GltfUp::y;

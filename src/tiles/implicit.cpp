@@ -10,10 +10,13 @@
 namespace vantage::internal::tiles {
 namespace {
 
-// Deepest tree: its coordinates fit in 63 bits when they are interleaved.
-constexpr std::uint32_t kMostLevels = 21;
+// A tree may announce more levels than are needed: Walk stops where coordinates become too large.
+constexpr std::uint32_t kMostLevels = 1U << 31U;
+constexpr std::uint32_t kMostSubtreeLevels = 21;
 // Bits of one subtree: a quadtree of 12 levels, an octree of 8.
 constexpr std::uint64_t kMostBits = std::uint64_t{1} << 25U;
+// Of the buffers of one subtree, and of what is taken from them: an availability has at most 6 MB.
+constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20U;
 
 std::uint64_t whole_of(const Json& object, const char* key, std::uint64_t otherwise, std::uint64_t most) {
   const auto found = object.find(key);
@@ -56,12 +59,17 @@ struct Subtree::Parts {
     const std::string name = uri->get<std::string>();
     if (const auto known = buffers.find(name); known != buffers.end()) return known->second;
     std::string bytes = read_file(name);
-    if (bytes.size() > room) throw std::string("its buffers are too large together");
-    room -= bytes.size();
+    take(bytes.size());
     return buffers[name] = std::move(bytes);
   }
 
-  std::string view(std::uint64_t index) {
+  void take(std::uint64_t bytes) {
+    if (bytes > room) throw std::string("its buffers are too large together");
+    room -= bytes;
+  }
+
+  /// The first `wanted` bytes of a buffer view: many may name the same one.
+  std::string view(std::uint64_t index, std::uint64_t wanted) {
     const Json& all = member_of(json, "bufferViews");
     if (!all.is_array() || index >= all.size() || !all[index].is_object()) {
       throw std::string("a buffer view is missing");
@@ -71,7 +79,9 @@ struct Subtree::Parts {
     const std::uint64_t length = whole_of(all[index], "byteLength", 0, kMost);
     const std::string& bytes = buffer(whole_of(all[index], "buffer", 0, kMost));
     if (start + length > bytes.size()) throw std::string("a buffer view goes beyond the end of its buffer");
-    return bytes.substr(start, length);
+    if (length < wanted) throw std::string("an availability has too few bits");
+    take(wanted);
+    return bytes.substr(start, wanted);
   }
 };
 
@@ -85,8 +95,7 @@ Subtree::Bits Subtree::bits(const Json& described, std::uint64_t count, Parts& p
   const char* const key = described.contains("bitstream") ? "bitstream" : "bufferView";
   member_of(described, key);
   bits.is_constant = false;
-  bits.bytes = parts.view(whole_of(described, key, 0, 1U << 20U));
-  if (bits.bytes.size() < (count + 7) / 8) throw std::string("an availability has too few bits");
+  bits.bytes = parts.view(whole_of(described, key, 0, 1U << 20U), (count + 7) / 8);
   return bits;
 }
 
@@ -94,7 +103,7 @@ Subtree::Subtree(const std::string& bytes, const Shape& shape, const ReadFile& r
                  const core::ProgressReporter& progress, const core::ReadLimits& limits)
     : shape_(shape) {
   constexpr std::size_t kHeader = 24;
-  Parts parts{{}, {}, read_file, limits.decompressed_bytes, {}};
+  Parts parts{{}, {}, read_file, kMostBytes, {}};
   std::string_view text = bytes;
   if (bytes.starts_with("subt")) {
     if (bytes.size() < kHeader) throw std::string("it ends in its header");
@@ -115,22 +124,38 @@ Subtree::Subtree(const std::string& bytes, const Shape& shape, const ReadFile& r
   read_contents(inside, parts);
 }
 
-/// One availability for each content that the tile names: an array (1.1) or, of a single one, an object (1.0). The
-/// array may be in the extension of 1.0. To take what is missing for "no content" would lose surfaces unseen.
+/// One for each content of the tile: an array (1.1) or, of a single one, an object (1.0), at the top, or in the
+/// extension of 1.0 for the contents that are there.
+std::vector<const Json*> Subtree::availabilities(const Parts& parts) const {
+  const auto list = [](const Json& holder) {
+    std::vector<const Json*> found;
+    const auto described = holder.is_object() ? holder.find("contentAvailability") : holder.end();
+    if (described == holder.end()) return found;
+    if (!described->is_array()) return std::vector<const Json*>{&*described};
+    for (const Json& one : *described) found.push_back(&one);
+    return found;
+  };
+  const auto extensions = parts.json.find("extensions");
+  const bool has_extension =
+      extensions != parts.json.end() && extensions->is_object() && extensions->contains("3DTILES_multiple_contents");
+  const std::vector<const Json*> own = list(parts.json);
+  if (!has_extension) return own;
+  const std::vector<const Json*> others = list((*extensions)["3DTILES_multiple_contents"]);
+  if (others.size() >= shape_.contents) return others;
+  if (others.size() < shape_.extension_contents) return own;
+  // A "content" beside the extension's. If nothing is said of it, each tile has one: a file that there is not is told.
+  std::vector<const Json*> all = own;
+  all.resize(shape_.contents - shape_.extension_contents, &member_of(parts.json, "tileAvailability"));
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+/// To take what is missing for "no content" would lose surfaces unseen.
 void Subtree::read_contents(std::uint64_t count, Parts& parts) {
   if (shape_.contents == 0) return;
-  const Json* holder = &parts.json;
-  if (const auto extensions = parts.json.find("extensions"); extensions != parts.json.end()) {
-    const auto multiple = extensions->is_object() ? extensions->find("3DTILES_multiple_contents") : extensions->end();
-    if (multiple != extensions->end() && multiple->contains("contentAvailability")) holder = &*multiple;
-  }
-  const Json& described = member_of(*holder, "contentAvailability");
-  if (described.is_object()) {
-    contents_.push_back(bits(described, count, parts));
-  } else if (described.is_array()) {
-    for (std::size_t i = 0; i < described.size() && i < shape_.contents; ++i) {
-      contents_.push_back(bits(described[i], count, parts));
-    }
+  const std::vector<const Json*> described = availabilities(parts);
+  for (std::size_t i = 0; i < described.size() && i < shape_.contents; ++i) {
+    contents_.push_back(bits(*described[i], count, parts));
   }
   if (contents_.size() < shape_.contents) {
     throw "it has the availability of " + std::to_string(contents_.size()) + " of " + std::to_string(shape_.contents) +
@@ -162,7 +187,8 @@ ImplicitTree::ImplicitTree(std::shared_ptr<const TilesetDocument> of, const Tile
     if (!is_octree && scheme != "QUADTREE") throw std::string("\"subdivisionScheme\" is neither QUADTREE nor OCTREE");
     shape.children = is_octree ? 8 : 4;
     shape.contents = contents.size();
-    shape.levels = static_cast<std::uint32_t>(whole_of(described, "subtreeLevels", 0, kMostLevels));
+    shape.extension_contents = root.extension_contents;
+    shape.levels = static_cast<std::uint32_t>(whole_of(described, "subtreeLevels", 0, kMostSubtreeLevels));
     const bool is_older = !described.contains("availableLevels") && described.contains("maximumLevel");
     levels = static_cast<std::uint32_t>(is_older ? whole_of(described, "maximumLevel", 0, kMostLevels - 1) + 1
                                                  : whole_of(described, "availableLevels", 0, kMostLevels));
@@ -210,6 +236,12 @@ Volume ImplicitTree::bounds_of(const TileIndex& index) const {
 
 std::string ImplicitTree::uri_of(const std::string& pattern, const TileIndex& index) const {
   std::string uri = pattern;
+  // Braces may be written as RFC 3986 demands.
+  const std::array<std::pair<const char*, const char*>, 4> codes = {
+      {{"%7B", "{"}, {"%7b", "{"}, {"%7D", "}"}, {"%7d", "}"}}};
+  for (const auto& [code, brace] : codes) {
+    for (std::size_t at = uri.find(code); at != std::string::npos; at = uri.find(code, at)) uri.replace(at, 3, brace);
+  }
   const std::array<std::pair<const char*, std::uint64_t>, 4> values = {
       {{"{level}", index.level}, {"{x}", index.at[0]}, {"{y}", index.at[1]}, {"{z}", index.at[2]}}};
   for (const auto& [name, value] : values) {

@@ -26,6 +26,7 @@ class Subtree {
     std::uint32_t levels = 0;
     std::uint32_t children = 4;
     std::size_t contents = 0;
+    std::size_t extension_contents = 0;  ///< the last of these
   };
   /// Reads what another file holds.
   using ReadFile = std::function<std::string(const std::string& uri)>;
@@ -55,6 +56,7 @@ class Subtree {
   std::uint64_t before(std::uint32_t level) const;  ///< tiles of the levels above
   static Bits bits(const Json& described, std::uint64_t count, Parts& parts);
   void read_contents(std::uint64_t count, Parts& parts);
+  std::vector<const Json*> availabilities(const Parts& parts) const;
 
   Shape shape_;
   Bits tiles_, children_;

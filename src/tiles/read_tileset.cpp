@@ -146,7 +146,7 @@ void add_ground(Scene& scene, double z, const std::optional<double>& radius_m) {
 TilesetScene read(TileSource& source, const std::filesystem::path& file, const TilesetOptions& options,
                   const core::ProgressReporter& progress) {
   check_options(options, file.string());
-  const core::ReadLimits limits;
+  const core::ReadLimits limits = core::ReadLimits::of_tiles();
   TilesetScene result;
   const auto document = root_document(source, progress, limits, result.report);
   const Tile root = document->tile(document->root());
@@ -179,6 +179,16 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
         format("{} of the tileset's files cannot be read: what they hold is missing, so that volumes may "
                "claim too much behind it. The first: {}",
                report.holes, report.first_hole));
+  }
+  if (report.coarser_kept > 0) {
+    notes.push_back(
+        format("{} coarser tiles are kept, as finer ones that replace them cannot be read: they hide what is behind "
+               "them, too",
+               report.coarser_kept));
+  }
+  if (report.unreadable_properties > 0) {
+    notes.push_back(
+        format("{} names or ids of features cannot be read: taken as missing", report.unreadable_properties));
   }
   if (report.without_surfaces > 0) {
     notes.push_back(

@@ -37,7 +37,7 @@ std::string FolderSource::resolve(const std::string& base, const std::string& ur
   const auto fail = [&](ErrorCode code, const std::string& problem, const std::string& fix) {
     throw Error(code, problem, shown(base), fix);
   };
-  if (uri.find("://") != std::string::npos || uri.starts_with("data:")) {
+  if (uri.find("://") < uri.find_first_of("/?#") || uri.starts_with("data:")) {
     fail(ErrorCode::mesh_unsupported, "the tileset refers to " + in_quotes(uri) + ", which is no file beside it",
          "download the whole tileset");
   }
@@ -65,7 +65,7 @@ std::string FolderSource::read(const std::string& address, const core::ProgressR
     throw Error(ErrorCode::mesh_unsupported, "a file of the tileset is a link out of the tileset's folder",
                 file.string(), "put all files of the tileset into its folder");
   }
-  return std::string(io::load_mesh_source(file, progress).bytes());
+  return std::string(io::load_mesh_source(file, progress, core::ReadLimits::of_tiles()).bytes());
 }
 
 }  // namespace vantage::internal::tiles

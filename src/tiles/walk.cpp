@@ -14,8 +14,13 @@ constexpr std::uint64_t kMostTiles = 5'000'000;
 constexpr std::uint64_t kMostDocuments = 20'000;  ///< tilesets and subtrees
 constexpr std::uint64_t kMostFiles = 200'000;
 constexpr std::uint64_t kMostHoles = 20'000;
-constexpr int kMostNested = 64;  ///< tilesets, one inside of the other
+// What is read, each time that it is: small files that are compressed, or named thousands of times, become large.
+constexpr std::uint64_t kMostBytes = std::uint64_t{32} << 30U;
+constexpr std::uint64_t kMostText = std::uint64_t{1} << 30U;         ///< of tilesets and subtrees, which take longest
+constexpr std::uint64_t kMostRemembered = std::uint64_t{64} << 20U;  ///< memory of tilesets that may be named again
+constexpr int kMostNested = 64;                                      ///< tilesets, one inside of the other
 constexpr int kDeepest = 1'000;
+constexpr int kMostCoarser = 3;  ///< ancestors that are tried in place of a tile that cannot be read
 
 /// Whether no other file will be read better: then the walk ends.
 bool ends_all(const Error& error) {
@@ -54,7 +59,7 @@ Walk::Walk(TileSource& source, Collector& collector, const Reach& reach, double 
 void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
   ++report_.documents;
   Visit root;
-  root.trail = std::make_shared<Trail>(Trail{document, nullptr, 0, 0});
+  root.trail = std::make_shared<Trail>(Trail{document, nullptr, 0, document->memory_bytes()});
   root.described = &document->root();
   root.parent = Transform::Identity();
   root.error_m = document->error_m();
@@ -68,8 +73,10 @@ void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
     } catch (const Error& error) {
       if (ends_all(error)) throw;
       count_hole(error);
+      keep_coarser(next.coarser);
     }
   }
+  report_.unreadable_properties = contents_.unreadable_properties();
 }
 
 void Walk::count_hole(const Error& error) {
@@ -84,18 +91,57 @@ void Walk::count_hole(const Error& error) {
   }
 }
 
+void Walk::fail_for_too_many(const std::string& address) const {
+  throw Error(ErrorCode::region_invalid,
+              report_.documents > kMostDocuments
+                  ? "the region has more than " + std::to_string(kMostDocuments) + " tilesets, or there is no end"
+                  : "the region has more than " + std::to_string(kMostFiles) + " files",
+              source_.shown(address), "give a smaller radius, or a larger detail");
+}
+
 std::string Walk::read_file(const std::string& address) {
-  const bool has_too_many_documents = report_.documents > kMostDocuments;
-  if (has_too_many_documents || report_.contents + report_.without_surfaces > kMostFiles) {
-    throw Error(ErrorCode::region_invalid,
-                has_too_many_documents
-                    ? "the region has more than " + std::to_string(kMostDocuments) + " tilesets, or there is no end"
-                    : "the region has more than " + std::to_string(kMostFiles) + " files",
-                source_.shown(address), "give a smaller radius, or a larger detail");
-  }
+  const bool has_too_many_files = report_.contents + report_.without_surfaces > kMostFiles;
+  if (has_too_many_files || report_.documents > kMostDocuments) fail_for_too_many(address);
   std::string bytes = source_.read(address, progress_);
   report_.bytes += bytes.size();
+  if (report_.bytes + contents_.bytes_of_other_files() > kMostBytes) {
+    throw Error(ErrorCode::region_invalid,
+                "the files of the region have more than " + std::to_string(kMostBytes >> 30U) + " GiB together",
+                source_.shown(address), "give a smaller radius, or a larger detail");
+  }
   return bytes;
+}
+
+/// A file that says which tiles there are.
+std::string Walk::read_description(const std::string& address) {
+  std::string text = read_file(address);
+  described_bytes_ += text.size();
+  if (described_bytes_ > kMostText) {
+    throw Error(
+        ErrorCode::region_invalid,
+        "the tilesets and subtrees of the region have more than " + std::to_string(kMostText >> 20U) + " MiB together",
+        source_.shown(address), "give a smaller radius, or a larger detail");
+  }
+  return text;
+}
+
+/// Takes the nearest tile above that can be read, which a tile was to replace that cannot be: rather too much is hidden
+/// than too little.
+void Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
+  for (int i = 0; i < kMostCoarser && tile && !tile->is_taken; ++i, tile = tile->above) {
+    tile->is_taken = true;
+    Visit visit;
+    visit.trail = tile->trail;
+    visit.coarser = tile->above;
+    visit.depth = tile->depth;
+    visit.refinement = tile->here.refinement;
+    const std::uint64_t holes = report_.holes;
+    read_contents(visit, tile->here, [](const ContentName& content) { return !is_named_json(content.uri); });
+    if (report_.holes > holes) continue;
+    ++report_.coarser_kept;
+    report_.largest_error_m = std::max(report_.largest_error_m, tile->here.error_m);
+    return;
+  }
 }
 
 void Walk::visit(const Visit& visit) {
@@ -137,15 +183,15 @@ void Walk::visit_explicit(const Visit& visit) {
     next.parent = here.into_world;
     next.refinement = here.refinement;
     next.error_m = here.error_m;
+    next.coarser = here.coarser;
     next.depth = visit.depth + 1;
     waiting_.push_back(std::move(next));
   }
 }
 
 /// Reads what a tile holds where it is wanted. Returns whether the tile's children are wanted, too.
-bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
+bool Walk::take(const Visit& visit, Here& here, bool has_children) {
   const auto is_document = [](const ContentName& content) { return is_named_json(content.uri); };
-  const TilesetDocument& document = *visit.trail->document;
   const bool has_own = std::any_of(here.contents.begin(), here.contents.end(),
                                    [&](const ContentName& content) { return !is_document(content); });
   // A tile without content is finer only in its children, whatever it says.
@@ -155,13 +201,28 @@ bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
     report_.largest_error_m = std::max(report_.largest_error_m, here.error_m);
     if (here.error_m > detail_m_) ++report_.coarse;
   }
+  here.coarser = visit.coarser;
+  here.is_taken = is_taken;
+  const std::uint64_t holes = report_.holes;
+  read_contents(visit, here, [&](const ContentName& content) { return is_taken || is_document(content); });
+  if (report_.holes > holes) keep_coarser(visit.coarser);
+  if (has_own && !is_taken) {
+    here.coarser = std::make_shared<Coarser>(Coarser{visit.trail, here, visit.coarser, visit.depth, false});
+  }
+  return goes_on;
+}
+
+/// What cannot be read is a hole.
+void Walk::read_contents(const Visit& visit, const Here& here,
+                         const std::function<bool(const ContentName&)>& is_wanted) {
+  const TilesetDocument& document = *visit.trail->document;
   for (const ContentName& content : here.contents) {
-    if (!is_taken && !is_document(content)) continue;
+    if (!is_wanted(content)) continue;
     if (!reach_.meets(moved(content.bounds, here.into_world))) continue;
     try {
       const std::string address = source_.resolve(document.address(), content.uri);
-      if (is_document(content)) {
-        wait_for(visit, here, address, is_taken);
+      if (is_named_json(content.uri)) {
+        wait_for(visit, here, address, here.is_taken);
       } else {
         read_content(visit, here, address);
       }
@@ -170,7 +231,6 @@ bool Walk::take(const Visit& visit, const Here& here, bool has_children) {
       count_hole(error);
     }
   }
-  return goes_on;
 }
 
 void Walk::read_content(const Visit& visit, const Here& here, const std::string& address) {
@@ -196,6 +256,7 @@ void Walk::wait_for(const Visit& visit, const Here& here, const std::string& add
   next.trail = visit.trail;
   next.external = address;
   next.is_taken = is_taken;
+  next.coarser = visit.coarser;
   next.parent = here.into_world;
   next.refinement = here.refinement;
   next.depth = visit.depth + 1;
@@ -203,7 +264,6 @@ void Walk::wait_for(const Visit& visit, const Here& here, const std::string& add
 }
 
 void Walk::visit_external(const Visit& visit) {
-  constexpr std::size_t kMostText = std::size_t{1} << 29;  // bytes, of all tilesets that contain each other
   const std::string& address = visit.external;
   const auto refuse = [&](const std::string& problem, const std::string& fix) {
     throw Error(ErrorCode::mesh_syntax, problem, source_.shown(address), fix);
@@ -218,24 +278,49 @@ void Walk::visit_external(const Visit& visit) {
     refuse("tilesets contain each other more than " + std::to_string(kMostNested) + " levels deep",
            "export the tileset again");
   }
-  const std::string text = read_file(address);
-  if (!is_tileset_text(text)) {
-    if (!visit.is_taken) refuse("the file is no tileset, though its name says so", "name it as what it is");
-    read_mesh(address, text, visit.parent, *visit.trail);
-    return;
+  auto document = remembered(address);
+  if (!document) {
+    const std::string text = read_description(address);
+    if (!is_tileset_text(text)) {
+      if (!visit.is_taken) refuse("the file is no tileset, though its name says so", "name it as what it is");
+      read_mesh(address, text, visit.parent, *visit.trail);
+      return;
+    }
+    core::ReadLimits limits = limits_;
+    limits.json_bytes -= std::min(limits.json_bytes, visit.trail->memory_bytes);
+    document = std::make_shared<TilesetDocument>(address, source_.shown(address), text, progress_, limits);
+    remember(document);
   }
-  const std::size_t text_bytes = visit.trail->text_bytes + text.size();
-  if (text_bytes > kMostText) refuse("tilesets that contain each other take more than 512 MiB", "export them in parts");
   ++report_.documents;
-  const auto document = std::make_shared<TilesetDocument>(address, source_.shown(address), text, progress_, limits_);
   Visit next;
-  next.trail = std::make_shared<Trail>(Trail{document, visit.trail, visit.trail->depth + 1, text_bytes});
+  next.trail = std::make_shared<Trail>(
+      Trail{document, visit.trail, visit.trail->depth + 1, visit.trail->memory_bytes + document->memory_bytes()});
   next.described = &document->root();
   next.parent = visit.parent;
   next.refinement = visit.refinement;
   next.error_m = document->error_m();
+  next.coarser = visit.coarser;
   next.depth = visit.depth;
   waiting_.push_back(std::move(next));
+}
+
+/// Many tiles may refer to one tileset: it is parsed once. Null for one that is not kept.
+std::shared_ptr<const TilesetDocument> Walk::remembered(const std::string& address) {
+  if (report_.documents > kMostDocuments) fail_for_too_many(address);
+  const auto known = std::find_if(remembered_.begin(), remembered_.end(),
+                                  [&](const auto& document) { return document->address() == address; });
+  return known == remembered_.end() ? nullptr : *known;
+}
+
+void Walk::remember(const std::shared_ptr<const TilesetDocument>& document) {
+  constexpr std::size_t kMost = 64;  // each is looked at
+  if (document->memory_bytes() > kMostRemembered) return;
+  remembered_.push_back(document);
+  remembered_bytes_ += document->memory_bytes();
+  while (remembered_bytes_ > kMostRemembered || remembered_.size() > kMost) {
+    remembered_bytes_ -= remembered_.front()->memory_bytes();
+    remembered_.pop_front();
+  }
 }
 
 void Walk::enter_tree(const Visit& visit, const Tile& tile, const Here& here) {
@@ -248,7 +333,7 @@ void Walk::enter_subtree(const Visit& visit, const std::shared_ptr<const Implici
   const std::string address = source_.resolve(tree->document->address(), tree->uri_of(tree->subtrees, root));
   const auto read_buffer = [&](const std::string& uri) { return read_file(source_.resolve(address, uri)); };
   auto loaded = std::make_shared<LoadedSubtree>(LoadedSubtree{tree, root, nullptr});
-  const std::string bytes = read_file(address);
+  const std::string bytes = read_description(address);
   ++report_.documents;
   try {
     loaded->bits = std::make_shared<Subtree>(bytes, tree->shape, read_buffer, progress_, limits_);
@@ -261,6 +346,7 @@ void Walk::enter_subtree(const Visit& visit, const std::shared_ptr<const Implici
   next.trail = visit.trail;
   next.subtree = loaded;
   next.index = root;
+  next.coarser = visit.coarser;
   next.parent = into_world;
   next.refinement = refinement;
   next.depth = visit.depth + 1;
@@ -293,6 +379,7 @@ void Walk::visit_implicit(const Visit& visit) {
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
     Visit next = visit;
     next.index = *child;
+    next.coarser = here.coarser;
     next.depth = visit.depth + 1;
     waiting_.push_back(std::move(next));
   }
@@ -302,6 +389,8 @@ std::vector<TileIndex> Walk::children_of(const Visit& visit) const {
   const ImplicitTree& tree = *visit.subtree->tree;
   std::vector<TileIndex> children;
   if (visit.index.level + 1 >= tree.levels) return children;
+  constexpr std::uint32_t kDeepestIndex = 60;  // coordinates of tiles are numbers of 64 bits
+  if (visit.index.level >= kDeepestIndex) tree.document->fail("its implicit tiles are deeper than 60 levels");
   const std::uint32_t level = visit.index.level + 1 - visit.subtree->root.level;
   for (std::uint64_t i = 0; i < tree.shape.children; ++i) {
     TileIndex child = visit.index;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,8 +30,9 @@ class Walk {
     std::shared_ptr<const TilesetDocument> document;
     std::shared_ptr<const Trail> parent;
     int depth = 0;
-    std::size_t text_bytes = 0;  ///< of all these files
+    std::uint64_t memory_bytes = 0;  ///< of all these files when they are parsed
   };
+  struct Coarser;
   struct LoadedSubtree {
     std::shared_ptr<const ImplicitTree> tree;
     TileIndex root;
@@ -47,6 +50,7 @@ class Walk {
     Refinement refinement = Refinement::replace;
     double error_m = 0;  ///< of the parent
     int depth = 0;
+    std::shared_ptr<Coarser> coarser = {};  ///< the nearest tile above that was passed over for finer ones
   };
   /// A visited tile in the world.
   struct Here {
@@ -55,12 +59,25 @@ class Walk {
     double error_m = 0;
     Refinement refinement = Refinement::replace;
     std::vector<ContentName> contents;
+    bool is_taken = false;
+    std::shared_ptr<Coarser> coarser = {};  ///< of its children
+  };
+  /// A tile with a content that is passed over, as its children replace it.
+  struct Coarser {
+    std::shared_ptr<const Trail> trail;
+    Here here;
+    std::shared_ptr<Coarser> above;
+    int depth = 0;
+    bool is_taken = false;  ///< after all, for want of a tile that was to replace it
   };
 
   void visit(const Visit& visit);
   void visit_explicit(const Visit& visit);
   void visit_implicit(const Visit& visit);
-  bool take(const Visit& visit, const Here& here, bool has_children);
+  bool take(const Visit& visit, Here& here, bool has_children);
+  void read_contents(const Visit& visit, const Here& here,
+                     const std::function<bool(const ContentName& content)>& is_wanted);
+  void keep_coarser(std::shared_ptr<Coarser> tile);
   void read_content(const Visit& visit, const Here& here, const std::string& address);
   void read_mesh(const std::string& address, const std::string& bytes, const Transform& into_world, const Trail& trail);
   void wait_for(const Visit& visit, const Here& here, const std::string& address, bool is_taken);
@@ -70,6 +87,10 @@ class Walk {
                      const Transform& into_world, Refinement refinement);
   std::vector<TileIndex> children_of(const Visit& visit) const;
   std::string read_file(const std::string& address);
+  std::string read_description(const std::string& address);
+  std::shared_ptr<const TilesetDocument> remembered(const std::string& address);
+  void remember(const std::shared_ptr<const TilesetDocument>& document);
+  [[noreturn]] void fail_for_too_many(const std::string& address) const;
   void count_hole(const Error& error);
 
   TileSource& source_;
@@ -80,7 +101,9 @@ class Walk {
   const core::ReadLimits& limits_;
   ContentReader contents_;
   std::vector<Visit> waiting_;  ///< a stack
-  std::uint64_t looked_at_ = 0;
+  std::uint64_t looked_at_ = 0, described_bytes_ = 0;
+  std::deque<std::shared_ptr<const TilesetDocument>> remembered_;  ///< that were read last
+  std::uint64_t remembered_bytes_ = 0;
 };
 
 }  // namespace vantage::internal::tiles
