@@ -65,8 +65,8 @@ std::string first_session(const nlohmann::json& root) {
       const std::string text = uri->get<std::string>();
       const std::size_t mark = text.find('?');
       if (mark == std::string::npos) continue;
-      if (std::string found = parameter(std::string_view(text).substr(mark + 1), "session"); !found.empty())
-        return found;
+      const std::string_view query = std::string_view{text}.substr(mark + 1);
+      if (std::string found = parameter(query, "session"); !found.empty()) return found;
     }
     if (value.is_structured()) {
       for (const nlohmann::json& member : value) waiting.push_back(&member);

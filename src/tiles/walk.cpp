@@ -135,9 +135,12 @@ void Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
     visit.coarser = tile->above;
     visit.depth = tile->depth;
     visit.refinement = tile->here.refinement;
-    const std::uint64_t holes = report_.holes;
-    read_contents(visit, tile->here, [](const ContentName& content) { return !is_named_json(content.uri); });
-    if (report_.holes > holes) continue;
+    std::size_t unread = 0;  // no holes: nobody asked for them
+    const std::size_t contents = report_.contents;
+    read_contents(
+        visit, tile->here, [](const ContentName& content) { return !is_named_json(content.uri); },
+        [&](const Error&) { ++unread; });
+    if (unread > 0 || report_.contents == contents) continue;
     ++report_.coarser_kept;
     report_.largest_error_m = std::max(report_.largest_error_m, tile->here.error_m);
     return;
@@ -204,7 +207,9 @@ bool Walk::take(const Visit& visit, Here& here, bool has_children) {
   here.coarser = visit.coarser;
   here.is_taken = is_taken;
   const std::uint64_t holes = report_.holes;
-  read_contents(visit, here, [&](const ContentName& content) { return is_taken || is_document(content); });
+  read_contents(
+      visit, here, [&](const ContentName& content) { return is_taken || is_document(content); },
+      [&](const Error& error) { count_hole(error); });
   if (report_.holes > holes) keep_coarser(visit.coarser);
   if (has_own && !is_taken) {
     here.coarser = std::make_shared<Coarser>(Coarser{visit.trail, here, visit.coarser, visit.depth, false});
@@ -212,9 +217,9 @@ bool Walk::take(const Visit& visit, Here& here, bool has_children) {
   return goes_on;
 }
 
-/// What cannot be read is a hole.
-void Walk::read_contents(const Visit& visit, const Here& here,
-                         const std::function<bool(const ContentName&)>& is_wanted) {
+/// `tell`: is told of what cannot be read.
+void Walk::read_contents(const Visit& visit, const Here& here, const std::function<bool(const ContentName&)>& is_wanted,
+                         const std::function<void(const Error&)>& tell) {
   const TilesetDocument& document = *visit.trail->document;
   for (const ContentName& content : here.contents) {
     if (!is_wanted(content)) continue;
@@ -228,7 +233,7 @@ void Walk::read_contents(const Visit& visit, const Here& here,
       }
     } catch (const Error& error) {
       if (ends_all(error)) throw;
-      count_hole(error);
+      tell(error);
     }
   }
 }

@@ -76,7 +76,8 @@ class Walk {
   void visit_implicit(const Visit& visit);
   bool take(const Visit& visit, Here& here, bool has_children);
   void read_contents(const Visit& visit, const Here& here,
-                     const std::function<bool(const ContentName& content)>& is_wanted);
+                     const std::function<bool(const ContentName& content)>& is_wanted,
+                     const std::function<void(const Error& error)>& tell);
   void keep_coarser(std::shared_ptr<Coarser> tile);
   void read_content(const Visit& visit, const Here& here, const std::string& address);
   void read_mesh(const std::string& address, const std::string& bytes, const Transform& into_world, const Trail& trail);
