@@ -138,9 +138,9 @@ std::vector<const Json*> Subtree::availabilities(const Parts& parts) const {
   const auto extensions = parts.json.find("extensions");
   const bool has_extension =
       extensions != parts.json.end() && extensions->is_object() && extensions->contains("3DTILES_multiple_contents");
-  const std::vector<const Json*> own = list(parts.json);
+  std::vector<const Json*> own = list(parts.json);
   if (!has_extension) return own;
-  const std::vector<const Json*> others = list((*extensions)["3DTILES_multiple_contents"]);
+  std::vector<const Json*> others = list((*extensions)["3DTILES_multiple_contents"]);
   if (others.size() >= shape_.contents) return others;
   if (others.size() < shape_.extension_contents) return own;
   // A "content" beside the extension's. If nothing is said of it, each tile has one: a file that there is not is told.
