@@ -1,5 +1,6 @@
 #include "interpreter.h"
 
+#include <dlfcn.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -19,7 +20,16 @@ std::atomic<int> computing = 0;
 std::atomic<bool> ends = false;
 
 bool is_finalizing() {
-#if PY_VERSION_HEX >= 0x030d0000
+#ifdef Py_LIMITED_API
+  // In the stable ABI since Python 3.13; Python 3.12 has it under the other name.
+  using Asked = int (*)();
+  static const auto asked = [] {
+    void* found = dlsym(RTLD_DEFAULT, "Py_IsFinalizing");
+    if (found == nullptr) found = dlsym(RTLD_DEFAULT, "_Py_IsFinalizing");
+    return reinterpret_cast<Asked>(found);
+  }();
+  return asked != nullptr && asked() != 0;
+#elif PY_VERSION_HEX >= 0x030d0000
   return Py_IsFinalizing() != 0;
 #else
   return _Py_IsFinalizing() != 0;
@@ -43,7 +53,7 @@ void begin_anew() {
 
 }  // namespace
 
-bool is_first_interpreter() { return PyInterpreterState_Get() == PyInterpreterState_Main(); }
+bool is_first_interpreter() { return PyInterpreterState_GetID(PyInterpreterState_Get()) == 0; }
 
 void watch_interpreter() {
   main_thread = nb::cast<unsigned long>(nb::module_::import_("threading").attr("main_thread")().attr("ident"));

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <stdio.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,8 +20,10 @@ namespace fs = std::filesystem;
 
 /// Puts `folder` in the place of another one, and the other one in its place.
 bool exchange_folders(const fs::path& folder, const fs::path& place) {
-#ifdef RENAME_EXCHANGE
-  return ::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0;
+#ifdef SYS_renameat2
+  // The system's call itself: the C library has a function for it, and the name of the flag, since glibc 2.28 only.
+  constexpr unsigned kExchange = 2;  // RENAME_EXCHANGE of renameat2(2)
+  return ::syscall(SYS_renameat2, AT_FDCWD, folder.c_str(), AT_FDCWD, place.c_str(), kExchange) == 0;
 #else
   errno = ENOSYS;
   return false;
