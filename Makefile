@@ -136,7 +136,18 @@ wheel:  ## a wheel with all that it needs in it, in dist/
 
 .PHONY: wheelcheck
 wheelcheck: wheel  ## try that wheel in a root with Python and numpy alone
-	@scripts/check_wheel.sh dist/vantage-*-cp311-*.whl
+	@scripts/check_wheel.sh dist/vantage-*-cp311-manylinux_2_3?_x86_64.whl
+
+.PHONY: wheels
+wheels:  ## wheels for old systems, other processors and later versions of Python, in dist/
+	@scripts/install_packages.sh --wheels
+	@scripts/fetch_sources.sh
+	@scripts/build_portable_wheels.py --jobs $(JOBS)
+
+.PHONY: wheelscheck
+wheelscheck: wheels build  ## try each of them as `make wheelcheck` does; those for aarch64 in an emulator
+	@for wheel in $$(ls dist/vantage-*.whl | grep -E 'manylinux(2014|_2_[12][0-9])_'); do \
+	  scripts/check_wheel.sh $$wheel || exit 1; done
 
 .PHONY: web
 web:  ## the page, in web/dist/index.html: one file

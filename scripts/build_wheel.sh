@@ -46,11 +46,11 @@ CMAKE_BUILD_PARALLEL_LEVEL=$jobs "$tools/bin/python" -m pip wheel --disable-pip-
   . >"$build/log" 2>&1 </dev/null || { tail -n 40 "$build/log" >&2; echo "the whole log: $build/log" >&2; exit 1; }
 grep -h '^licences:' "$build/log" || true
 
-# Nothing is left to bundle: this names the systems that the wheel fits.
-rm -f dist/vantage-*-"$tag"-*.whl
+# Nothing is left to bundle: this names the systems that the wheel fits. Those of build_portable_wheels.py fit older ones.
+rm -f dist/vantage-*-"$tag"-manylinux_2_3?_*.whl
 PATH=$tools/bin:$PATH "$tools/bin/python" -m auditwheel repair --wheel-dir dist "$build"/raw/vantage-*.whl >>"$build/log" 2>&1 ||
   { tail -n 20 "$build/log" >&2; exit 1; }
-"$tools/bin/python" scripts/wheel_licences.py check dist/vantage-*-"$tag"-*.whl
-"$tools/bin/python" -m zipfile --list dist/vantage-*-"$tag"-*.whl | grep -q share/web/index.html ||
+"$tools/bin/python" scripts/wheel_licences.py check dist/vantage-*-"$tag"-manylinux_2_3?_*.whl
+"$tools/bin/python" -m zipfile --list dist/vantage-*-"$tag"-manylinux_2_3?_*.whl | grep -q share/web/index.html ||
   echo "the page of \`vantage view\` is not in it: run \`make web\` first"
-du -h dist/vantage-*-"$tag"-*.whl
+du -h dist/vantage-*-"$tag"-manylinux_2_3?_*.whl

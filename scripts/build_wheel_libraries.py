@@ -3,18 +3,23 @@
 wheel_libraries.toml, from Debian's source packages, pinned by hash. Does nothing when they are there.
 
     build_wheel_libraries.py [--list FILE] [--folder FOLDER] [--jobs N]
+    build_wheel_libraries.py --target x86_64-linux-gnu.2.17 [...]    with zig for another system, into .deps/wheel-TARGET
 
-The sources come from the archive that apt uses on this machine.
+The sources come from the archive that apt uses on this machine. For another system no library of this one is taken, only
+headers and data; and each library that is built is kept, where the next one fails.
 """
 
 import argparse
+import dataclasses
 import hashlib
+import json
 import os
 import pathlib
 import shlex
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import tomllib
 
@@ -37,6 +42,15 @@ def run(command: list[str], folder: pathlib.Path, log: pathlib.Path, **variables
 
 # ---- sources
 
+def series(tar: tarfile.TarFile) -> list[str]:
+    """The patches that Debian applies, in their order."""
+    file = tar.extractfile("debian/patches/series")
+    if file is None:
+        raise Failure(f"{tar.name} has no debian/patches/series")
+    lines = (line.split("#")[0].strip() for line in file.read().decode().splitlines())
+    return [line.split()[0] for line in lines if line]
+
+
 def unpack(library: dict, downloads: pathlib.Path, into: pathlib.Path, log: pathlib.Path) -> pathlib.Path:
     """The source of a library, with Debian's patches where the list asks for them."""
     with tarfile.open(fetch(library["source"], library["sha256"], downloads)) as tar:
@@ -45,7 +59,7 @@ def unpack(library: dict, downloads: pathlib.Path, into: pathlib.Path, log: path
     source = tops[0] if len(tops) == 1 else into
     if "patches" in library:
         with tarfile.open(fetch(library["patches_from"], library["patches_sha256"], downloads)) as tar:
-            for name in library["patches"]:
+            for name in library["patches"] or series(tar):
                 tar.extract(f"debian/patches/{name}", source)
                 run(["patch", "-p1", "-i", f"debian/patches/{name}"], source, log)
     if "own_patch" in library:
@@ -64,10 +78,43 @@ def installed_version(package: str) -> str:
     return asked.stdout
 
 
+@dataclasses.dataclass
+class Tools:
+    """The commands that compile, what CMake and configure must be told of them, and the keys of the list that are meant
+    for them."""
+
+    c: str = "gcc"
+    cxx: str = "g++"
+    ar: str = "ar"
+    ranlib: str = "ranlib"
+    for_cmake: list[str] = dataclasses.field(default_factory=list)
+    for_configure: list[str] = dataclasses.field(default_factory=list)
+    kind: str = "native"
+    processor: str = ""
+
+    def options(self, library: dict) -> list[str]:
+        more = library.get("portable_options", []) if self.kind == "portable" else []
+        return [*library["options"], *more, *library.get(f"{self.processor}_options", [])]
+
+
+def zig_tools(target: str, prefix: pathlib.Path) -> Tools:
+    """Those of zig, for a system as zig names it."""
+    made = subprocess.run([str(HERE / "zig_compiler.sh"), target], capture_output=True, text=True, check=False)
+    if made.returncode:
+        raise Failure(made.stderr.strip())
+    folder = pathlib.Path(made.stdout.strip())
+    processor = target.partition("-")[0]
+    return Tools(*(str(folder / name) for name in ("clang", "clang++", "ar", "ranlib")),
+                 [f"-DCMAKE_TOOLCHAIN_FILE={HERE.parent / 'cmake' / 'Zig.cmake'}", f"-DVANTAGE_ZIG={folder}",
+                  f"-DVANTAGE_ZIG_PREFIX={prefix}", f"-DVANTAGE_ZIG_PROCESSOR={processor}"],
+                 [f"--host={target.partition('.')[0]}"], "portable", processor)
+
+
 class Builder:
-    def __init__(self, folder: pathlib.Path, prefix: pathlib.Path, flags: str, jobs: int):
-        self.folder, self.prefix, self.jobs = folder, prefix, str(jobs)
-        self.launcher = shutil.which("ccache") or "env"
+    def __init__(self, folder: pathlib.Path, prefix: pathlib.Path, flags: str, jobs: int, tools: Tools):
+        self.folder, self.prefix, self.jobs, self.tools = folder, prefix, str(jobs), tools
+        # zig keeps what it compiled by itself.
+        self.launcher = (shutil.which("ccache") if tools.kind == "native" else None) or "env"
         # The folder must not show in what is built.
         self.flags = f"{flags} -ffile-prefix-map={folder}=."
         self.environment = {"CFLAGS": self.flags, "CXXFLAGS": self.flags, "CCACHE_BASEDIR": str(folder),
@@ -76,6 +123,7 @@ class Builder:
     def build(self, library: dict) -> None:
         slug = library["name"].lower().replace("/", "-")
         work, log = self.folder / slug, self.folder / f"{slug}.log"
+        shutil.rmtree(work, ignore_errors=True)
         work.mkdir()
         (self.folder / "downloads").mkdir(exist_ok=True)
         (work / "source").mkdir()
@@ -85,7 +133,7 @@ class Builder:
 
     def with_cmake(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
         build = work / "build"
-        options = [option.format(prefix=self.prefix) for option in library["options"]]
+        options = [option.format(prefix=self.prefix) for option in [*self.tools.for_cmake, *self.tools.options(library)]]
         run(["cmake", "-S", str(source / library.get("folder", ".")), "-B", str(build), "-G", "Ninja",
              "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG", "-DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG",
              "-DBUILD_SHARED_LIBS=OFF", "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", f"-DCMAKE_PREFIX_PATH={self.prefix}",
@@ -102,7 +150,8 @@ class Builder:
         build = work / "build"
         build.mkdir()
         run([str(source / "configure"), f"--prefix={self.prefix}", "--disable-shared", "--enable-static",
-             *library["options"], f"CC={self.launcher} gcc", f"LDFLAGS=-L{self.prefix / 'lib'}", "LIBS=-lz -lm"],
+             *self.tools.for_configure, *self.tools.options(library), f"CC={self.launcher} {self.tools.c}",
+             f"AR={self.tools.ar}", f"RANLIB={self.tools.ranlib}", f"LDFLAGS=-L{self.prefix / 'lib'}", "LIBS=-lz -lm"],
             build, log, **self.environment)
         run(["make", f"-j{self.jobs}", "-C", library["folder"], "install"], build, log, **self.environment)
         if "then" in library:
@@ -110,18 +159,20 @@ class Builder:
 
     def with_sources(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
         objects = []
+        for command in library.get("before", []):
+            run(shlex.split(command), source, log)
         for name in library["sources"]:
-            compiler = "g++" if name.endswith(".cpp") else "gcc"
+            compiler = self.tools.cxx if name.endswith(".cpp") else self.tools.c
             objects.append(str(work / (pathlib.PurePosixPath(name).stem + ".o")))
-            run([self.launcher, compiler, *shlex.split(self.flags), "-DNDEBUG", "-c", name, "-o", objects[-1]], source,
+            run([self.launcher, compiler, *shlex.split(self.flags), *library.get("defines", []), "-DNDEBUG", "-c", name, "-o", objects[-1]], source,
                 log, **self.environment)
-        run(["ar", "rcs", str(self.prefix / "lib" / f"lib{library['library']}.a"), *objects], work, log)
+        run([self.tools.ar, "rcs", str(self.prefix / "lib" / f"lib{library['library']}.a"), *objects], work, log)
         for folder, headers in library["includes"].items():
             to = self.prefix / "include" / folder
             to.mkdir(parents=True, exist_ok=True)
             for header in headers:
                 shutil.copy(source / header, to)
-        self.describe(library["library"], library["library"], library["version"], folders=list(library["includes"]))
+        self.describe(library.get("pkg_config", library["library"]), library["library"], library["version"], folders=list(library["includes"]))
 
     def take_installed(self, package: dict) -> None:
         """What is taken from an installed Debian package, with its version."""
@@ -133,6 +184,8 @@ class Builder:
             shutil.copy(files[name], self.prefix / "lib")
         for name in package.get("includes", []):
             shutil.copy(files[name], self.prefix / "include")
+        if self.tools.kind == "portable":
+            self.link_headers(package)
         for folder, names in package.get("files", {}).items():
             (self.prefix / folder).mkdir(parents=True, exist_ok=True)
             for name in names:
@@ -143,6 +196,18 @@ class Builder:
         self.keep_texts({**package, "texts": [f"/usr/share/doc/{package['package']}/copyright"]}, pathlib.Path("/"))
         (self.prefix / "versions").mkdir(exist_ok=True)
         (self.prefix / "versions" / package["package"]).write_text(asked + "\n", encoding="utf-8")
+
+    def link_headers(self, package: dict) -> None:
+        """The headers of a package and what CMake reads of them, apart from those of this system's C library."""
+        for name in package.get("folders", []):
+            link = self.prefix / "include" / name
+            link.unlink(missing_ok=True)
+            link.symlink_to(pathlib.Path("/usr/include") / name)
+        for name in package.get("config", []):
+            origin = pathlib.Path("/usr") / name.format(multiarch=sysconfig.get_config_var("MULTIARCH"))
+            to = self.prefix / name.format(multiarch="any")
+            # But not what names libraries.
+            shutil.copytree(origin, to, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*-targets-none.cmake"))
 
     def describe(self, name: str, library: str, version: str, needs: str = "", folders: list[str] | None = None) -> None:
         """What pkg-config tells of a library; `folders` below include/ are those of its headers."""
@@ -166,43 +231,81 @@ def settle_prefix(prefix: pathlib.Path) -> None:
         file.write_text("".join(lines), encoding="utf-8")
 
 
+def wanted(libraries: dict, section: str, kind: str) -> list[dict]:
+    return [entry for entry in libraries.get(section, []) if entry.get("only", kind) == kind]
+
+
+def build_native(libraries: dict, folder: pathlib.Path, listed: pathlib.Path, jobs: int) -> None:
+    """All of them anew, where one of them, or how they are built, has changed."""
+    prefix, build = folder / "prefix", folder / "build"
+    installed, built = (wanted(libraries, section, "native") for section in ("installed", "built"))
+    versions = [installed_version(package["package"]) for package in installed]
+    files = [listed, pathlib.Path(__file__), *sorted((HERE / "wheel_patches").glob("*.patch"))]
+    text = b"".join(file.read_bytes() for file in files) + "\n".join(versions).encode()
+    stamp = folder / f"{hashlib.sha256(text).hexdigest()[:16]}.stamp"
+    if stamp.exists():
+        return
+    for old in (prefix, build, *folder.glob("*.stamp")):
+        shutil.rmtree(old) if old.is_dir() else old.unlink(missing_ok=True)
+    for part in ("include", "lib/pkgconfig"):
+        (prefix / part).mkdir(parents=True)
+    build.mkdir()
+    (folder / "downloads").mkdir(exist_ok=True)
+    (build / "downloads").symlink_to(folder / "downloads")
+    builder = Builder(build, prefix, libraries["flags"]["compiler"], jobs, Tools())
+    for package in installed:
+        builder.take_installed(package)
+    for number, library in enumerate(built, 1):
+        print(f"building {library['name']} {library['version']} ({number} of {len(built)})", flush=True)
+        builder.build(library)
+        settle_prefix(prefix)
+    shutil.rmtree(build)
+    stamp.touch()
+
+
+def build_portable(libraries: dict, folder: pathlib.Path, target: str, jobs: int) -> None:
+    """Those that are not there yet as the list describes them."""
+    prefix, build, done = folder / "prefix", folder / "build", folder / "done"
+    for part in (prefix / "include", prefix / "lib" / "pkgconfig", build, done, folder / "downloads"):
+        part.mkdir(parents=True, exist_ok=True)
+    if not (build / "downloads").exists():
+        (build / "downloads").symlink_to(folder / "downloads")
+    tools = zig_tools(target, prefix)
+    flags = f"{libraries['portable']['compiler']} {libraries['portable'][tools.processor]}"
+    builder = Builder(build, prefix, flags, jobs, tools)
+    for package in wanted(libraries, "installed", "portable"):
+        builder.take_installed(package)
+    built = wanted(libraries, "built", "portable")
+    for number, library in enumerate(built, 1):
+        patch = (HERE / library["own_patch"]).read_text(encoding="utf-8") if "own_patch" in library else ""
+        text = f"{json.dumps(library, sort_keys=True)}\n{flags}\n{patch}"
+        stamp = done / f"{library['name']}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+        if stamp.exists():
+            continue
+        print(f"building {library['name']} {library['version']} for {target} ({number} of {len(built)})", flush=True)
+        builder.build(library)
+        settle_prefix(prefix)
+        stamp.touch()
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--list", type=pathlib.Path, default=HERE / "wheel_libraries.toml")
-    parser.add_argument("--folder", type=pathlib.Path, default=HERE.parent / ".deps" / "wheel")
+    parser.add_argument("--folder", type=pathlib.Path, help=".deps/wheel or .deps/wheel-TARGET")
+    parser.add_argument("--target", help="build with zig for this system: x86_64-linux-gnu.2.17")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
-    folder = arguments.folder.resolve()
-    prefix = folder / "prefix"
+    name = f"wheel-{arguments.target}" if arguments.target else "wheel"
+    folder = (arguments.folder or HERE.parent / ".deps" / name).resolve()
     try:
         libraries = tomllib.loads(arguments.list.read_text(encoding="utf-8"))
-        versions = [installed_version(package["package"]) for package in libraries.get("installed", [])]
-        files = [arguments.list, pathlib.Path(__file__), *sorted((HERE / "wheel_patches").glob("*.patch"))]
-        text = b"".join(file.read_bytes() for file in files) + "\n".join(versions).encode()
-        stamp = folder / f"{hashlib.sha256(text).hexdigest()[:16]}.stamp"
-        if stamp.exists():
-            return 0
-        build = folder / "build"
-        for old in (prefix, build, *folder.glob("*.stamp")):
-            shutil.rmtree(old) if old.is_dir() else old.unlink(missing_ok=True)
-        for part in ("include", "lib/pkgconfig"):
-            (prefix / part).mkdir(parents=True)
-        build.mkdir()
-        (folder / "downloads").mkdir(exist_ok=True)
-        (build / "downloads").symlink_to(folder / "downloads")
-        builder = Builder(build, prefix, libraries["flags"]["compiler"], arguments.jobs)
-        for package in libraries.get("installed", []):
-            builder.take_installed(package)
-        for number, library in enumerate(libraries.get("built", []), 1):
-            count = len(libraries["built"])
-            print(f"building {library['name']} {library['version']} ({number} of {count})", flush=True)
-            builder.build(library)
-            settle_prefix(prefix)
+        if arguments.target:
+            build_portable(libraries, folder, arguments.target, arguments.jobs)
+        else:
+            build_native(libraries, folder, arguments.list, arguments.jobs)
     except (Failure, OSError, KeyError, tomllib.TOMLDecodeError) as error:
         print(f"{error}", file=sys.stderr)
         return 1
-    shutil.rmtree(build)
-    stamp.touch()
     return 0
 
 

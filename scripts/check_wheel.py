@@ -23,6 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SQUARE = [[-12, -9, 0], [8, -11, 0], [11, 0, 0], [4, 10, 0], [-13, 8, 0]]
 SET_FLAGS, IS_UP = 0x8914, 1  # netdevice(7): SIOCSIFFLAGS, IFF_UP
 STARTED = time.perf_counter()
+PYTHON = [sys.executable]  # the command that starts it again
 
 
 def tell(what: str) -> None:
@@ -36,7 +37,7 @@ def expect(condition: bool, what: str) -> None:
 
 
 def program(*arguments: str) -> str:
-    result = subprocess.run([sys.executable, "-m", "vantage", *arguments], capture_output=True, text=True, cwd="/check",
+    result = subprocess.run([*PYTHON, "-m", "vantage", *arguments], capture_output=True, text=True, cwd="/check",
                             check=False)
     expect(result.returncode == 0, f"python -m vantage {' '.join(arguments)}: exit {result.returncode} {result.stderr[-300:]}")
     return result.stdout
@@ -66,6 +67,14 @@ def same_as_program(result: vt.Result, name: str, expected: pathlib.Path | None)
         expect(written == (expected / f"{name}.ply").read_bytes(), f"{name}: the same bytes as the program outside of the wheel")
 
 
+def check_volumes(expected: pathlib.Path) -> None:
+    """Twenty volumes, which the program outside of the wheel computed too."""
+    result = subprocess.run([*PYTHON, "/check/same_bytes.py", "--expected", str(expected / "volumes.csv"), "--run-by", *PYTHON],
+                            capture_output=True, text=True, cwd="/check", check=False)
+    pathlib.Path("/check/volumes.csv").write_text(result.stdout)
+    expect(result.returncode == 0, result.stderr.strip())
+
+
 def check_page() -> None:
     """A report, and what `view` serves, where the wheel was built with the page."""
     mission = str(HERE / "examples/plaza/mission.yaml")
@@ -77,7 +86,7 @@ def check_page() -> None:
     expect("vantageReport" in report and "vantageLive=" not in report, f"a report of {len(report)} bytes")
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:  # a root without network has no 127.0.0.1 either
         fcntl.ioctl(any_socket, SET_FLAGS, struct.pack("16sh22x", b"lo", IS_UP))
-    server = subprocess.Popen([sys.executable, "-m", "vantage", "view", mission, "--no-browser"], stdout=subprocess.PIPE, text=True)
+    server = subprocess.Popen([*PYTHON, "-m", "vantage", "view", mission, "--no-browser"], stdout=subprocess.PIPE, text=True)
     try:
         assert server.stdout is not None
         address = server.stdout.readline().strip()
@@ -108,7 +117,10 @@ def main() -> int:
     parser.add_argument("--no-opengl", action="store_true", help="a picture must fail, and say what it lacks")
     parser.add_argument("--picture", help="where to draw one")
     parser.add_argument("--expected", type=pathlib.Path, help="volumes of the examples, from a program built otherwise")
+    parser.add_argument("--run-by", help="an emulator that starts this Python")
     arguments = parser.parse_args()
+    if arguments.run_by:
+        PYTHON.insert(0, arguments.run_by)
     tell(f"import vantage {vt.__version__} from {pathlib.Path(vt.__file__).parent}, numpy {np.__version__}, "
          f"Python {sys.version.split()[0]}")
     check_binaries()
@@ -132,6 +144,8 @@ def main() -> int:
     expect(town.scene.georeference is not None, f"town: {town.scene.crs}")
     same_as_program(town, "town", arguments.expected)
 
+    if arguments.expected:
+        check_volumes(arguments.expected)
     check_page()
     cube = vt.Scene.from_bytes(dutch_cube().encode(), "json")
     place = cube.georeference

@@ -18,6 +18,7 @@ _LOAD, _DYNAMIC, _INTERPRETER = 1, 2, 3  # p_type
 _STACK, _RELRO, _PROPERTY = 0x6474E551, 0x6474E552, 0x6474E553
 _EXECUTE, _WRITE = 1, 2  # p_flags
 _NEEDED, _STRTAB, _SYMTAB, _RPATH, _RUNPATH, _FLAGS = 1, 5, 6, 15, 29, 30  # d_tag
+_VERSIONS, _VERSION_COUNT = 0x6FFFFFFE, 0x6FFFFFFF
 _FLAGS_1, _GNU_HASH, _HASH = 0x6FFFFFFB, 0x6FFFFEF5, 4
 _BIND_NOW, _NOW = 8, 1  # in DT_FLAGS, in DT_FLAGS_1
 _FUNCTION, _LOCAL = 2, 0  # of symbols
@@ -108,6 +109,23 @@ class Elf:
     def needed(self) -> list[str]:
         """The libraries that it asks for."""
         return self._dynamic_texts(_NEEDED)
+
+    @property
+    def needed_versions(self) -> set[str]:
+        """The versions of interfaces that it asks of libraries: GLIBC_2.17."""
+        found: set[str] = set()
+        if not self._values(_VERSIONS):
+            return found
+        at, names = self._offset(self._values(_VERSIONS)[0]), self._offset(self._values(_STRTAB)[0])
+        for _ in range(self._values(_VERSION_COUNT)[0]):
+            _, count, _, first, following = struct.unpack_from("<HHIII", self._data, at)
+            inner = at + first
+            for _ in range(count):
+                _, _, _, name, step = struct.unpack_from("<IHHII", self._data, inner)
+                found.add(self._text(names + name))
+                inner += step
+            at += following
+        return found
 
     @property
     def binds_at_once(self) -> bool:

@@ -193,6 +193,13 @@ class Checks(unittest.TestCase):
                 self.assertIn(fault, self.faults(f"{self.GOOD} {bad} {more}", code), bad)
         self.assertIn("no PIE", self.faults(f"{self.GOOD} -no-pie -fno-pic -fno-pie", program))
 
+    def test_the_versions_are_read(self):
+        library = self.make("one.so", f"{self.GOOD} -shared")
+        told = subprocess.run(["readelf", "--version-info", "--wide", str(library)], capture_output=True, text=True, check=True)
+        needed = told.stdout.partition("Version needs")[2]
+        self.assertEqual(read_elf.read(library).needed_versions, set(re.findall(r"Name: (\S+)", needed)))
+        self.assertEqual(read_elf.read(self.make("none.so", "-shared -nostdlib", "int nothing;")).needed_versions, set())
+
     def test_the_property_is_read(self):
         for flags, found in (("-fcf-protection=full", read_elf.IBT | read_elf.SHSTK), ("-fcf-protection=branch", read_elf.IBT),
                              ("-fcf-protection=return", read_elf.SHSTK), ("-fcf-protection=none", 0)):

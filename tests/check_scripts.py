@@ -339,6 +339,34 @@ class Scripts(unittest.TestCase):
             {pathlib.Path("/deps/cdt"): "CDT"}, listed)
         self.assertEqual((strange, used), (["/opt/gpl/a.h (of no Debian package)"], {"CDT"}))
 
+    def test_portable_wheel_is_named_by_what_it_needs(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        self.addCleanup(sys.path.remove, str(ROOT / "scripts"))
+        portable = importlib.import_module("build_portable_wheels")
+        folder, dist = self.scratch / "wheel", self.scratch / "dist"
+        module, info = folder / "vantage" / "_core.abi3.so", folder / "vantage-1.dist-info"
+        for made in (module.parent, info, dist):
+            made.mkdir(parents=True)
+
+        def pack(symbol: str, version: str) -> list[str]:
+            """The names of the wheels there are after packing a module that takes one function from glibc."""
+            stub = self.scratch / "libc.so.6"
+            link = ["gcc", "-shared", "-fPIC", "-nostdlib", "-Wl,--no-as-needed", "-x", "c", "-"]
+            (self.scratch / "map").write_text(f"GLIBC_{version} {{ global: {symbol}; }};\n", encoding="utf-8")
+            subprocess.run([*link, "-Wl,-soname,libc.so.6", f"-Wl,--version-script={self.scratch / 'map'}", "-o", str(stub)],
+                           input=f"void {symbol}(void) {{}}", text=True, check=True)
+            subprocess.run([*link, "-o", str(module), "-x", "none", str(stub)], text=True, check=True,
+                           input=f"void {symbol}(void); void PyInit__core(void) {{ {symbol}(); }}")
+            portable.pack(folder, "cp312-abi3", "x86_64", dist)
+            return [file.name for file in dist.glob("*.whl")]
+
+        self.assertEqual(pack("older", "2.4"), ["vantage-1-cp312-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl"])
+        self.assertEqual(pack("newer", "2.28"), ["vantage-1-cp312-abi3-manylinux_2_28_x86_64.whl"])
+        with zipfile.ZipFile(next(dist.iterdir())) as archive:
+            self.assertIn("Tag: cp312-abi3-manylinux_2_28_x86_64\n", archive.read("vantage-1.dist-info/WHEEL").decode())
+            rows = [line.split(",") for line in archive.read("vantage-1.dist-info/RECORD").decode().split()]
+            self.assertEqual({row[0] for row in rows}, set(archive.namelist()))
+
     def test_wheel_libraries_are_those_that_are_pinned(self):
         archive = self.archive("thing-1", ["thing.c", "LICENSE"])
         pool = self.scratch / "pool"

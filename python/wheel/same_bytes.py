@@ -18,7 +18,8 @@ import sys
 import tempfile
 import time
 
-EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
+HERE = pathlib.Path(__file__).resolve().parent
+EXAMPLES = next(folder / "examples" for folder in (HERE, *HERE.parents) if (folder / "examples").is_dir())
 SQUARE = "{name: square, vertices: [[-12, -9, 0], [8, -11, 0], [11, 0, 0], [4, 10, 0], [-13, 8, 0]]}"
 WALL = "{name: wall, vertices: [[-5, 3, 2], [5, 3, 2], [5, 3, 9], [-5, 3, 9]], sides: both}"
 CAMERA = "camera: {width: 4000, height: 3000, sensor_width: 17.3, focal_length: 12}"
@@ -66,9 +67,10 @@ def missions() -> dict[str, str]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", help="the program; else `python -m vantage` of this Python")
+    parser.add_argument("--run-by", nargs="+", default=[sys.executable], help="the command that starts Python")
     parser.add_argument("--expected", type=pathlib.Path, help="a table that this one must be the same as")
     arguments = parser.parse_args()
-    program = [arguments.program] if arguments.program else [sys.executable, "-m", "vantage"]
+    program = [arguments.program] if arguments.program else [*arguments.run_by, "-m", "vantage"]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for name, text in missions().items():

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""Builds wheels that run on old Linux systems and on other processors, into dist/, with the compiler of zig: for each
+system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI).
+
+    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
+
+What is in them: wheel_libraries.toml. The name of a wheel says which glibc it needs: the newest version that one of the
+functions has which it takes from glibc.
+"""
+
+import argparse
+import base64
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+
+import read_elf
+from build_wheel_libraries import Failure, run, zig_tools
+from debian_archive import fetch
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parent
+DEPS = PROJECT / ".deps"
+TARGETS = ["x86_64-linux-gnu.2.17", "aarch64-linux-gnu.2.17"]
+TAGS = {"cp311": "cp311-cp311", "abi3": "cp312-abi3"}
+FIXED_TIME = (2020, 1, 1, 0, 0, 0)  # of all files: the same wheel from the same sources
+
+
+def python_headers(python: str, processor: str, folder: pathlib.Path, libraries: dict) -> list[pathlib.Path]:
+    """The folders of the headers of a Python, from Debian's package for that processor."""
+    package = libraries["python"][python]
+    file = fetch(package[processor], package[f"{processor}_sha256"], folder / "downloads")
+    into = folder / "python" / file.stem
+    if not into.exists():
+        half = into.with_suffix(".new")
+        shutil.rmtree(half, ignore_errors=True)
+        half.mkdir(parents=True)
+        with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", str(file)], stdout=subprocess.PIPE) as unpacked:
+            subprocess.run(["tar", "-x", "-C", str(half), "./usr/include"], stdin=unpacked.stdout, check=True)
+        half.rename(into)
+    include = into / "usr" / "include"
+    return [next(include.glob("python3.*")), include]
+
+
+def make_tools(deps: pathlib.Path) -> pathlib.Path:
+    """An environment with what makes wheels."""
+    lock = PROJECT / "python" / "wheel-requirements.lock"
+    folder = deps / "wheel-tools"
+    stamp = folder / f"{hashlib.sha256(lock.read_bytes()).hexdigest()[:16]}.stamp"
+    if not stamp.exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        subprocess.run([sys.executable, "-m", "venv", str(folder)], check=True)
+        subprocess.run([str(folder / "bin" / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
+                        "--require-hashes", "--no-deps", "--only-binary=:all:", "--requirement", str(lock)], check=True)
+        stamp.touch()
+    return folder / "bin" / "python"
+
+
+def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.Path, tools: pathlib.Path, jobs: int,
+                 libraries: dict) -> pathlib.Path:
+    """Compiles vantage, and puts what belongs into the wheel into a folder."""
+    zig = zig_tools(target, folder / "prefix")
+    portable = libraries["portable"]
+    flags = f"{portable['vantage']} {portable[zig.processor]} -ffile-prefix-map={PROJECT}=."
+    headers = python_headers(python, zig.processor, folder, libraries)
+    soabi = "abi3" if python == "abi3" else f"cpython-311-{zig.processor}-linux-gnu"
+    log = build / "log"
+    out = build / python
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    run([str(tools), "-c", "import sys; from scikit_build_core.build import prepare_metadata_for_build_wheel as prepare; "
+         "prepare(sys.argv[1])", str(out)], PROJECT, log)
+    info = next(out.glob("*.dist-info"))
+    environment = {"PKG_CONFIG_LIBDIR": str(folder / "prefix" / "lib" / "pkgconfig")}
+    run(["cmake", "-S", str(PROJECT), "-B", str(build / "cmake"), "-G", "Ninja", *zig.for_cmake,
+         "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG",
+         f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}", "-DBUILD_SHARED_LIBS=OFF", "-DVANTAGE_CCACHE=OFF",
+         "-DVANTAGE_BUILD_PYTHON=ON", "-DVANTAGE_BUILD_TESTS=OFF", "-DVANTAGE_BUILD_BENCHMARKS=OFF", "-DVANTAGE_INSTALL=OFF",
+         "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_WHEEL=ON", f"-DVANTAGE_WHEEL_PREFIX={folder / 'prefix'}",
+         "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_WITH_DRACO=OFF", "-DVANTAGE_WITH_MESHOPT=OFF",
+         "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
+         f"-Dfmt_DIR={folder / 'prefix' / 'lib' / 'any' / 'cmake' / 'fmt'}", f"-DPython_EXECUTABLE={tools}",
+         f"-DVANTAGE_PYTHON_HEADERS={';'.join(map(str, headers))}", f"-DVANTAGE_PYTHON_SOABI={soabi}",
+         f"-DSKBUILD_METADATA_DIR={info}", *portable["vantage_options"]], build, log, **environment)
+    run(["cmake", "--build", str(build / "cmake"), "--parallel", str(jobs), "--target", "vantage_python"], build, log)
+    run(["cmake", "--install", str(build / "cmake"), "--prefix", str(out), "--component", "python"], build, log)
+    for file in (PROJECT / "python" / "vantage").iterdir():
+        if file.is_file():
+            shutil.copy(file, out / "vantage")
+    return out
+
+
+def lowest_glibc(module: pathlib.Path) -> str:
+    """The oldest glibc that has all that the module takes from it."""
+    elf = read_elf.read(module)
+    if elf is None:
+        raise Failure(f"{module} is no library of Linux")
+    for library in elf.needed:
+        if not re.match(r"(libc|libm|libdl|libpthread|librt|ld-linux-[\w-]+)\.so\.", library):
+            raise Failure(f"{module} needs {library}, which is not of glibc")
+    versions = [tuple(map(int, name.removeprefix("GLIBC_").split("."))) for name in elf.needed_versions
+                if re.fullmatch(r"GLIBC_[0-9.]+", name)]
+    if not versions:
+        raise Failure(f"{module} takes nothing from glibc")
+    return "_".join(map(str, max(versions)[:2]))
+
+
+def platform_tags(glibc: str, processor: str) -> list[str]:
+    """What installers call systems with that glibc: the older name too, where there is one."""
+    major, minor = (int(part) for part in glibc.split("_"))
+    minor = max(minor, 17)  # no older system has this Python
+    older = {17: "manylinux2014"}.get(minor) if major == 2 else None
+    return [f"manylinux_{major}_{minor}_{processor}"] + ([f"{older}_{processor}"] if older else [])
+
+
+def pack(folder: pathlib.Path, tag: str, processor: str, dist: pathlib.Path) -> pathlib.Path:
+    """The wheel of what lies in a folder."""
+    module = next((folder / "vantage").glob("_core.*.so"))
+    platforms = platform_tags(lowest_glibc(module), processor)
+    info = next(folder.glob("*.dist-info"))
+    lines = ["Wheel-Version: 1.0", "Generator: vantage", "Root-Is-Purelib: false", *(f"Tag: {tag}-{name}" for name in platforms)]
+    (info / "WHEEL").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (info / "RECORD").unlink(missing_ok=True)
+    files = sorted(file for file in folder.rglob("*") if file.is_file())
+    record = []
+    for file in files:
+        digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).rstrip(b"=").decode()
+        record.append(f"{file.relative_to(folder).as_posix()},sha256={digest},{file.stat().st_size}")
+    name = info.name.removesuffix(".dist-info")
+    (info / "RECORD").write_text("\n".join([*record, f"{info.name}/RECORD,,"]) + "\n", encoding="utf-8")
+    for old in dist.glob(f"{name}-{tag}-*_{processor}.whl"):
+        if not re.search("manylinux_2_3[0-9]_", old.name):  # that of `make wheel`
+            old.unlink()
+    wheel = dist / f"{name}-{tag}-{'.'.join(platforms)}.whl"
+    half = wheel.with_suffix(".new")
+    with zipfile.ZipFile(half, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in [*files, info / "RECORD"]:
+            entry = zipfile.ZipInfo(file.relative_to(folder).as_posix(), FIXED_TIME)
+            entry.external_attr = (0o100755 if file.suffix == ".so" else 0o100644) << 16
+            archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED)
+    half.replace(wheel)
+    return wheel
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--targets", nargs="+", default=TARGETS)
+    parser.add_argument("--pythons", nargs="+", choices=sorted(TAGS), default=list(TAGS))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    arguments = parser.parse_args()
+    libraries = tomllib.loads((HERE / "wheel_libraries.toml").read_text(encoding="utf-8"))
+    dist = PROJECT / "dist"
+    dist.mkdir(exist_ok=True)
+    try:
+        tools = make_tools(DEPS)
+        for target in arguments.targets:
+            subprocess.run([str(HERE / "build_wheel_libraries.py"), "--target", target, "--jobs", str(arguments.jobs)], check=True)
+            build = PROJECT / "build-wheel" / target
+            build.mkdir(parents=True, exist_ok=True)
+            for python in arguments.pythons:
+                print(f"building vantage for {target}, {TAGS[python]}", flush=True)
+                folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, libraries)
+                wheel = pack(folder, TAGS[python], target.partition("-")[0], dist)
+                subprocess.run([sys.executable, str(HERE / "wheel_licences.py"), "check", str(wheel)], check=True)
+                print(f"{wheel.stat().st_size / 1e6:.1f} MB  {wheel}", flush=True)
+    except (Failure, OSError, KeyError, subprocess.CalledProcessError) as error:
+        print(f"{error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
