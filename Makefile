@@ -139,7 +139,7 @@ wheelcheck: wheel  ## try that wheel in a root with Python and numpy alone
 	@scripts/check_wheel.sh dist/vantage-*-cp311-manylinux_2_3?_x86_64.whl
 
 .PHONY: wheels
-wheels:  ## wheels for old systems, other processors and later versions of Python, in dist/
+wheels:  ## wheels for old systems, aarch64 and later versions of Python, in dist/ (not tried to the end yet)
 	@scripts/install_packages.sh --wheels
 	@scripts/fetch_sources.sh
 	@scripts/build_portable_wheels.py --jobs $(JOBS)

@@ -6,6 +6,10 @@ system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI
 
 What is in them: wheel_libraries.toml. The name of a wheel says which glibc it needs: the newest version that one of the
 functions has which it takes from glibc.
+
+State: no wheel has been linked by it yet. For x86-64 the libraries up to Cairo are built; vantage is configured, and parts
+of it are compiled, for the stable ABI. HiGHS is left out (`vantage_options`), as it takes minutes to compile. Nothing was
+tried for aarch64 but a program in C.
 """
 
 import argparse
@@ -77,6 +81,9 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
     run([str(tools), "-c", "import sys; from scikit_build_core.build import prepare_metadata_for_build_wheel as prepare; "
          "prepare(sys.argv[1])", str(out)], PROJECT, log)
     info = next(out.glob("*.dist-info"))
+    cache = build / "cmake" / "CMakeCache.txt"
+    if cache.exists() and any(done.stat().st_mtime > cache.stat().st_mtime for done in (folder / "done").iterdir()):
+        cache.unlink()  # what CMake remembers of libraries holds until they are built anew
     environment = {"PKG_CONFIG_LIBDIR": str(folder / "prefix" / "lib" / "pkgconfig")}
     run(["cmake", "-S", str(PROJECT), "-B", str(build / "cmake"), "-G", "Ninja", *zig.for_cmake,
          "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG",
