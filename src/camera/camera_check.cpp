@@ -11,7 +11,6 @@
 namespace vantage::internal::camera {
 namespace {
 
-using core::format;
 using core::number_text;
 
 // Bounds of what is built. They only have to tell slips, such as another unit, from cameras.
@@ -39,20 +38,20 @@ bool is_length(double mm, double largest) { return mm == 0 || (mm >= kSmallestMm
 std::optional<CameraFault> fault_of_numbers(const Camera& camera) {
   for (const auto& [pixels, side] : {std::pair(camera.width_px, "wide"), std::pair(camera.height_px, "high")}) {
     if (pixels >= 0 && pixels <= kMostPixels) continue;
-    return CameraFault{format("the picture cannot be {} pixels {}", pixels, side),
-                       format("give 1 to {} pixels", kMostPixels)};
+    return CameraFault{core::format("the picture cannot be {} pixels {}", pixels, side),
+                       core::format("give 1 to {} pixels", kMostPixels)};
   }
   for (const auto& [mm, side] :
        {std::pair(camera.sensor_width_mm, "wide"), std::pair(camera.sensor_height_mm, "high")}) {
     if (is_length(mm, kLargestSensorMm)) continue;
     if (mm > kLargestSensorMm && std::isfinite(mm)) {
-      return CameraFault{format("{}: {} mm {}", kInPixels, shortest(mm), side), kGiveMillimetres};
+      return CameraFault{core::format("{}: {} mm {}", kInPixels, shortest(mm), side), kGiveMillimetres};
     }
-    return CameraFault{format("the sensor cannot be {} mm {}", shortest(mm), side), kGiveMillimetres};
+    return CameraFault{core::format("the sensor cannot be {} mm {}", shortest(mm), side), kGiveMillimetres};
   }
   if (!is_length(camera.focal_length_mm, kLongestFocalMm)) {
-    return CameraFault{format("the focal length cannot be {} mm", shortest(camera.focal_length_mm)),
-                       format("give {} to {} mm", kSmallestMm, kLongestFocalMm)};
+    return CameraFault{core::format("the focal length cannot be {} mm", shortest(camera.focal_length_mm)),
+                       core::format("give {} to {} mm", kSmallestMm, kLongestFocalMm)};
   }
   return std::nullopt;
 }
@@ -61,13 +60,13 @@ std::optional<CameraFault> fault_of_numbers(const Camera& camera) {
 std::optional<CameraFault> fault_of_pixel(double sensor_mm, int pixels, const char* side) {
   const double pixel = sensor_mm / pixels;
   if (pixel > kLargestPixelMm || (sensor_mm > kLargeSensorMm && pixel > kLargestPixelOfLargeSensorMm)) {
-    return CameraFault{format("{}: {} mm {} for {} pixels", kInPixels, number_text(sensor_mm), side, pixels),
+    return CameraFault{core::format("{}: {} mm {} for {} pixels", kInPixels, number_text(sensor_mm), side, pixels),
                        kGiveMillimetres};
   }
   if (pixel < kSmallestPixelMm) {
-    return CameraFault{
-        format("the sensor is too small for its pixels: {} mm {} for {} pixels", number_text(sensor_mm), side, pixels),
-        "give the millimetres of the data sheet, not inches or centimetres"};
+    return CameraFault{core::format("the sensor is too small for its pixels: {} mm {} for {} pixels",
+                                    number_text(sensor_mm), side, pixels),
+                       "give the millimetres of the data sheet, not inches or centimetres"};
   }
   return std::nullopt;
 }
@@ -75,8 +74,8 @@ std::optional<CameraFault> fault_of_pixel(double sensor_mm, int pixels, const ch
 std::optional<CameraFault> fault_of_shape(const Camera& camera) {
   const double width = camera.sensor_width_mm / camera.width_px, height = camera.sensor_height_mm / camera.height_px;
   if (std::max(width, height) <= (1 + kLargestPixelDifference) * std::min(width, height)) return std::nullopt;
-  return CameraFault{format("the pixels would be {} x {} um, and pixels are square", number_text(1000 * width),
-                            number_text(1000 * height)),
+  return CameraFault{core::format("the pixels would be {} x {} um, and pixels are square", number_text(1000 * width),
+                                  number_text(1000 * height)),
                      "give the part of the sensor that makes the picture, and the whole picture"};
 }
 
@@ -100,8 +99,8 @@ std::optional<CameraFault> fault_of(const Camera& camera) {
   }
   const double side = std::max(camera.sensor_width_mm, camera.sensor_height_mm);
   if (camera.focal_length_mm > 0 && side > 2 * kWidestHalf * camera.focal_length_mm) {
-    return CameraFault{format("a focal length of {} mm is too short for a sensor of {} mm",
-                              number_text(camera.focal_length_mm), number_text(side)),
+    return CameraFault{core::format("a focal length of {} mm is too short for a sensor of {} mm",
+                                    number_text(camera.focal_length_mm), number_text(side)),
                        "give both in millimetres, the focal length of the lens itself"};
   }
   return std::nullopt;

@@ -21,14 +21,14 @@ std::string number_text(double number) {
               .ptr};
 }
 
-std::string metres_text(double metres) { return format("{:.4g} m", metres); }
+std::string metres_text(double metres) { return fmt::format("{:.4g} m", metres); }
 
 std::string point_text(const Vec3& point) {
-  return format("({}, {}, {})", number_text(point.x()), number_text(point.y()), number_text(point.z()));
+  return fmt::format("({}, {}, {})", number_text(point.x()), number_text(point.y()), number_text(point.z()));
 }
 
 std::string fixed_text(const Vec3& point, int decimals) {
-  return format("({1:.{0}f}, {2:.{0}f}, {3:.{0}f})", decimals, point.x(), point.y(), point.z());
+  return fmt::format("({1:.{0}f}, {2:.{0}f}, {3:.{0}f})", decimals, point.x(), point.y(), point.z());
 }
 
 std::string escaped_json(const std::string& json) {
@@ -45,14 +45,14 @@ std::string escaped_json(const std::string& json) {
                                           : 0x2000U | (second & 0x3fU) << 6U | (third & 0x3fU);
     // Below U+0020 none begin with these bytes.
     if (!is_control(code) && !is_reordering(code)) continue;
-    escaped.append(json, copied, at - copied).append(format("\\u{:04x}", code));
+    escaped.append(json, copied, at - copied).append(fmt::format("\\u{:04x}", code));
     copied = at + (first == 0x7f ? 1 : first == 0xc2 ? 2 : 3);
   }
   return escaped.append(json, copied);
 }
 
 std::string count_text(std::size_t count, const char* one, const char* many) {
-  return format("{} {}", count, count == 1 ? one : many);
+  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 }  // namespace vantage::internal::core

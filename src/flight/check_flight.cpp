@@ -332,7 +332,6 @@ NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene
 
 /// What is required and does not hold.
 std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheckOptions& options) {
-  using internal::core::format;
   using internal::core::number_text;
   std::vector<std::string> failures;
   const double dwell = options.dwell_s.value_or(0);
@@ -343,32 +342,33 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
     }
     const double longest_s = target.seen[*target.longest].duration_s();
     if (dwell > 0 && !(longest_s >= dwell)) {
-      failures.push_back(format("{} {} for {} s without a break, and {} s are asked for", target.name,
-                                target.is_volume ? "is flown through" : "is seen whole", number_text(longest_s),
-                                number_text(dwell)));
+      failures.push_back(internal::core::format("{} {} for {} s without a break, and {} s are asked for", target.name,
+                                                target.is_volume ? "is flown through" : "is seen whole",
+                                                number_text(longest_s), number_text(dwell)));
     } else if (options.gimbal_rate_deg_s && !target.is_volume &&
                !(target.followed && target.followed->duration_s() >= dwell)) {
       const double followed_s = target.followed ? target.followed->duration_s() : 0;
-      failures.push_back(
-          format("{} is seen whole for {} s without a break while the camera turns by at most {} degrees "
-                 "per second, and {} s are asked for",
-                 target.name, number_text(followed_s), number_text(*options.gimbal_rate_deg_s), number_text(dwell)));
+      failures.push_back(internal::core::format(
+          "{} is seen whole for {} s without a break while the camera turns by at most {} degrees "
+          "per second, and {} s are asked for",
+          target.name, number_text(followed_s), number_text(*options.gimbal_rate_deg_s), number_text(dwell)));
     }
   }
   for (const LinkCheck& link : check.links) {
     if (const auto failure = flight::failure_of(link)) failures.push_back(*failure);
   }
   for (const BrokenLimit& limit : check.broken) {
-    failures.push_back(std::isfinite(limit.worst)
-                           ? format("{} is broken by {} {}, {} m along the flight", limit.name,
-                                    number_text(limit.worst), limit.unit, number_text(limit.worst_at_m))
-                           : format("{} is broken, {} m along the flight", limit.name, number_text(limit.worst_at_m)));
+    failures.push_back(
+        std::isfinite(limit.worst)
+            ? internal::core::format("{} is broken by {} {}, {} m along the flight", limit.name,
+                                     number_text(limit.worst), limit.unit, number_text(limit.worst_at_m))
+            : internal::core::format("{} is broken, {} m along the flight", limit.name, number_text(limit.worst_at_m)));
   }
   if (options.clearance_m && check.nearest.distance_m < *options.clearance_m) {
-    failures.push_back(format("{} is {} m away, {} m along the flight, and {} m are asked for",
-                              check.nearest.object.empty() ? "the scene" : check.nearest.object,
-                              number_text(check.nearest.distance_m), number_text(check.nearest.at_m),
-                              number_text(*options.clearance_m)));
+    failures.push_back(internal::core::format("{} is {} m away, {} m along the flight, and {} m are asked for",
+                                              check.nearest.object.empty() ? "the scene" : check.nearest.object,
+                                              number_text(check.nearest.distance_m), number_text(check.nearest.at_m),
+                                              number_text(*options.clearance_m)));
   }
   return failures;
 }

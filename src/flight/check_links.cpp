@@ -84,7 +84,6 @@ LinkCheck JudgedLink::check(const std::vector<LegView>& views, const std::vector
 }
 
 std::optional<std::string> failure_of(const LinkCheck& link) {
-  using core::format;
   using core::number_text;
   if (link.lost.empty()) return std::nullopt;
   const FlightSpan& first = link.lost.front();
@@ -97,9 +96,9 @@ std::optional<std::string> failure_of(const LinkCheck& link) {
   if (reason != link.reasons.end() && reason->kind == NotSeen::Kind::hidden) {
     why = (reason->name.empty() ? "the scene" : reason->name) + " is in the way";
   }
-  const std::string more = link.lost.size() > 1 ? format(", and on {} more stretches", link.lost.size() - 1) : "";
-  return format("the link to {} is lost from {} to {} m along the flight{}: {}", link.name, number_text(first.begin_m),
-                number_text(first.end_m), more, why);
+  const std::string more = link.lost.size() > 1 ? core::format(", and on {} more stretches", link.lost.size() - 1) : "";
+  return core::format("the link to {} is lost from {} to {} m along the flight{}: {}", link.name,
+                      number_text(first.begin_m), number_text(first.end_m), more, why);
 }
 
 }  // namespace vantage::internal::flight

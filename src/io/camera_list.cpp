@@ -25,7 +25,6 @@
 namespace vantage::internal::io {
 namespace {
 
-using core::format;
 using nlohmann::json;
 
 constexpr std::uintmax_t kMostListBytes = 64'000'000;  // the lists that are known have 0.2 MB
@@ -41,8 +40,8 @@ std::string bytes_of_list(const std::filesystem::path& file) {
   }
   if (!error && size > kMostListBytes) {
     throw Error(ErrorCode::file_too_large,
-                format("the list of cameras is too large: {} bytes, at most {}", size, kMostListBytes), file.string(),
-                kListAdvice);
+                core::format("the list of cameras is too large: {} bytes, at most {}", size, kMostListBytes),
+                file.string(), kListAdvice);
   }
   return read_file_bytes(file, {});
 }
@@ -56,7 +55,7 @@ class CameraEntry {
     const json* value = find(key);
     if (value == nullptr) return {};
     if (value->is_string()) return clean_name(value->get_ref<const std::string&>());
-    note(format("\"{}\" is not a text", key));
+    note(core::format("\"{}\" is not a text", key));
     return {};
   }
 
@@ -64,19 +63,19 @@ class CameraEntry {
   double length(const char* key) {
     const json* value = find(key);
     if (value == nullptr) {
-      note(format("\"{}\" is missing", key));
+      note(core::format("\"{}\" is missing", key));
       return 0;
     }
     const double number = value->is_number() ? value->get<double>() : std::numeric_limits<double>::quiet_NaN();
     if (number > 0 && std::isfinite(number)) return number;
-    note(format("\"{}\" is not a number greater than 0", key));
+    note(core::format("\"{}\" is not a number greater than 0", key));
     return 0;
   }
 
   int pixels(const char* key) {
     const double number = length(key);
     if (number <= std::numeric_limits<int>::max() && number == std::floor(number)) return static_cast<int>(number);
-    note(format("\"{}\" is not a whole number of pixels", key));
+    note(core::format("\"{}\" is not a whole number of pixels", key));
     return 0;
   }
 
@@ -148,7 +147,7 @@ json json_of_list(std::string_view text, const std::filesystem::path& file) {
     return parse_json(text, {}, limits);
   } catch (const JsonProblem& problem) {
     std::string where = file.string();
-    if (problem.line > 0) where += format(", line {}, column {}", problem.line, problem.column);
+    if (problem.line > 0) where += core::format(", line {}, column {}", problem.line, problem.column);
     throw Error(ErrorCode::camera_list_syntax, "not a list of cameras: " + problem.text, where, kListAdvice);
   }
 }
@@ -161,7 +160,7 @@ std::vector<ListedCamera> parse_cameras(std::string_view text, const std::filesy
   std::vector<ListedCamera> cameras;
   if (root.is_array() && std::any_of(root.begin(), root.end(), seems_a_camera)) {
     for (const json& entry : root) {
-      cameras.push_back(qgroundcontrol_camera(entry, format("{}, entry {}", name, cameras.size() + 1)));
+      cameras.push_back(qgroundcontrol_camera(entry, core::format("{}, entry {}", name, cameras.size() + 1)));
     }
     return cameras;
   }

@@ -172,13 +172,12 @@ TilesetScene read(TileSource& source, const std::filesystem::path& file, const T
 }  // namespace internal::tiles
 
 std::vector<std::string> notes_of(const TilesetReport& report) {
-  using internal::core::format;
   std::vector<std::string> notes;
   if (report.holes > 0) {
-    notes.push_back(
-        format("{} of the tileset's files cannot be read: what they hold is missing, so that volumes may "
-               "claim too much behind it. The first: {}",
-               report.holes, report.first_hole));
+    notes.push_back(internal::core::format(
+        "{} of the tileset's files cannot be read: what they hold is missing, so that volumes may "
+        "claim too much behind it. The first: {}",
+        report.holes, report.first_hole));
   }
   if (report.coarser_kept > 0) {
     notes.push_back(
@@ -191,21 +190,24 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
         format("{} names or ids of features cannot be read: taken as missing", report.unreadable_properties));
   }
   if (report.without_surfaces > 0) {
-    notes.push_back(
-        format("{} of the tileset's files hold points or lines, no surfaces: passed over", report.without_surfaces));
+    notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: passed over",
+                                           report.without_surfaces));
   }
-  notes.push_back(format("the largest geometric error of a tile that was taken is {:.6g} m", report.largest_error_m));
+  notes.push_back(internal::core::format("the largest geometric error of a tile that was taken is {:.6g} m",
+                                         report.largest_error_m));
   if (report.coarse > 0) {
-    notes.push_back(format("{} tiles are coarser than asked: the tileset has no finer ones", report.coarse));
+    notes.push_back(
+        internal::core::format("{} tiles are coarser than asked: the tileset has no finer ones", report.coarse));
   }
   if (report.objects_outside > 0) {
-    notes.push_back(format("{} objects lie wholly beyond the radius: left out", report.objects_outside));
+    notes.push_back(
+        internal::core::format("{} objects lie wholly beyond the radius: left out", report.objects_outside));
   }
   if (report.rim_drop_m > 0) {
     notes.push_back(
-        format("heights are above the plane that touches the ellipsoid at the origin; at the rim the "
-               "ellipsoid drops {:.3f} m below it, and x and y differ by up to {:.3f} m from the map",
-               report.rim_drop_m, report.rim_shift_m));
+        internal::core::format("heights are above the plane that touches the ellipsoid at the origin; at the rim the "
+                               "ellipsoid drops {:.3f} m below it, and x and y differ by up to {:.3f} m from the map",
+                               report.rim_drop_m, report.rim_shift_m));
   }
   return notes;
 }
