@@ -7,9 +7,9 @@ system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI
 What is in them: wheel_libraries.toml. The name of a wheel says which glibc it needs: the newest version that one of the
 functions has which it takes from glibc.
 
-State: no wheel has been linked by it yet. For x86-64 the libraries up to Cairo are built; vantage is configured, and parts
-of it are compiled, for the stable ABI. HiGHS is left out (`vantage_options`), as it takes minutes to compile. Nothing was
-tried for aarch64 but a program in C.
+State: no wheel has been linked by it yet. For x86-64 the libraries are built, the bindings are compiled for the stable
+ABI, and most other sources pass the compiler's checks. HiGHS is left out (`vantage_options`), as it takes minutes to
+compile. Nothing was tried for aarch64 but a program in C.
 """
 
 import argparse
