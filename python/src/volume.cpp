@@ -108,9 +108,11 @@ PyVolume from_arrays(const PointArray& vertices, const FaceArray& faces, const s
 std::pair<double, std::size_t> save(const PyVolume& volume, const std::filesystem::path& file, const std::string& up,
                                     double scale, std::optional<double> sea_level_m) {
   const Released released;
-  const StagedVolume staged = stage_volume(*volume, file, up == "y" ? UpAxis::y : UpAxis::z, scale, sea_level_m);
-  commit_all(staged.files);
-  return {staged.report.rounding_m, staged.report.facets};
+  std::vector<StagedVolume> staged;
+  staged.push_back(stage_volume(*volume, file, up == "y" ? UpAxis::y : UpAxis::z, scale, sea_level_m));
+  const WrittenVolume report = staged.front().report;
+  commit_volumes(std::move(staged));
+  return {report.rounding_m, report.facets};
 }
 
 std::tuple<std::string, PyVolume, PyVolume> compare_two(const PyVolume& a, const PyVolume& b, const std::string& name_a,

@@ -113,7 +113,9 @@ void add_list_calls(Calls& calls) {
     for (int i = 0; i <= static_cast<int>(ObjectKind::tree); ++i) names.push_back(name_of(static_cast<ObjectKind>(i)));
     return names;
   };
-  calls["output_formats"] = [](const Json&) -> Json { return format_words(); };
+  calls["output_formats"] = [](const Json& a) -> Json {
+    return a.at("scenes").get<bool>() ? mesh_format_words() : format_words();
+  };
   calls["cameras"] = [](const Json&) -> Json {
     std::vector<ListedCamera> listed;
     for (const Camera& camera : known_cameras()) listed.push_back({camera, ""});

@@ -86,8 +86,13 @@ Json read(const Json& a) {
 }
 
 Json save(const Json& a) {
-  const WrittenVolume written = write_volume(volume_at(a), a.at("file").get<std::string>(),
-                                             a.at("up") == "y" ? UpAxis::y : UpAxis::z, a.at("scale").get<double>());
+  const Json& level = a.at("sea_level_m");
+  std::vector<StagedVolume> staged;
+  staged.push_back(stage_volume(volume_at(a), a.at("file").get<std::string>(),
+                                a.at("up") == "y" ? UpAxis::y : UpAxis::z, a.at("scale").get<double>(),
+                                level.is_null() ? std::nullopt : std::optional(level.get<double>())));
+  const WrittenVolume written = staged.front().report;
+  commit_volumes(std::move(staged));
   return {written.rounding_m, written.facets};
 }
 

@@ -193,8 +193,12 @@ class Volume(Held):
     def report(self) -> str:
         return str(self._call("volume_report", volume=self))
 
-    def save(self, file: str | os.PathLike[str], up: str = "z", scale: float = 1.0) -> tuple[float, int]:
-        rounding_m, facets = self._call("save_volume", volume=self, file=_file(file), up=up, scale=scale)
+    def save(
+        self, file: str | os.PathLike[str], up: str = "z", scale: float = 1.0, sea_level_m: float | None = None
+    ) -> tuple[float, int]:
+        rounding_m, facets = self._call(
+            "save_volume", volume=self, file=_file(file), up=up, scale=scale, sea_level_m=sea_level_m
+        )
         return rounding_m, facets
 
     def compare(self, other: Volume, name: str, other_name: str, progress: Progress = None) -> tuple[str, Volume, Volume]:
@@ -228,8 +232,8 @@ def empty_volume(outcome: str, reason: str) -> Volume:
 
 
 @functools.cache
-def output_formats() -> list[str]:
-    return list(engine().call("output_formats"))
+def output_formats(scenes: bool) -> list[str]:
+    return list(engine().call("output_formats", scenes=scenes))
 
 
 def intersect_volumes(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
