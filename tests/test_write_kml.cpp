@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/output.h"
+#include "geo/ellipsoid.h"
 #include "io/zip.h"
 #include "support/internals.h"
 #include "support/scenes.h"
@@ -31,7 +32,7 @@ Georeference munich() { return {48.1374, 11.5755, kFlatGround, "", "\u00a9 <some
 Volume volume_in_yard() {
   SceneBuilder builder;
   builder.ground("ground", 200, -0.5);
-  builder.box("shed & <barn>", {6, -3, -0.5}, {9, 3, 8});
+  builder.box("shed & <barn>\uFFFE\uFFFF", {6, -3, -0.5}, {9, 3, 8});
   Target square = Target::polygon({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
   square.name = "square \"A\"";
   Navigation limits;
@@ -171,12 +172,27 @@ TEST(WriteKml, HeightsAboveAGeoidNeedNoSeaLevel) {
   EXPECT_NE(kml_of(volume, 1), kml_of(volume, 0));
 }
 
+// The frame of a scene of 3D Tiles touches the ellipsoid: what is level in it rises above the sea.
+TEST(WriteKml, FramesOfTilesetsTouchTheEarth) {
+  Volume volume = volume_in_yard();
+  volume.mesh.vertices = {{0, 0, 0}, {5000, 0, 0}, {0, 5000, 0}, {0, 0, 100}};
+  volume.mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  volume.cause_of = {0, 0, 0, 0};
+  volume.polygon_of.clear();
+  volume.georeference->source_crs = internal::geo::kEarthCentred;
+  volume.georeference->vertical = internal::geo::kEllipsoidalHeight;
+  const std::vector<Vec3> ring = rings(kml_of(volume, 0)).front();
+  EXPECT_NEAR(ring[0].z(), 0, 2e-6);
+  for (const std::size_t i : {1U, 2U}) EXPECT_NEAR(ring[i].z(), 5000.0 * 5000 / (2 * 6.375e6), 0.01);
+}
+
 TEST(WriteKml, RefusesWhatCannotBePlaced) {
   const TemporaryDirectory folder;
   write_bytes(folder / "v.kml", "old");
   Volume volume = volume_in_yard();
   const auto write = [&] { write_volume(volume, folder / "v.kml"); };
-  for (const char* vertical : {kFlatGround, "", "ellipsoidal height", "as in dem.tif"}) {
+  for (const char* vertical :
+       {kFlatGround, "", "ellipsoidal height", "as in dem.tif", "WGS84 Ellipsoid height", "Unknown"}) {
     volume.georeference->vertical = vertical;
     expect_code(write, ErrorCode::height_unknown, "v.kml");
   }

@@ -6,8 +6,12 @@
 namespace vantage::internal::core {
 
 std::string xml_text(std::string_view text) {
-  std::string escaped;
-  for (const char c : printable(text)) {
+  std::string escaped, blanked = printable(text);
+  for (const char* none : {"\uFFFE", "\uFFFF"}) {  // characters of Unicode, not of XML 1.0
+    for (std::size_t at = blanked.find(none); at != std::string::npos; at = blanked.find(none))
+      blanked.replace(at, 3, " ");
+  }
+  for (const char c : blanked) {
     switch (c) {
       case '&':
         escaped += "&amp;";
@@ -29,7 +33,7 @@ std::string xml_text(std::string_view text) {
 }
 
 std::string decimal(double number, int decimals) {
-  std::string text = format("{:.{}f}", number, decimals);
+  std::string text = fmt::format("{:.{}f}", number, decimals);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();

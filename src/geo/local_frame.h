@@ -21,8 +21,10 @@ inline constexpr const char* kEllipsoidalHeight = "ellipsoidal height";
 /// level that countries and the earth have at the sea; nothing for the ground, the ellipsoid and a file's own level
 /// ("as in dem.tif"), which do not say it.
 inline std::optional<double> sea_level_z_m(std::string_view vertical) {
-  const bool is_known =
-      !vertical.empty() && vertical != kFlatGround && vertical != kEllipsoidalHeight && !vertical.starts_with("as in ");
+  std::string name(vertical);  // of the system in a file, which may name its ellipsoid in any words
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const bool is_known = !name.empty() && vertical != kFlatGround && !name.starts_with("as in ") &&
+                        name.find("ellipsoid") == std::string::npos && name.find("unknown") == std::string::npos;
   return is_known ? std::optional(0.0) : std::nullopt;
 }
 

@@ -69,8 +69,15 @@ fs::path parent_of(const fs::path& folder) { return folder.has_parent_path() ? f
 }  // namespace
 
 void check_tiles_place(const fs::path& asked) {
-  const fs::path folder = core::without_slash(asked);
+  fs::path folder = core::without_slash(asked);
   std::error_code error;
+  if (fs::is_symlink(folder, error)) {
+    folder = fs::canonical(folder, error);
+    if (error) {
+      throw Error(ErrorCode::output_folder_missing, "the output is a link, and what it leads to is not there",
+                  asked.string(), "make that folder, or remove the link");
+    }
+  }
   const fs::file_status status = fs::status(folder, error);
   if (folder.empty() || (fs::exists(status) && !fs::is_directory(status))) {
     throw Error(ErrorCode::output_folder_missing, "a tileset is a folder, and its place is taken by something else",

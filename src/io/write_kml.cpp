@@ -14,6 +14,7 @@
 #include "core/xml_text.h"
 #include "geo/local_frame.h"
 #include "io/kind_colours.h"
+#include "io/on_globe.h"
 #include "io/write_zip.h"
 #include "io/writers.h"
 #include "io/written_marks.h"
@@ -56,11 +57,7 @@ class KmlVolume {
   using Sink = std::function<void(const std::string&)>;
 
   KmlVolume(const Volume& volume, const StoredMesh& stored, const Georeference& place, double sea_level_z_m)
-      : volume_(volume),
-        stored_(stored),
-        place_(place),
-        frame_(geo::LonLat{place.longitude_deg, place.latitude_deg}),
-        sea_level_z_m_(sea_level_z_m) {}
+      : volume_(volume), stored_(stored), place_(place), globe_(place), sea_level_z_m_(sea_level_z_m) {}
 
   void write(const Sink& sink) const {
     sink(head());
@@ -83,9 +80,10 @@ class KmlVolume {
  private:
   /// "11.5,48.1,520".
   std::string position(const Vec3& point) const {
-    const geo::LonLat at = frame_.to_lonlat(point.head<2>());
-    return core::decimal(at.longitude_deg, kPlaceDecimals) + "," + core::decimal(at.latitude_deg, kPlaceDecimals) +
-           "," + core::decimal(point.z() - sea_level_z_m_, kHeightDecimals);
+    const geo::Geodetic at = globe_.to_geodetic(point);
+    return core::decimal(at.place.longitude_deg, kPlaceDecimals) + "," +
+           core::decimal(at.place.latitude_deg, kPlaceDecimals) + "," +
+           core::decimal(at.height_m - sea_level_z_m_, kHeightDecimals);
   }
 
   std::vector<std::string> corner_texts() const {
@@ -168,7 +166,7 @@ class KmlVolume {
   const Volume& volume_;
   const StoredMesh& stored_;
   const Georeference& place_;
-  geo::LocalFrame frame_;
+  OnGlobe globe_;
   double sea_level_z_m_;
 };
 
