@@ -15,6 +15,7 @@
 #include "support/limit_samples.h"
 #include "support/live_session.h"
 #include "support/map_text.h"
+#include "support/temporary_directory.h"
 #include "vantage/camera.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
@@ -495,6 +496,18 @@ TEST_F(LiveSession, AReportHoldsTheVolumeAndItsProof) {
   EXPECT_EQ(report_page(session_, empty, false).find("prove:"), std::string::npos);
   EXPECT_THROW(report_page(session_, "<html></html>", false), vantage::Error);
   EXPECT_THROW(report_page(session_, empty, true, [](std::string_view, double) { return false; }), vantage::Error);
+}
+
+TEST_F(LiveSession, AReportHasNoKeysOfServers) {
+  const std::string keys = "# {tiles: https://a.example/t.json?key=SECRET, radius: 1} http://b.example/?SECRET\n";
+  write("keys.yaml", vantage::testing::read_bytes(folder_ / "mission.yaml") + keys);
+  Session session;
+  session.open_file(folder_ / "keys.yaml");
+  session.run();
+  EXPECT_NE(session.hello().find("SECRET"), std::string::npos);
+  report_page(session, "<html><!--LIVE--></html>", false);
+  EXPECT_EQ(session.hello().find("SECRET"), std::string::npos);
+  EXPECT_NE(session.hello().find("https://a.example/t.json, radius"), std::string::npos);
 }
 
 }  // namespace

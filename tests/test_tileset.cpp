@@ -337,6 +337,22 @@ TEST(Tileset, ReadsImplicitTrees) {
   EXPECT_EQ(ids_of(read), (std::set<std::string>{"c/1_1_0.glb", "c/2_1_2.glb"}));
   EXPECT_EQ(read.report.largest_error_m, 8);
   EXPECT_EQ(read.report.documents, 3u);
+  // What the parent says to be there is missed; the coarser tile is kept in its place.
+  json none = all;
+  none["tileAvailability"]["constant"] = 0;
+  tiles.add("s/2_1_2.subtree", subtree(none));
+  const TilesetScene without = tiles.read();
+  EXPECT_EQ(without.report.holes, 1u);
+  EXPECT_TRUE(ids_of(without).contains("c/1_0_1.glb"));
+}
+
+TEST(Tileset, TemplatesOfAddressesAreShort) {
+  json root = tile_json(16, "c/{level}.glb", 8);
+  root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                            {"subtreeLevels", 1},
+                            {"availableLevels", 1},
+                            {"subtrees", {{"uri", std::string(5000, 'x') + ".subtree"}}}};
+  expect_code([&] { Tileset(tileset_json(root)).read(); }, ErrorCode::mesh_syntax, "4096");
 }
 
 TEST(Tileset, ImplicitTreesMayAnnounceManyLevels) {

@@ -269,6 +269,24 @@ TEST(TilesetHttp, MissingFilesAreHolesAndOtherServersAreNotAsked) {
   EXPECT_EQ(server.asked().back(), "/busy.glb");
 }
 
+TEST(TilesetHttp, AServerThatIsOutOfOrderEndsTheReading) {
+  VANTAGE_REQUIRE_CURL();
+  Server server([](const std::string& target) -> Answer {
+    if (has(target, ".glb")) return {503, "later"};
+    json root = tile_json(10);
+    root["refine"] = "ADD";
+    for (int i = 0; i < 1000; ++i) root["children"].push_back(tile_json(0, std::to_string(i) + ".glb"));
+    return {200, tileset_json(root).dump()};
+  });
+  expect_code([&] { read_tileset(server.url("/tileset.json")); }, ErrorCode::file_unreadable, "4.glb");
+}
+
+TEST(TilesetHttp, ShowsNoKeysAndNoPasswords) {
+  EXPECT_EQ(internal::tiles::without_query("https://me:secret@a.example:8/t@1.json?key=1#x"),
+            "https://a.example:8/t@1.json");
+  EXPECT_EQ(internal::tiles::without_query("a@b/c.json"), "a@b/c.json");
+}
+
 TEST(TilesetHttp, NobodyAnswers) {
   VANTAGE_REQUIRE_CURL();
   std::string url;

@@ -154,6 +154,19 @@ void check_shown(Volume& volume, const std::string& where) {
   volume.cause_of.assign(volume.mesh.triangles.size(), 0);
 }
 
+/// A mission without what follows "?" in addresses.
+std::string without_keys(const std::string& text) {
+  std::string kept;
+  std::size_t from = 0;
+  for (std::size_t at = text.find("://"); at != std::string::npos; at = text.find("://", from)) {
+    const std::size_t end = std::min(text.find_first_of(" \t\r\n\"'}]", at), text.size());
+    const std::size_t query = std::min(text.find('?', at), end);
+    kept.append(text, from, query - from);
+    from = query < end && text[end - 1] == ',' ? end - 1 : end;  // of a list in braces
+  }
+  return kept.append(text, from);
+}
+
 }  // namespace
 
 std::string about() {
@@ -331,7 +344,8 @@ std::string Session::flight(const Progress& progress) {
 std::string Session::hello() const {
   // Put together as text: a flight of a million points is not read again for each window.
   std::string text = R"({"about":)" + about() + R"(,"scene":)" + scene_json();
-  text += R"(,"mission":)" + text_of(text_) + R"(,"name":)" + text_of(file_.filename().string());
+  text += R"(,"mission":)" + text_of(hides_keys_ ? without_keys(text_) : text_) + R"(,"name":)" +
+          text_of(file_.filename().string());
   text += R"(,"volume":)" + (result_ ? volume_json() : "null") + R"(,"flight":)";
   text += flight_ ? *flight_text_ : "null";
   return text + "}";

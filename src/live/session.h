@@ -56,6 +56,8 @@ class Session {
   /// JSON: {about, scene, mission: the text of the file, name: of it, volume: the last one, or null, flight: as
   /// flight() has it, judged by the mission that was opened, or null}.
   std::string hello() const;
+  /// From here on hello() has the mission without the queries of addresses: they hold keys of servers.
+  void hide_keys() { hides_keys_ = true; }
 
   /// `text`: a mission without `scene`. Computes the volume; a session keeps the last one when that fails.
   std::string compute(std::string_view text, const Progress& progress = {});
@@ -116,6 +118,7 @@ class Session {
   /// Where the mission is, from which the names of files start, and what it says.
   std::filesystem::path file_ = "mission.yaml";
   std::string text_;
+  bool hides_keys_ = false;
   /// What was opened: missions may name its files. Nothing: any.
   std::optional<MissionFile> opened_file_;
 

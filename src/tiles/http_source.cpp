@@ -16,7 +16,7 @@ namespace vantage::internal::tiles {
 namespace {
 
 // One file. Tiles have some megabytes.
-constexpr std::size_t kMostBytes = std::size_t{512} << 20U;
+constexpr std::size_t kMostFileBytes = std::size_t{512} << 20U;
 
 /// The parts of "https://host:port/path?query".
 struct Url {
@@ -79,7 +79,13 @@ std::string first_session(const nlohmann::json& root) {
 
 bool is_http(std::string_view text) { return text.starts_with("http://") || text.starts_with("https://"); }
 
-std::string without_query(std::string_view url) { return std::string(url.substr(0, url.find_first_of("?#"))); }
+std::string without_query(std::string_view url) {
+  std::string shown(url.substr(0, url.find_first_of("?#")));
+  const std::size_t host = shown.find("://") == std::string::npos ? 0 : shown.find("://") + 3;
+  const std::size_t at = shown.substr(0, shown.find('/', host)).rfind('@');
+  if (at != std::string::npos && at >= host) shown.erase(host, at + 1 - host);
+  return shown;
+}
 
 HttpSource::HttpSource(std::string url, const HttpPatience& patience)
     : root_(std::move(url)), patience_(patience), client_(without_query(root_)) {}
@@ -135,20 +141,20 @@ void HttpSource::check_time(const std::string& address) const {
 /// Tries some times where it may help, and gives up a server that gives no answers.
 HttpAnswer HttpSource::ask(const std::string& address, const core::ProgressReporter& progress) {
   HttpAnswer answer;
-  const int tries = failures_ == 0 ? patience_.tries : 1;
-  for (int i = 0; i < tries; ++i) {
+  for (int i = 0; i < patience_.tries; ++i) {
     if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(200 << i));
     progress.check();
     check_time(address);
-    answer = client_.get(address, kMostBytes, patience_, progress);
+    answer = client_.get(address, kMostFileBytes, patience_, progress);
     const bool is_silent = !answer.fault.empty() && !answer.is_too_large;
     if (!is_silent && answer.status != 429 && answer.status < 500) {
       failures_ = 0;
       return answer;
     }
+    if (is_silent && failures_ > 0) break;  // what is not there at all is not asked again for each file
   }
   const std::string fault = answer.fault.empty() ? "it answers " + std::to_string(answer.status) : answer.fault;
-  if (++failures_ >= patience_.failures_in_a_row && answer.status < 500) {
+  if (++failures_ >= patience_.failures_in_a_row) {
     close("the server has not sent " + std::to_string(failures_) + " files in a row: " + fault, address,
           "check the network and the server, and start again");
   }
@@ -220,7 +226,7 @@ std::string HttpSource::body_of(HttpAnswer&& answer, const std::string& address,
     fail(ErrorCode::file_unreadable, "the file has moved to " + without_query(answer.moved_to), "give that address");
   }
   if (answer.is_too_large) {
-    fail(ErrorCode::mesh_too_large, "the file has more than " + std::to_string(kMostBytes >> 20U) + " MiB",
+    fail(ErrorCode::mesh_too_large, "the file has more than " + std::to_string(kMostFileBytes >> 20U) + " MiB",
          "export the tileset in smaller tiles");
   }
   if (!answer.fault.empty()) {

@@ -14,7 +14,7 @@ namespace vantage::internal::tiles {
 /// Whether a text is the address of a tileset on the network.
 bool is_http(std::string_view text);
 
-/// An address without what follows its path: keys and sessions are nobody's business.
+/// An address without what follows its path, and without a password: keys and sessions are nobody's business.
 std::string without_query(std::string_view url);
 
 /// Files of one server, by HTTP or HTTPS. What the address of a file has as `key` and `session` is passed on to all

@@ -15,8 +15,9 @@ constexpr std::uint32_t kMostLevels = 1U << 31U;
 constexpr std::uint32_t kMostSubtreeLevels = 21;
 // Bits of one subtree: a quadtree of 12 levels, an octree of 8.
 constexpr std::uint64_t kMostBits = std::uint64_t{1} << 25U;
+constexpr std::size_t kLongestTemplate = 4096;
 // Of the buffers of one subtree, and of what is taken from them: an availability has at most 6 MB.
-constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20U;
+constexpr std::uint64_t kMostSubtreeBytes = std::uint64_t{64} << 20U;
 
 std::uint64_t whole_of(const Json& object, const char* key, std::uint64_t otherwise, std::uint64_t most) {
   const auto found = object.find(key);
@@ -103,7 +104,7 @@ Subtree::Subtree(const std::string& bytes, const Shape& shape, const ReadFile& r
                  const core::ProgressReporter& progress, const core::ReadLimits& limits)
     : shape_(shape) {
   constexpr std::size_t kHeader = 24;
-  Parts parts{{}, {}, read_file, kMostBytes, {}};
+  Parts parts{{}, {}, read_file, kMostSubtreeBytes, {}};
   std::string_view text = bytes;
   if (bytes.starts_with("subt")) {
     if (bytes.size() < kHeader) throw std::string("it ends in its header");
@@ -201,6 +202,12 @@ ImplicitTree::ImplicitTree(std::shared_ptr<const TilesetDocument> of, const Tile
     if (!files.is_object() || uri == files.end() || !uri->is_string())
       throw std::string("its subtrees have no \"uri\"");
     subtrees = uri->get<std::string>();
+    // They are filled in for each tile.
+    const auto is_long = [](const std::string& uri_template) { return uri_template.size() > kLongestTemplate; };
+    if (is_long(subtrees) || std::any_of(contents.begin(), contents.end(),
+                                         [&](const ContentName& content) { return is_long(content.uri); })) {
+      throw "a template of addresses has more than " + std::to_string(kLongestTemplate) + " characters";
+    }
   } catch (const std::string& problem) {
     document->fail("implicit tiling: " + problem);
   }

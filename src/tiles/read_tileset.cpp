@@ -180,14 +180,14 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
         report.holes, report.first_hole));
   }
   if (report.coarser_kept > 0) {
-    notes.push_back(
-        format("{} coarser tiles are kept, as finer ones that replace them cannot be read: they hide what is behind "
-               "them, too",
-               report.coarser_kept));
+    notes.push_back(internal::core::format(
+        "{} coarser tiles are kept, as finer ones that replace them cannot be read: they hide what is behind "
+        "them, too",
+        report.coarser_kept));
   }
   if (report.unreadable_properties > 0) {
-    notes.push_back(
-        format("{} names or ids of features cannot be read: taken as missing", report.unreadable_properties));
+    notes.push_back(internal::core::format("{} names or ids of features cannot be read: taken as missing",
+                                           report.unreadable_properties));
   }
   if (report.without_surfaces > 0) {
     notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: passed over",
@@ -225,7 +225,8 @@ TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOption
     internal::tiles::FolderSource source(file);
     return internal::tiles::read(source, file, options, progress);
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, "there is not enough memory to read the tileset", file.string(),
+    throw Error(ErrorCode::out_of_memory, "there is not enough memory to read the tileset",
+                internal::tiles::is_http(file.string()) ? internal::tiles::without_query(file.string()) : file.string(),
                 "give a smaller radius, or a larger detail");
   }
 }

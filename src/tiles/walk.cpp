@@ -15,7 +15,7 @@ constexpr std::uint64_t kMostDocuments = 20'000;  ///< tilesets and subtrees
 constexpr std::uint64_t kMostFiles = 200'000;
 constexpr std::uint64_t kMostHoles = 20'000;
 // What is read, each time that it is: small files that are compressed, or named thousands of times, become large.
-constexpr std::uint64_t kMostBytes = std::uint64_t{32} << 30U;
+constexpr std::uint64_t kMostRegionBytes = std::uint64_t{32} << 30U;
 constexpr std::uint64_t kMostText = std::uint64_t{1} << 30U;         ///< of tilesets and subtrees, which take longest
 constexpr std::uint64_t kMostRemembered = std::uint64_t{64} << 20U;  ///< memory of tilesets that may be named again
 constexpr int kMostNested = 64;                                      ///< tilesets, one inside of the other
@@ -104,9 +104,9 @@ std::string Walk::read_file(const std::string& address) {
   if (has_too_many_files || report_.documents > kMostDocuments) fail_for_too_many(address);
   std::string bytes = source_.read(address, progress_);
   report_.bytes += bytes.size();
-  if (report_.bytes + contents_.bytes_of_other_files() > kMostBytes) {
+  if (report_.bytes + contents_.bytes_of_other_files() > kMostRegionBytes) {
     throw Error(ErrorCode::region_invalid,
-                "the files of the region have more than " + std::to_string(kMostBytes >> 30U) + " GiB together",
+                "the files of the region have more than " + std::to_string(kMostRegionBytes >> 30U) + " GiB together",
                 source_.shown(address), "give a smaller radius, or a larger detail");
   }
   return bytes;
@@ -346,7 +346,11 @@ void Walk::enter_subtree(const Visit& visit, const std::shared_ptr<const Implici
     throw Error(ErrorCode::mesh_syntax, "not a valid subtree: " + problem, source_.shown(address),
                 "export the tileset again; the file is cut off or garbled");
   }
-  if (!loaded->bits->has_tile(0, 0)) return;
+  if (!loaded->bits->has_tile(0, 0)) {
+    if (root.level == 0) return;
+    throw Error(ErrorCode::mesh_syntax, "the subtree has no tile at its root, and its parent says that there is one",
+                source_.shown(address), "export the tileset again");
+  }
   Visit next;
   next.trail = visit.trail;
   next.subtree = loaded;
