@@ -75,7 +75,7 @@ std::string temporary_prefix(const fs::path& folder, const std::string& purpose)
   constexpr std::size_t kMostBytes = 180;
   const std::string name = folder.filename().string();
   if (name.size() <= kMostBytes) return "." + name + ".vantage-" + purpose + "-";
-  return format(".{}-{:016x}.vantage-{}-", name.substr(0, kMostBytes), std::hash<std::string>()(name), purpose);
+  return fmt::format(".{}-{:016x}.vantage-{}-", name.substr(0, kMostBytes), std::hash<std::string>()(name), purpose);
 }
 
 }  // namespace vantage::internal::core
