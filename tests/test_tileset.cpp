@@ -352,7 +352,9 @@ TEST(Tileset, TemplatesOfAddressesAreShort) {
                             {"subtreeLevels", 1},
                             {"availableLevels", 1},
                             {"subtrees", {{"uri", std::string(5000, 'x') + ".subtree"}}}};
-  expect_code([&] { Tileset(tileset_json(root)).read(); }, ErrorCode::mesh_syntax, "4096");
+  const Error long_one =
+      expect_code([&] { Tileset(tileset_json(root)).read(); }, ErrorCode::mesh_empty, "tileset.json");
+  EXPECT_NE(std::string(long_one.what()).find(" 4096 "), std::string::npos) << long_one.what();
 }
 
 TEST(Tileset, ImplicitTreesMayAnnounceManyLevels) {

@@ -143,7 +143,7 @@ TEST(WriteKml, SortsFacetsByTheirCauses) {
   for (const std::string& used : parts(kml, "<styleUrl>#", "</styleUrl>")) {
     EXPECT_NE(kml.find("<Style id=\"" + used + "\">"), std::string::npos) << used;
   }
-  EXPECT_NE(kml.find("<name>shed &amp; &lt;barn&gt;</name>"), std::string::npos);
+  EXPECT_NE(kml.find("<name>shed &amp; &lt;barn&gt;  </name>"), std::string::npos);
   EXPECT_NE(kml.find("\u00a9 &lt;somebody&gt;"), std::string::npos);
   EXPECT_EQ(parts(kml, "<altitudeMode>", "</altitudeMode>"),
             std::vector<std::string>(volume.mesh.triangles.size() + 1, "absolute"));

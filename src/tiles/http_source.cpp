@@ -81,7 +81,8 @@ bool is_http(std::string_view text) { return text.starts_with("http://") || text
 
 std::string without_query(std::string_view url) {
   std::string shown(url.substr(0, url.find_first_of("?#")));
-  const std::size_t host = shown.find("://") == std::string::npos ? 0 : shown.find("://") + 3;
+  if (!is_http(shown)) return shown;
+  const std::size_t host = shown.find("://") + 3;
   const std::size_t at = shown.substr(0, shown.find('/', host)).rfind('@');
   if (at != std::string::npos && at >= host) shown.erase(host, at + 1 - host);
   return shown;
