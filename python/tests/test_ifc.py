@@ -37,7 +37,8 @@ COLUMN = """#23=IFCCIRCLEPROFILEDEF(.AREA.,$,$,500.);
 #26=IFCSHAPEREPRESENTATION(#5,'Body','SweptSolid',(#25));
 #27=IFCPRODUCTDEFINITIONSHAPE($,$,(#26));
 #28=IFCCOLUMN('0000000000000000000003',$,'column',$,$,$,#27,$,$);
-#29=IFCSPACE('0000000000000000000004',$,'room',$,$,#12,#17,$,.ELEMENT.,$,$);
+"""
+ROOM = """#29=IFCSPACE('0000000000000000000004',$,'room',$,$,#12,#17,$,.ELEMENT.,$,$);
 """
 BROKEN = """#33=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.)));
 #35=IFCTRIANGULATEDFACESET(#33,$,.F.,((1,2,9)),$);
@@ -45,7 +46,17 @@ BROKEN = """#33=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.)));
 #37=IFCPRODUCTDEFINITIONSHAPE($,$,(#36));
 #38=IFCWALL('0000000000000000000005',$,'broken wall',$,$,$,#37,$,$);
 """
-MAP = "#7=IFCPROJECTEDCRS('{crs}',$,$,'DHHN2016',$,$,$);\n#8=IFCMAPCONVERSION(#5,#7,{east},{north},250.,{x},{y},{scale});\n"
+CORNERS = """#400=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1000.,0.,0.),(1000.,1000.,0.),(0.,1000.,0.),
+(0.,0.,1000.),(1000.,0.,1000.),(1000.,1000.,1000.),(0.,1000.,1000.)));
+"""
+CUBE = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
+FEET = """#70=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);
+#71=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);
+#72=IFCMEASUREWITHUNIT(IFCRATIOMEASURE({metres}),#71);
+#73=IFCCONVERSIONBASEDUNIT(#70,.LENGTHUNIT.,'feet',#72);
+"""
+US_FOOT_M = 1200 / 3937
+MAP = "#7=IFCPROJECTEDCRS('{crs}',$,$,'DHHN2016',$,$,{unit});\n#8=IFCMAPCONVERSION(#5,#7,{east},{north},250.,{x},{y},{scale});\n"
 
 
 def written(folder, *parts):
@@ -54,12 +65,25 @@ def written(folder, *parts):
     return file
 
 
-def placed(crs="EPSG:32632", scale="0.001", x="0.", y="1.", east="500000.", north="5000000."):
-    return MAP.format(crs=crs, scale=scale, x=x, y=y, east=east, north=north)
+def placed(crs="EPSG:32632", scale="0.001", x="0.", y="1.", east="500000.", north="5000000.", unit="$"):
+    return MAP.format(crs=crs, scale=scale, x=x, y=y, east=east, north=north, unit=unit)
+
+
+def proxy(name, items):
+    """A product whose body has these items."""
+    return (f"#936=IFCSHAPEREPRESENTATION(#5,'Body','Tessellation',({items}));\n#937=IFCPRODUCTDEFINITIONSHAPE($,$,(#936));\n"
+            f"#938=IFCBUILDINGELEMENTPROXY('0000000000000000000006',$,'{name}',$,$,$,#937,$,$);\n")
+
+
+def face_set(name, faces):
+    """A product of faces on CORNERS."""
+    rows = "".join(f"#{500 + i}=IFCINDEXEDPOLYGONALFACE(({','.join(map(str, face))}));\n" for i, face in enumerate(faces))
+    numbers = ",".join(f"#{500 + i}" for i in range(len(faces)))
+    return f"{CORNERS}{rows}#499=IFCPOLYGONALFACESET(#400,.F.,({numbers}),$);\n" + proxy(name, "#499")
 
 
 def test_products_are_objects_in_metres(tmp_path):
-    scene = vt.Scene.from_ifc(written(tmp_path, TOWER, COLUMN))
+    scene = vt.Scene.from_ifc(written(tmp_path, TOWER, COLUMN, ROOM))
     assert [(one.name, one.source_id, one.kind) for one in scene.objects] == [
         ("tower", "0000000000000000000002", "building"), ("column", "0000000000000000000003", "building")]  # and no room
     tower = scene.vertices[np.unique(scene.faces[scene.object_of == 0])]
@@ -90,9 +114,42 @@ def test_a_map_conversion_places_the_scene(tmp_path):
     assert abs(scene.bounds[:, :2].mean(axis=0)).max() < 0.01  # the origin is the middle of the model
 
 
-def scene_to_utm(scene):
+def scene_to_utm(scene, crs=32632):
     pyproj = pytest.importorskip("pyproj")
-    return pyproj.Transformer.from_crs(scene.crs, 32632, always_xy=True).transform(*scene.vertices[:, :2].T)
+    return pyproj.Transformer.from_crs(scene.crs, crs, always_xy=True).transform(*scene.vertices[:, :2].T)
+
+
+@pytest.mark.parametrize("unit", ["$", "#73"])
+def test_maps_in_feet_keep_the_size_of_the_model(tmp_path, unit):
+    """New York's plane: its coordinates are in US survey feet, and the file need not say so."""
+    of_map = placed(crs="EPSG:2263", scale=repr(0.001 / US_FOOT_M), x="1.", y="0.", east="985000.", north="210000.", unit=unit)
+    scene = vt.Scene.from_ifc(written(tmp_path, FEET.format(metres="0.3048006096"), of_map, TOWER))
+    assert np.allclose(np.ptp(scene.vertices, axis=0), [4, 6, 5], rtol=1e-3)
+    east, north = scene_to_utm(scene, 2263)
+    assert np.allclose([east.min(), east.max()], [985000 - 1 / US_FOOT_M, 985000 + 3 / US_FOOT_M], atol=1e-4)
+    assert np.allclose([north.min(), north.max()], [210000 - 1 / US_FOOT_M, 210000 + 5 / US_FOOT_M], atol=1e-4)
+    assert np.allclose(scene.bounds[:, 2], [3 + 250 * US_FOOT_M, 8 + 250 * US_FOOT_M], atol=1e-6)
+
+
+def test_a_scale_in_metres_does_not_shrink_what_lies_on_a_map_in_feet(tmp_path):
+    of_map = {scale: placed(crs="EPSG:2263", scale=scale, east="985000.", north="210000.") for scale in ("0.001", "$")}
+    assert refused(lambda: vt.Scene.from_ifc(written(tmp_path, of_map["0.001"], TOWER))).code == "value-out-of-range"
+    unsaid = vt.Scene.from_ifc(written(tmp_path, of_map["$"], TOWER))
+    assert np.allclose(np.ptp(unsaid.vertices, axis=0), [6, 4, 5], atol=0.01)
+
+
+@pytest.mark.parametrize("crs, metres, code", [
+    ("EPSG:2263", "0.3048", "value-out-of-range"),  # the international foot
+    ("EPSG:2263", "1.", "value-out-of-range"),
+    ("EPSG:32632", "0.3048006096", "value-out-of-range"),
+    ("EPSG:2263+5703", "0.3048006096", "height-unknown"),  # heights in metres
+    ("EPSG:4326", "1.", "value-unsupported"),
+    ("EPSG:4978", "1.", "value-unsupported")])
+def test_units_that_the_map_has_not_are_refused(tmp_path, crs, metres, code):
+    of_map = placed(crs=crs, scale=repr(0.001 / float(metres)), unit="#73")
+    file = written(tmp_path, FEET.format(metres=metres), of_map, TOWER)
+    assert refused(lambda: vt.Scene.from_ifc(file)).code == code
+    assert vt.Scene.from_ifc(file, georeference=False).georeference is None
 
 
 def test_the_place_can_be_left_out_or_named(tmp_path):
@@ -113,6 +170,37 @@ def test_products_without_triangles_are_not_lost_in_silence(tmp_path):
     error = refused(lambda: vt.Scene.from_ifc(file))
     assert error.code == "mesh-unsupported" and "0000000000000000000005" in error.problem
     assert len(vt.Scene.from_ifc(file, allow_missing=True).objects) == 1
+
+
+BROKEN_ITEM = BROKEN.split("#36=")[0]
+LOSSES = {
+    "an item of a body": TOWER + BROKEN_ITEM + proxy("half", "#15,#35"),
+    "an item without thickness": TOWER + "#39=IFCEXTRUDEDAREASOLID(#13,#4,#9,0.);\n" + proxy("half", "#15,#39"),
+    "a face that crosses itself": face_set("bowtie", CUBE[:-1] + [(4, 5, 1, 8)]),
+    "an operand": TOWER + BROKEN_ITEM + "#92=IFCBOOLEANRESULT(.UNION.,#15,#35);\n" + proxy("half", "#92"),
+    "a product of an unknown class": TOWER + "#900=IFCNOTHING(1);\n",
+    "a number that is used twice": TOWER + TOWER,
+    "attributes": TOWER + "#900=IFCWALL('0000000000000000000009',$,'wall');\n",
+}
+
+
+@pytest.mark.parametrize("what", LOSSES)
+def test_parts_of_products_are_not_lost_in_silence(tmp_path, what):
+    file = written(tmp_path, LOSSES[what])
+    assert refused(lambda: vt.Scene.from_ifc(file)).code == "mesh-unsupported"
+    assert len(vt.Scene.from_ifc(file, allow_missing=True).faces) > 0
+
+
+@pytest.mark.parametrize("more", [[], [CUBE[0]], [CUBE[0], CUBE[0]], [(1, 1, 2)], [(1, 2, 1), (1, 1, 2)]])
+def test_faces_without_area_and_those_there_twice_are_no_loss(tmp_path, more):
+    scene = vt.Scene.from_ifc(written(tmp_path, face_set("cube", CUBE + more)))
+    a, b, c = np.moveaxis(scene.vertices[scene.faces], 1, 0)
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 > 6 - 1e-9  # m2
+
+
+def test_what_was_logged_before_is_not_taken_for_the_files(tmp_path):
+    refused(lambda: vt.Scene.from_ifc(written(tmp_path, LOSSES["a face that crosses itself"])))
+    assert len(vt.Scene.from_ifc(written(tmp_path, TOWER)).faces) == 12
 
 
 def test_files_that_cannot_be_read_are_refused(tmp_path):

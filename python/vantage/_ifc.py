@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+import threading
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._checks import flag
-from ._errors import input_error
+from ._errors import Error, input_error
 from ._extras import require
 from ._objects import SceneObject
 from ._place import WGS84, Georeference, crs_text
@@ -26,6 +28,17 @@ _NO_SURFACES = ("Point", "PointCloud", "Curve", "Curve2D", "Curve3D", "Segment",
 _KINDS = {"IfcSite": "ground"}
 _SCALE_NEAR_1 = 0.01
 """How far a map's scale factor may be from 1: those of projections are within 0.1 %."""
+_SAME_UNIT = 5e-7
+"""Share by which a stated unit may differ from that of the CRS: feet and US survey feet differ by 2e-6."""
+_LOG_ENTRY = re.compile(r"^\[(?P<level>\w+)\] (?:\[(?P<code>[A-Z]+\d+)\] )?\[[^]]*\] (?:\{(?P<product>[^}]*)\} )?(?P<text>.*)$")
+"""The first line of what IfcOpenShell logs: `[warning] [GEO170] [time] {GlobalId} text`."""
+_LOSSES = re.compile("self-intersect|fail|unable|could not|cannot|invalid|ignor|skip|discard|omit|not found|not enough|empty|"
+                     "overwriting|non-unique", re.IGNORECASE)
+"""In warnings that tell of something that is not in the triangles."""
+_LOOPS_LEFT_OUT = re.compile(r"(\d+) duplicate faces removed, (\d+) degenerate loops eliminated")
+_ATTRIBUTES = re.compile(r"Expected (\d+) attribute values, found (\d+) for instance")
+_LOG_LOCK = threading.Lock()
+"""IfcOpenShell has one log."""
 
 
 class Model(NamedTuple):
@@ -36,6 +49,35 @@ class Model(NamedTuple):
     object_of: npt.NDArray[np.int64]
     objects: list[SceneObject]
     place: Georeference | None
+
+
+def _lost(log: str) -> list[str]:
+    """What of the model is missing in its triangles, by IfcOpenShell's log. Faces that are there twice and those without
+    area are no loss: as many as the log counts."""
+    lost, loops, faces = [], 0, 0
+    lines = log.splitlines()
+    for line, following in zip(lines, [*lines[1:], ""]):
+        entry = _LOG_ENTRY.match(line)
+        if entry is None:  # the last entry goes on
+            continue
+        level, code, text = entry["level"].lower(), entry["code"], entry["text"]
+        about = entry["product"] or (code if _LOG_ENTRY.match(following) else following[:80]) or level
+        told = f"{text} ({about})"
+        if counted := _LOOPS_LEFT_OUT.match(text):
+            loops += sum(map(int, counted.groups()))
+        elif code == "GEO159":  # the loop of a face
+            if loops == 0:
+                lost.append(told)
+            loops = max(0, loops - 1)
+        elif code == "GEO162":  # a face without loops, which GEO198 tells again
+            faces += 1
+        elif code == "GEO198" and faces > 0:
+            faces -= 1
+        elif counted := _ATTRIBUTES.match(text):  # more than there should be mean nothing
+            lost += [told] if int(counted[2]) < int(counted[1]) else []
+        elif level in ("error", "fatal") or (level == "warning" and _LOSSES.search(text)):
+            lost.append(told)
+    return lost
 
 
 def _opened(file: str) -> Any:
@@ -115,12 +157,34 @@ def _unit_m(unit: Any) -> float:
     raise input_error("value-unsupported", f"the unit of the map is {unit}", "IfcProjectedCRS", "pass georeference=False")
 
 
-def _on_map(vertices: Numbers, conversion: Any, project_unit_m: float) -> Numbers:
+def _map_unit_m(text: str, stated: Any) -> float:
+    """Metres in the unit of the map's CRS, which the file's own must be, too."""
+    pyproj = require("pyproj", "ifc")
+    try:
+        crs = pyproj.CRS(text)
+    except pyproj.exceptions.ProjError as error:
+        raise _no_crs(text, error) from None
+    while crs.is_bound:
+        crs = crs.source_crs
+    if not crs.is_projected:
+        raise input_error("value-unsupported", f"the map {crs.name!r} is no projection, with eastings and northings",
+                          "IfcProjectedCRS", "pass crs='EPSG:...', or georeference=False")
+    units_m = [axis.unit_conversion_factor for axis in crs.axis_info]
+    if not all(abs(unit_m / units_m[0] - 1) <= _SAME_UNIT for unit_m in units_m):
+        raise input_error("height-unknown", f"the axes of {crs.name!r} have different units, and the file has one for all",
+                          "IfcProjectedCRS", "pass crs, of one whose heights have the unit of its eastings")
+    if stated is not None and not abs(_unit_m(stated) / units_m[0] - 1) <= _SAME_UNIT:
+        raise input_error("value-out-of-range", f"the map's unit is stated as {_unit_m(stated):.10g} m, and that of "
+                          f"{crs.name!r} is {units_m[0]:.10g} m", "IfcProjectedCRS.MapUnit",
+                          "mend the unit or the name of the map, or pass georeference=False")
+    return float(units_m[0])
+
+
+def _on_map(vertices: Numbers, conversion: Any, project_unit_m: float, unit_m: float) -> Numbers:
     """East and north in units of the map's CRS, and heights in metres."""
     if conversion.is_a("IfcMapConversionScaled"):
         raise input_error("value-unsupported", "the file's map conversion has a factor for each axis", "IfcMapConversionScaled",
                           "pass georeference=False")
-    unit_m = _unit_m(conversion.TargetCRS.MapUnit) if conversion.TargetCRS.MapUnit is not None else 1.0
     scale = 1.0 if conversion.Scale is None else conversion.Scale / project_unit_m * unit_m
     if not abs(scale - 1) <= _SCALE_NEAR_1:
         raise input_error("value-out-of-range", f"the map conversion makes {scale:g} m of one metre of the model",
@@ -140,8 +204,8 @@ def _on_map(vertices: Numbers, conversion: Any, project_unit_m: float) -> Number
 def _in_frame(vertices: Numbers, file: Any, conversion: Any, crs: Any) -> tuple[Numbers, Georeference]:
     """In the scene's frame, about the middle of the model."""
     unit_m = float(require("ifcopenshell.util.unit", "ifc").calculate_unit_scale(file))
-    placed = _on_map(vertices, conversion, unit_m)
     text = crs_text(crs if crs is not None else conversion.TargetCRS.Name)
+    placed = _on_map(vertices, conversion, unit_m, _map_unit_m(text, conversion.TargetCRS.MapUnit))
     middle = (placed[:, :2].min(axis=0) + placed[:, :2].max(axis=0)) / 2
     longitude, latitude = _degrees(middle, text)
     flat = _core.from_crs(latitude, longitude, text, np.ascontiguousarray(placed[:, :2]))
@@ -156,9 +220,24 @@ def _degrees(point: Numbers, crs: str) -> tuple[float, float]:
         to_degrees = pyproj.Transformer.from_crs(crs, WGS84, always_xy=True)
         longitude, latitude = to_degrees.transform(point[0], point[1], errcheck=True)
     except pyproj.exceptions.ProjError as error:  # CRSError is one
-        raise input_error("crs-unknown", f"PROJ cannot place the model on the map {crs!r}: {str(error)[:200]}",
-                          "IfcProjectedCRS", "pass crs='EPSG:...', or georeference=False") from None
+        raise _no_crs(crs, error) from None
     return float(longitude), float(latitude)
+
+
+def _no_crs(crs: str, problem: Exception) -> Error:
+    return input_error("crs-unknown", f"PROJ cannot place the model on the map {crs!r}: {str(problem)[:200]}", "IfcProjectedCRS",
+                       "pass crs='EPSG:...', or georeference=False")
+
+
+def _read(file_name: str, deflection_m: float) -> tuple[Any, dict[str, tuple[Numbers, npt.NDArray[np.int64]]], list[str]]:
+    """The file, the triangles of its products, and what of it is not in them."""
+    ifc = require("ifcopenshell", "ifc")
+    with _LOG_LOCK:
+        ifc.ifcopenshell_wrapper.set_log_format_text()
+        ifc.get_log()
+        file = _opened(file_name)
+        shapes = _shapes(file, deflection_m)
+        return file, shapes, _lost(ifc.get_log())
 
 
 def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, allow_missing: Any) -> Model:
@@ -166,13 +245,16 @@ def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, a
     is_placed, is_missing_allowed = flag(georeference, "georeference"), flag(allow_missing, "allow_missing")
     if not 0 < deflection_m <= 1:
         raise input_error("value-out-of-range", f"deflection_m is {deflection_m:g}", "deflection_m", "give metres, up to 1")
-    file = _opened(file_name)
-    wanted, shapes = _bodies(file), _shapes(file, deflection_m)
+    file, shapes, lost = _read(file_name, deflection_m)
+    wanted = _bodies(file)
     missing = [guid for guid in wanted if guid not in shapes]
     if missing and not is_missing_allowed:
         named = ", ".join(f"{wanted[guid].is_a()} {wanted[guid].Name or ''} ({guid})" for guid in missing[:5])
         raise input_error("mesh-unsupported", f"IfcOpenShell made no triangles of {len(missing)} products: {named}", file_name,
                           "mend them, or pass allow_missing=True: then they hide nothing")
+    if lost and not is_missing_allowed:
+        raise input_error("mesh-unsupported", f"IfcOpenShell could not convert parts of the model: {'; '.join(lost[:5])[:1000]}",
+                          file_name, "mend them, or pass allow_missing=True: then they hide nothing")
     if not shapes:
         raise input_error("mesh-empty", "the file has no product with a body", file_name, "export the model with its geometry")
     objects = []

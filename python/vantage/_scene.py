@@ -355,12 +355,13 @@ class Scene(Triangles):
             georeference: whether the file's IfcMapConversion says where the scene lies. Its origin then is the middle of the
                 model, and z the height of the map. Without one, or with False, the frame is that of the file, with no place.
             crs: of the map, where PROJ does not know the file's name of it: "EPSG:28992".
-            allow_missing: products that no triangles can be made of are left out, and hide nothing, instead of refused.
+            allow_missing: products, and parts of them, that no triangles can be made of are left out, and hide nothing,
+                instead of refused.
             sea_level: z of the mean sea level.
 
         Raises:
-            Error: the file cannot be read, has no bodies, or products that no triangles can be made of; its map conversion is
-                not understood.
+            Error: the file cannot be read, has no bodies, or products or parts of them that no triangles can be made of; its
+                map conversion is not understood, or has another unit than the map's CRS.
         """
         made = model_of(checked_path(path), _arrays.number(deflection_m, "deflection_m"), georeference, crs, allow_missing)
         return cls.from_arrays(made.vertices, made.faces, object_of=made.object_of, objects=made.objects,
