@@ -35,6 +35,35 @@ def test_cells_without_points_are_as_high_as_those_beside_them():
     assert vt.Volume.from_arrays(scene.vertices, scene.faces).contains([[5.5, 5.5, 8.0], [5.5, 5.5, 2.1]]).all()
 
 
+@pytest.mark.parametrize("shape", [(1, 1), (1, 40), (37, 1), (2, 50), (23, 31), (64, 33)])
+def test_cells_far_from_points_are_filled_step_by_step(shape):
+    rng = np.random.default_rng(SEED)
+    for share in (0, 0.01, 0.1, 0.6):
+        y, x = np.nonzero(rng.random(shape) < share)
+        y, x = np.append(y, [0, shape[0] - 1]), np.append(x, [0, shape[1] - 1])  # so that the grid has that shape
+        z = rng.integers(0, 9, len(y)).astype(float)
+        scene = vt.Scene.from_points(np.column_stack([x + 0.5, y + 0.5, z]), cell_m=1)
+        heights = np.full(shape, -np.inf)
+        np.maximum.at(heights, (y, x), z)
+        while np.isneginf(heights).any():
+            around = np.pad(heights, 1, constant_values=-np.inf)
+            highest = np.maximum.reduce([around[i:i + shape[0], j:j + shape[1]] for i in range(3) for j in range(3)])
+            heights = np.where(np.isneginf(heights), highest, heights)
+        around = np.pad(heights, 1, constant_values=-np.inf)
+        tops = np.maximum.reduce([around[i:i + shape[0] + 1, j:j + shape[1] + 1] for i in range(2) for j in range(2)])
+        found = np.full(tops.shape, -np.inf)
+        at = scene.vertices[:, :2].astype(int)
+        is_corner = (scene.vertices[:, :2] == at).all(axis=1) & (scene.vertices[:, 2] >= 0)
+        np.maximum.at(found, (at[is_corner, 1], at[is_corner, 0]), scene.vertices[is_corner, 2])
+        assert np.array_equal(found, tops), (SEED, share)
+
+
+def test_a_long_row_of_cells_without_points_takes_seconds():
+    scene = vt.Scene.from_points([[0.5, 0.5, 1], [399_999.5, 0.5, 3]], cell_m=1)
+    high = scene.vertices[scene.vertices[:, 2] == 3]
+    assert high[:, 0].min() == 200_000 and high[:, 0].max() == 400_000
+
+
 def test_it_hides_as_much_as_a_wall_of_points():
     rng = np.random.default_rng(SEED)
     ground = box_of_points(rng, [-30, -30, 0], [30, 30, 0.001], 20000)

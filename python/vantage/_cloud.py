@@ -79,19 +79,46 @@ def _merged(rows: Numbers) -> Numbers:
                             np.minimum.reduceat(rows[:, 3], starts)])
 
 
-def _around(grid: Numbers) -> Numbers:
-    """Of each cell the highest of it and the eight about it."""
-    rows, columns = grid.shape
-    wide = np.pad(grid, 1, constant_values=-np.inf)
-    return np.maximum.reduce([wide[i:i + rows, j:j + columns] for i in range(3) for j in range(3)])
-
-
 def _filled(grid: Numbers) -> Numbers:
-    """Cells without points get the highest of their neighbours, step by step."""
-    filled = np.where(np.isnan(grid), -np.inf, grid)
-    while (empty := np.isneginf(filled)).any():
-        filled = np.where(empty, _around(filled), filled)
-    return filled
+    """Cells without points get the highest of the nearest cells that have some, as far as the first of these are in steps to
+    the eight neighbours: the highest in the smallest square about the cell that holds any. Takes no longer where that is far."""
+    rows, columns = grid.shape
+    empty = np.isnan(grid)
+    y, x = np.nonzero(empty)
+    counts = np.zeros((rows + 1, columns + 1), np.int64)  # of cells with points above and to the left
+    counts[1:, 1:] = np.cumsum(np.cumsum(~empty, axis=0), axis=1)
+
+    def square(steps: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], ...]:
+        """First and behind the last of its rows, then of its columns."""
+        return (np.maximum(y - steps, 0), np.minimum(y + steps + 1, rows),
+                np.maximum(x - steps, 0), np.minimum(x + steps + 1, columns))
+
+    steps, most = np.zeros(len(y), np.int64), np.full(len(y), max(rows, columns) - 1)
+    while (steps < most).any():  # bisection
+        middle = (steps + most) // 2
+        top, bottom, left, right = square(middle)
+        holds = counts[bottom, right] - counts[top, right] - counts[bottom, left] + counts[top, left] > 0
+        steps, most = np.where(holds, steps, middle + 1), np.where(holds, middle, most)
+    return _highest_within(grid, (y, x), square(steps))
+
+
+def _highest_within(grid: Numbers, at: tuple[npt.NDArray[np.int64], ...], boxes: tuple[npt.NDArray[np.int64], ...]) -> Numbers:
+    """The grid with the highest of a box at each of these cells: that of four boxes whose sides are powers of 2 and that overlap."""
+    top, bottom, left, right = boxes
+    result = grid.copy()
+    tall, wide = np.frexp(bottom - top)[1] - 1, np.frexp(right - left)[1] - 1  # exponents of 2
+    columns_of = np.where(np.isnan(grid), -np.inf, grid)  # the highest of 2^i rows from here, then of 2^j columns
+    for i in range(int(tall.max(initial=-1)) + 1):
+        if i > 0:
+            columns_of = np.maximum(columns_of[:-(1 << i - 1)], columns_of[1 << i - 1:])
+        boxes_of = columns_of
+        for j in range(int(wide[tall == i].max(initial=-1)) + 1):
+            if j > 0:
+                boxes_of = np.maximum(boxes_of[:, :-(1 << j - 1)], boxes_of[:, 1 << j - 1:])
+            one = np.flatnonzero((tall == i) & (wide == j))
+            t, b, l, r = top[one], bottom[one] - (1 << i), left[one], right[one] - (1 << j)
+            result[at[0][one], at[1][one]] = np.maximum.reduce([boxes_of[t, l], boxes_of[b, l], boxes_of[t, r], boxes_of[b, r]])
+    return result
 
 
 def _solid(grid: Numbers, first: tuple[int, int], base: float, cell_m: float) -> tuple[Numbers, npt.NDArray[np.int64]]:
