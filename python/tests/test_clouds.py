@@ -145,6 +145,64 @@ def test_feet_are_not_taken_for_metres(tmp_path):
     assert with_heights.bounds[1, 2] == pytest.approx(1200 / 3937 * points[:, 2].max())
 
 
+def file_of_keys(file, keys, doubles=(), crs=None):
+    """A file with GeoTIFF keys, (number, where its value is, value), and, with `crs`, WKT."""
+    known = pytest.importorskip("laspy.vlrs.known")
+    points = np.round(box_of_points(np.random.default_rng(SEED), [6.36e5, 8.49e5, 400], [636100, 849100, 420], 50), 3)
+    laspy = pytest.importorskip("laspy")
+    cloud_file(file, points, crs=crs)
+    data = laspy.read(file)
+    directory = known.GeoKeyDirectoryVlr()
+    directory.geo_keys_header.number_of_keys = len(keys)
+    directory.geo_keys = [known.GeoKeyEntryStruct(id=number, tiff_tag_location=where, count=1, value_offset=value)
+                          for number, where, value in keys]
+    values = known.GeoDoubleParamsVlr()
+    values.parse_record_data(np.array(doubles, "<f8").tobytes())
+    data.header.vlrs += [directory, values]
+    data.write(file)
+    return file, points[:, 2].max()
+
+
+OREGON, UTM = (3072, 0, 2994), (3072, 0, 32610)  # feet; metres
+US_FOOT_M = 1200 / 3937
+
+
+@pytest.mark.parametrize("keys, z_unit_m", [
+    ([UTM], 1), ([UTM, (3076, 0, 9001)], 1), ([UTM, (4099, 0, 9003)], US_FOOT_M), ([UTM, (4099, 0, 9002)], 0.3048),
+    ([UTM, (4096, 0, 6360)], US_FOOT_M), ([UTM, (4096, 0, 6360), (4099, 0, 9003)], US_FOOT_M), ([UTM, (4096, 0, 5703)], 1),
+    ([UTM, (4096, 0, 5103), (4099, 0, 9001)], 1),  # a number of GeoTIFF 1.0
+    ([OREGON, (3076, 0, 9002), (4099, 0, 9001)], 1), ([OREGON, (3076, 0, 32767), (3077, 34736, 0), (4099, 0, 9002)], 0.3048)])
+def test_units_in_geotiff_keys_count(tmp_path, keys, z_unit_m):
+    file, highest = file_of_keys(tmp_path / "a.las", keys, doubles=[0.3048])
+    assert vt.Scene.from_laz(file, cell_m=10).bounds[1, 2] == pytest.approx(z_unit_m * highest, rel=1e-9)
+
+
+@pytest.mark.parametrize("keys, code", [
+    ([UTM, (3076, 0, 9003)], "crs-missing"),  # the CRS has metres
+    ([UTM, (3076, 0, 9002)], "crs-missing"), ([OREGON, (3076, 0, 9003), (4099, 0, 9003)], "crs-missing"),
+    ([UTM, (3076, 0, 32767), (3077, 34736, 0)], "crs-missing"), ([UTM, (3076, 0, 1)], "value-unsupported"),
+    ([UTM, (4096, 0, 5703), (4099, 0, 9003)], "height-unknown"), ([UTM, (4099, 0, 32767)], "value-unsupported"),
+    ([OREGON], "height-unknown"), ([(3072, 0, 32767)], "crs-missing"), ([(1024, 0, 1)], "crs-missing"),
+    ([(1024, 0, 1), (2048, 0, 4326)], "crs-missing"),  # a projection that is not named
+    ([(3072, 0, 32767), (2048, 0, 4326)], "crs-missing"), ([(3076, 0, 9003)], "crs-missing"), ([(3072, 0, 1100)], "crs-unknown")])
+def test_units_and_crs_that_are_not_clear_are_refused(tmp_path, keys, code):
+    file, highest = file_of_keys(tmp_path / "a.las", keys, doubles=[0.3048])
+    assert refused(lambda: vt.Scene.from_laz(file, cell_m=10)).code == code
+    said = vt.Scene.from_laz(file, cell_m=10, crs="EPSG:2994", z_unit_m=0.3048)  # what is given counts
+    assert said.bounds[1, 2] == pytest.approx(0.3048 * highest, rel=1e-9)
+
+
+def test_the_vertical_axis_of_wkt_and_keys_must_agree(tmp_path):
+    file, highest = file_of_keys(tmp_path / "a.las", [(4099, 0, 9001)], crs="EPSG:2994+6360")
+    assert refused(lambda: vt.Scene.from_laz(file, cell_m=10)).code == "height-unknown"
+    assert vt.Scene.from_laz(file, cell_m=10, crs="EPSG:2994+6360").bounds[1, 2] == pytest.approx(US_FOOT_M * highest, rel=1e-9)
+
+
+def test_keys_that_say_nothing_of_the_coordinates_are_no_crs(tmp_path):
+    for keys in ([], [(1025, 0, 1)], [(1024, 0, 0)]):
+        assert vt.Scene.from_laz(file_of_keys(tmp_path / "a.las", keys)[0], cell_m=10).georeference is None
+
+
 def test_files_that_are_cut_short_are_refused(tmp_path):
     points = box_of_points(np.random.default_rng(SEED), [0, 0, 0], [20, 20, 9], 5000)
     whole = cloud_file(tmp_path / "a.laz", points).read_bytes()

@@ -14,6 +14,7 @@ from . import _arrays, _core
 from ._checks import items, whole
 from ._errors import Error, input_error
 from ._extras import require
+from ._las_crs import file_crs, keys_of, z_unit_m as z_unit
 from ._place import WGS84, Georeference, crs_text
 
 Numbers = npt.NDArray[np.float64]
@@ -171,20 +172,6 @@ def _place_of(header: Any, crs: str, origin: Any) -> tuple[float, float]:
     return float(latitude), float(longitude)
 
 
-def _z_unit_m(crs: str, given: Any) -> float:
-    """Metres in the unit of z."""
-    if given is not None:
-        unit_m = _arrays.number(given, "z_unit_m")
-        if not 1e-6 <= unit_m <= 1e6:
-            raise input_error("value-out-of-range", f"z_unit_m is {unit_m:g}", "z_unit_m", "give metres: 0.3048 for feet")
-        return unit_m
-    axes = require("pyproj", "laz").CRS(crs).axis_info
-    if len(axes) == 2 and axes[0].unit_name not in ("metre", "degree"):
-        raise input_error("height-unknown", f"x and y are in the unit '{axes[0].unit_name}', and nothing says what z is in",
-                          "z_unit_m", "pass z_unit_m: 0.3048 where it is feet, 1 for metres")
-    return float(_core.vertical_unit_m(crs))
-
-
 def _check_header(file: str) -> None:
     """Refuses more records of variable length than the file has bytes for: laspy would go through all of them."""
     size = os.path.getsize(file)
@@ -218,7 +205,8 @@ def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any,
     _check_header(file)
     try:
         with laspy.open(file) as reader:
-            named = crs if crs is not None else reader.header.parse_crs()
+            keys = keys_of(reader.header)
+            named = crs if crs is not None else file_crs(reader.header, keys, file)
             if named is None:
                 if z_unit_m is not None or origin is not None:
                     raise input_error("crs-missing", "the file does not say what its coordinates are", "crs", "pass crs='EPSG:...'")
@@ -226,7 +214,7 @@ def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any,
                 return Cloud(vertices, faces, None)
             text = crs_text(named)
             latitude, longitude = _place_of(reader.header, text, origin)
-            unit_m = _z_unit_m(text, z_unit_m)
+            unit_m = z_unit(text, z_unit_m, keys, crs is not None)
             parts = (np.column_stack([_core.from_crs(latitude, longitude, text, np.ascontiguousarray(points[:, :2])),
                                       points[:, 2] * unit_m]) for points in _chunks(reader, left_out))
             vertices, faces = solid_of(parts, cell_m)

@@ -327,13 +327,13 @@ class Scene(Triangles):
             without: classes that are left out, and hide nothing: (7, 18) is noise. Default: all points are taken.
             crs: of the coordinates: "EPSG:25832". Default: what the file says; where it says nothing, they are metres in the
                 frame.
-            z_unit_m: metres in the unit of z: 0.3048 for feet. Default: that of the CRS's vertical axis; without one metres,
-                but where x and y are in another unit the file is refused.
+            z_unit_m: metres in the unit of z: 0.3048 for feet. Default: that of the CRS's vertical axis, or of the file's
+                GeoTIFF keys; without them metres, but where x and y are in another unit the file is refused.
             origin: (latitude, longitude) of the scene's origin. Default: the middle of the file.
             sea_level: z of the mean sea level.
 
         Raises:
-            Error: the file cannot be read, or as from_points.
+            Error: the file cannot be read, its CRS is not understood, or the units that it states differ; or as from_points.
         """
         made = cloud_of_file(checked_path(path), _arrays.number(cell_m, "cell_m"), without, crs, origin,
                              z_unit_m)
