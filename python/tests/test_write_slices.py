@@ -131,6 +131,27 @@ def test_degrees_are_longitude_before_latitude(slices, tmp_path):
     assert [row["area_m2"] for row, _ in rows] == [one.area_m2 for one in slices]
 
 
+@pytest.mark.parametrize("longitude", [180, -179.9999, 179.9997])
+def test_slices_across_the_antimeridian_are_in_one_piece(tmp_path, longitude):
+    scene = yard()
+    scene = vt.Scene.from_arrays(scene.vertices, scene.faces, georeference=vt.Georeference(-17, longitude))
+    result = vt.compute(scene, SQUARE, max_range=60)
+    both = [result.slice(z=10), result.slice(z=20)]
+    for crs in (4326, "OGC:CRS84", "EPSG:4258", "EPSG:3460", 32701):  # two of them are projections
+        vt.write_slices(tmp_path / "a.gpkg", both, crs=crs)
+        vt.write_slices(tmp_path / "a.parquet", both, crs=crs)
+        both[0].to_crs(crs).save(tmp_path / "b.gpkg")
+        both[0].to_crs(crs).save(tmp_path / "b.parquet")
+        of_files = [wkb for name in "ab" for _, wkb in geopackage_rows(tmp_path / f"{name}.gpkg")[0]]
+        of_files += [row["geometry"] for name in "ab" for row in parquet.read_table(tmp_path / f"{name}.parquet").to_pylist()]
+        assert len(of_files) == 6
+        metres = 1 if crs in ("EPSG:3460", 32701) else 111_320 * np.cos(np.radians(17))
+        for wkb in of_files:
+            corners = np.concatenate([ring for rings in polygons_of(wkb) for ring in rings])
+            assert 30 < np.ptp(corners[:, 0]) * metres < 140
+    assert refused(lambda: vt.write_slices(tmp_path / "a.gpkg", both, crs=3857)).code == "crs-unusable"
+
+
 def test_footprints_have_no_height(placed, tmp_path):
     footprint = placed.footprint()
     vt.write_slices(tmp_path / "a.gpkg", [footprint])

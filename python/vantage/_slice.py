@@ -64,13 +64,15 @@ class Slice:
         """The same with its corners in another CRS: east and north, or longitude and latitude in degrees, in this order.
 
         Sides stay straight between their corners: of a side of 300 m at 60 degrees of latitude no point is off by more than
-        0.1 mm in UTM, and 4 mm in degrees; four times that for 600 m. Heights stay those of the scene's frame.
+        0.1 mm in UTM, and 4 mm in degrees; four times that for 600 m. Heights stay those of the scene's frame. Across the
+        antimeridian longitudes go on beyond 180 degrees.
 
         Args:
             crs: 32618, "EPSG:32618", a PROJ or WKT text, or a pyproj.CRS.
 
         Raises:
-            Error: there is no such CRS, or it is not known where on the earth the scene lies.
+            Error: there is no such CRS, or it is not known where on the earth the scene lies, or the slice crosses the edge of
+                the CRS's map, as in EPSG:3857 at the antimeridian.
         """
         text, frame = crs_text(crs), self._frame or self
         place = frame.georeference
@@ -78,7 +80,7 @@ class Slice:
             raise no_place("crs", "take a scene with a place: a map, a file with a CRS, or from_arrays with a Georeference")
         moved = [[_core.to_crs(place.latitude_deg, place.longitude_deg, text, ring) for ring in rings]
                  for rings in frame.polygons]
-        return Slice(moved, self.z_m, place, text, frame)
+        return Slice(_whole(moved, frame.polygons, place, text), self.z_m, place, text, frame)
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
@@ -104,7 +106,8 @@ class Slice:
         """Writes .geojson, or .gpkg or .parquet (GeoParquet) in the slice's own CRS; whole or not at all.
 
         GeoJSON is longitude and latitude, WGS 84 (RFC 7946), whatever the slice's CRS. Its properties are z_m and area_m2. A
-        slice across the antimeridian has longitudes beyond 180 degrees. `write_slices` writes several, with their heights.
+        slice across the antimeridian has longitudes beyond 180 degrees, in all formats. `write_slices` writes several, with
+        their heights.
 
         Raises:
             Error: the extension is another one, the place on the earth is not known, or the file cannot be written.
@@ -119,10 +122,6 @@ class Slice:
 
     def _feature_collection(self) -> dict[str, Any]:
         on_earth = self.to_crs(WGS84)
-        longitudes = [ring[:, 0] for rings in on_earth.polygons for ring in rings]
-        if longitudes and max(map(np.max, longitudes)) - min(map(np.min, longitudes)) > 180:
-            on_earth = Slice([[np.column_stack([ring[:, 0] % 360, ring[:, 1]]) for ring in rings]
-                              for rings in on_earth.polygons])
         properties = {"z_m": self.z_m, "area_m2": self.area_m2}
         feature = {"type": "Feature", "properties": properties, "geometry": on_earth.__geo_interface__}
         return {"type": "FeatureCollection", "features": [feature]}
@@ -134,6 +133,28 @@ class Slice:
 
     def _repr_html_(self) -> str:
         return html(self)
+
+
+def _whole(moved: list[list[Ring]], polygons: list[list[Ring]], place: Georeference, crs: str) -> list[list[Ring]]:
+    """Polygons that were moved to a CRS, in one piece where they cross the antimeridian: else they would run around the globe.
+
+    Raises:
+        Error: they cross the edge of the CRS's map.
+    """
+    corners = [ring for rings in moved for ring in rings]
+    if not corners or np.ptp(np.concatenate(corners)[:, 0]) <= 180:
+        return moved
+    x, y = np.concatenate(corners).T
+    in_frame = np.concatenate([ring for rings in polygons for ring in rings])
+    if np.abs(x).max() <= 180.001 and np.abs(y).max() <= 90:  # they may be degrees
+        longitude, latitude = _core.to_crs(place.latitude_deg, place.longitude_deg, WGS84, np.ascontiguousarray(in_frame)).T
+        shift = x - longitude  # another meridian is zero
+        if np.abs(y - latitude).max() < 1 and np.abs((shift - shift[0] + 180) % 360 - 180).max() < 1:
+            return [[np.column_stack([ring[:, 0] % 360, ring[:, 1]]) for ring in rings] for rings in moved]
+    if np.ptp(x) > 100 * max(np.ptp(in_frame, axis=0)):
+        raise input_error("crs-unusable", f"the slice crosses the edge of the map of {crs!r}, and would run around the globe there",
+                          "crs", "choose a CRS for that region, such as a zone of UTM, or longitude and latitude")
+    return moved
 
 
 def write_slices(path: Path, slices: Iterable[Slice], *, names: Sequence[str] | None = None, crs: Any = None) -> None:
@@ -148,7 +169,8 @@ def write_slices(path: Path, slices: Iterable[Slice], *, names: Sequence[str] | 
         path: the file.
         slices: all slices, or all footprints.
         names: one for each of them.
-        crs: what all are converted to, as by `Slice.to_crs`: "EPSG:4326" for WGS 84. Default: the CRS that they all have.
+        crs: what all are converted to, as by `Slice.to_crs`: "EPSG:4326" for WGS 84, with longitudes beyond 180 degrees across
+            the antimeridian. Default: the CRS that they all have.
 
     Raises:
         Error: there are none; slices and footprints are mixed; CRS differ and none is given; a package is missing; the file
