@@ -56,3 +56,37 @@ def test_no_modules_import_each_other_in_a_circle():
 def test_modules_are_not_imported_inside_functions():
     late = {(name, other) for name, other, is_late in imports() if is_late}
     assert late == set(LATE)
+
+
+def named_in(file):
+    """The functions, classes and values of a module, without importing it."""
+    named = {}
+    for node in ast.parse(file.read_text()).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            named[node.name] = node
+        elif isinstance(node, ast.AnnAssign):
+            named[node.target.id] = node
+        elif isinstance(node, ast.Assign):
+            named |= {target.id: node for target in node.targets}
+    return named
+
+
+def parameters_of(function):
+    return [one.arg for one in function.args.posonlyargs + function.args.args + function.args.kwonlyargs]
+
+
+def test_the_package_in_webassembly_has_each_name_or_says_that_it_lacks_it():
+    wasm = PROJECT / "python" / "wasm" / "vantage" / "_core"
+    native, there = named_in(PACKAGE / "_core.pyi"), named_in(wasm / "__init__.py")
+    lacked = [key.value for key in named_in(wasm / "_missing.py")["NAMES"].value.keys]
+    assert set(native) == {"version", *lacked} | (set(native) & set(there))  # its __getattr__ knows the version
+    assert not set(lacked) & set(there) and len(native) > 50
+    for name in set(native) & set(there):
+        one, other = native[name], there[name]
+        pairs = [(name, one, other)] if isinstance(one, ast.FunctionDef) else []
+        if isinstance(one, ast.ClassDef):
+            methods = {part.name: part for part in other.body if isinstance(part, ast.FunctionDef)}
+            pairs = [(f"{name}.{part.name}", part, methods[part.name]) for part in one.body
+                     if isinstance(part, ast.FunctionDef) and part.name in methods and part.name != "__init__"]
+        for what, function, same in pairs:
+            assert parameters_of(function) == parameters_of(same), what

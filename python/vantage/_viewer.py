@@ -112,6 +112,6 @@ def viewer(mission: _core.Mission, volume: _core.Volume, size: Any, proof: Any, 
         raise input_error("wrong-type", f"size is {shown(size)}", "size", "pass width and height: (1000, 650)")
     pixels = whole(size[0], "size[0]", 1, 2**15), whole(size[1], "size[1]", 1, 2**15)
     most, proves = whole(most_bytes, "most_bytes", 1), flag(proof, "proof")
-    name = mission.target_name
-    filled = _core.viewer_page(mission, volume, _page(page), f"{name or 'mission'}.yaml", proves, progress)
+    name, fill = mission.target_name, _core.viewer_page  # builds without it say so, before the page is looked for
+    filled = fill(mission, volume, _page(page), f"{name or 'mission'}.yaml", proves, progress)
     return Viewer(filled, name, pixels, most)

@@ -119,9 +119,14 @@ def test_what_is_missing_is_named(name: str) -> None:
 
 def test_maps_and_tours_are_missing(ground: vt.Scene) -> None:
     for ask in (lambda: vt.Scene.from_osm(ROOT / "examples/town/town.osm"), lambda: vt.devices(),
-                lambda: vt.compute(ground, SQUARE, max_range=50).verify(), lambda: vt.tour(vt.Mission.of(ground, SQUARE, max_range=50))):
+                lambda: vt.compute(ground, SQUARE, max_range=50).verify(), lambda: vt.tour(vt.Mission.of(ground, SQUARE, max_range=50)),
+                lambda: vt.compute(ground, SQUARE, max_range=50).view()):
         with pytest.raises(vt.NotInBuildError):
             ask()
+
+
+def test_formats_of_scenes_are_fewer_than_those_of_volumes() -> None:
+    assert {"ply", "kml"} <= set(vt.output_formats()) and set(vt.output_formats(scenes=True)) < set(vt.output_formats())
 
 
 def test_progress_stops_and_its_error_comes_through(ground: vt.Scene) -> None:

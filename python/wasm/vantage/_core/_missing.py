@@ -23,6 +23,7 @@ NAMES: dict[str, str] = {
     "target_samples": _FIELDS,
     "render": "pictures",
     "save_png": "pictures",
+    "viewer_page": "page with a volume",
     "Flight": _FLIGHTS,
     "FlightCheck": _FLIGHTS,
     "Orbit": _FLIGHTS,
