@@ -146,8 +146,9 @@ wheels:  ## wheels for old systems, aarch64 and later versions of Python, in dis
 
 .PHONY: wheelscheck
 wheelscheck: wheels build  ## try each of them as `make wheelcheck` does; those for aarch64 in an emulator
-	@for wheel in $$(ls dist/vantage-*.whl | grep -E 'manylinux(2014|_2_[12][0-9])_'); do \
-	  scripts/check_wheel.sh $$wheel || exit 1; done
+	@wheels=$$(ls dist/vantage-*.whl | grep -E 'manylinux(2014|_2_[12][0-9])_') || \
+	  { echo "dist/ has no wheel for older systems" >&2; exit 1; }; \
+	for wheel in $$wheels; do scripts/check_wheel.sh $$wheel || exit 1; done
 
 .PHONY: web
 web:  ## the page, in web/dist/index.html: one file

@@ -5,7 +5,7 @@ system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI
     build_portable_wheels.py [--targets x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
 
 What is in them: wheel_libraries.toml. The name of a wheel says which glibc it needs: the newest version that one of the
-functions has which it takes from glibc.
+functions has which it takes from glibc. It may not be newer than that of the target.
 
 State: no wheel has been linked by it yet. For x86-64 the libraries are built, the bindings are compiled for the stable
 ABI, and most other sources pass the compiler's checks. HiGHS is left out (`vantage_options`), as it takes minutes to
@@ -126,10 +126,21 @@ def platform_tags(glibc: str, processor: str) -> list[str]:
     return [f"manylinux_{major}_{minor}_{processor}"] + ([f"{older}_{processor}"] if older else [])
 
 
-def pack(folder: pathlib.Path, tag: str, processor: str, dist: pathlib.Path) -> pathlib.Path:
+def check_glibc(glibc: str, target: str) -> None:
+    """Fails where a module that needs that glibc was not built for the glibc of the target."""
+    wanted = re.search(r"-gnu\.(\d+)\.(\d+)$", target)
+    if wanted is None:
+        raise Failure(f"{target} names no glibc: x86_64-linux-gnu.2.17 does")
+    if tuple(map(int, glibc.split("_"))) > tuple(map(int, wanted.groups())):
+        raise Failure(f"the module takes functions of glibc {glibc.replace('_', '.')}, and is for {target}")
+
+
+def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pathlib.Path:
     """The wheel of what lies in a folder."""
     module = next((folder / "vantage").glob("_core.*.so"))
-    platforms = platform_tags(lowest_glibc(module), processor)
+    glibc, processor = lowest_glibc(module), target.partition("-")[0]
+    check_glibc(glibc, target)
+    platforms = platform_tags(glibc, processor)
     info = next(folder.glob("*.dist-info"))
     lines = ["Wheel-Version: 1.0", "Generator: vantage", "Root-Is-Purelib: false", *(f"Tag: {tag}-{name}" for name in platforms)]
     (info / "WHEEL").write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -173,7 +184,7 @@ def main() -> int:
             for python in arguments.pythons:
                 print(f"building vantage for {target}, {TAGS[python]}", flush=True)
                 folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, libraries)
-                wheel = pack(folder, TAGS[python], target.partition("-")[0], dist)
+                wheel = pack(folder, TAGS[python], target, dist)
                 subprocess.run([sys.executable, str(HERE / "wheel_licences.py"), "check", str(wheel)], check=True)
                 print(f"{wheel.stat().st_size / 1e6:.1f} MB  {wheel}", flush=True)
     except (Failure, OSError, KeyError, subprocess.CalledProcessError) as error:

@@ -348,7 +348,7 @@ class Scripts(unittest.TestCase):
         for made in (module.parent, info, dist):
             made.mkdir(parents=True)
 
-        def pack(symbol: str, version: str) -> list[str]:
+        def pack(symbol: str, version: str, target: str) -> list[str]:
             """The names of the wheels there are after packing a module that takes one function from glibc."""
             stub = self.scratch / "libc.so.6"
             link = ["gcc", "-shared", "-fPIC", "-nostdlib", "-Wl,--no-as-needed", "-x", "c", "-"]
@@ -357,15 +357,47 @@ class Scripts(unittest.TestCase):
                            input=f"void {symbol}(void) {{}}", text=True, check=True)
             subprocess.run([*link, "-o", str(module), "-x", "none", str(stub)], text=True, check=True,
                            input=f"void {symbol}(void); void PyInit__core(void) {{ {symbol}(); }}")
-            portable.pack(folder, "cp312-abi3", "x86_64", dist)
+            portable.pack(folder, "cp312-abi3", target, dist)
             return [file.name for file in dist.glob("*.whl")]
 
-        self.assertEqual(pack("older", "2.4"), ["vantage-1-cp312-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl"])
-        self.assertEqual(pack("newer", "2.28"), ["vantage-1-cp312-abi3-manylinux_2_28_x86_64.whl"])
+        self.assertEqual(pack("older", "2.4", "x86_64-linux-gnu.2.17"), ["vantage-1-cp312-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl"])
+        self.assertEqual(pack("newer", "2.28", "x86_64-linux-gnu.2.28"), ["vantage-1-cp312-abi3-manylinux_2_28_x86_64.whl"])
         with zipfile.ZipFile(next(dist.iterdir())) as archive:
             self.assertIn("Tag: cp312-abi3-manylinux_2_28_x86_64\n", archive.read("vantage-1.dist-info/WHEEL").decode())
             rows = [line.split(",") for line in archive.read("vantage-1.dist-info/RECORD").decode().split()]
             self.assertEqual({row[0] for row in rows}, set(archive.namelist()))
+        for target in ("x86_64-linux-gnu.2.17", "x86_64-linux-gnu"):  # its glibc is older, or not known
+            with self.assertRaises(portable.Failure):
+                pack("newer", "2.28", target)
+        self.assertEqual([file.name for file in dist.iterdir()], ["vantage-1-cp312-abi3-manylinux_2_28_x86_64.whl"])
+
+    def test_no_wheel_to_try_is_a_failure(self):
+        shutil.copy(ROOT / "Makefile", self.tree)
+        tried = self.scratch / "tried"
+        (self.tree / "scripts" / "check_wheel.sh").write_text(f"#!/bin/sh\necho $1 >> {tried}\n", encoding="utf-8")
+        dist = self.tree / "dist"
+        dist.mkdir()
+        make = ["make", "--no-print-directory", "-o", "wheels", "-o", "build", "wheelscheck"]
+
+        def is_right() -> bool:
+            return subprocess.run(make, cwd=self.tree, env=self.environment, capture_output=True, check=False).returncode == 0
+
+        self.assertFalse(is_right())
+        (dist / "vantage-1-cp311-cp311-manylinux_2_36_x86_64.whl").touch()  # that of `make wheel`
+        self.assertFalse(is_right())
+        portable = "dist/vantage-1-cp312-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl"
+        (self.tree / portable).touch()
+        self.assertTrue(is_right())
+        self.assertEqual(tried.read_text(), f"{portable}\n")
+
+    def test_cesium_is_not_tried_in_a_node_that_reads_empty_files(self):
+        script = ROOT / "integrations" / "cesium" / "check_czml.sh"
+        self.put_tool("node", "echo v18.20.4\n")
+        result = subprocess.run([str(script), str(self.scratch / "work")], env={**self.environment, "VANTAGE": "/bin/true"},
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual((result.stderr.count("\n"), "v18.20.4" in result.stderr), (1, True), result.stderr)
+        self.assertFalse((self.scratch / "work").exists())
 
     def test_wheel_libraries_are_those_that_are_pinned(self):
         archive = self.archive("thing-1", ["thing.c", "LICENSE"])

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Plans a flight in the invented town, writes it as CZML, loads that with Cesium in Node, and compares positions and
-# times with what `vantage check` says of the same flight. Needs Node 20; Cesium comes from npm, unless it is installed
-# beside this file.
+# times with what `vantage check` says of the same flight. Needs Node 20 or newer (Debian 12 has 18); Cesium
+# comes from npm, unless it is installed beside this file.
 #   integrations/cesium/check_czml.sh [FOLDER]    what it makes stays there; default: build/cesium-czml
 # VANTAGE names the program.
 set -euo pipefail
@@ -12,6 +12,11 @@ work=${1:-$root/build/cesium-czml}
 version=1.145.0
 sea_level=-540.5 undulation=45.75  # of the scene's z; metres
 
+node=$(node --version)
+if [[ ! $node =~ ^v([0-9]+)\. ]] || [ "${BASH_REMATCH[1]}" -lt 20 ]; then
+  echo "node is $node, in which Cesium $version reads no CZML: install Node 20 or newer" >&2
+  exit 1
+fi
 mkdir -p "$work"
 cd "$work"
 cesium=$here/node_modules/cesium
