@@ -5,11 +5,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=$PWD/build-web/python-tests
-stamp=$folder/$(sha256sum python/wasm/requirements.txt | cut -c1-16).stamp
+stamp=$folder/$(sha256sum python/wasm/requirements.lock | cut -c1-16).stamp
 if [ ! -e "$stamp" ]; then
   rm -rf "$folder"
   "${PYTHON:-python3}" -m venv "$folder"
-  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --only-binary=:all: --requirement python/wasm/requirements.txt
+  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --only-binary=:all: \
+    --requirement python/wasm/requirements.lock
   touch "$stamp"
 fi
 "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall dist/vantage-*-py3-none-any.whl
