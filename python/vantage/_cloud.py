@@ -104,7 +104,7 @@ def _filled(grid: Numbers) -> Numbers:
 
 
 def _highest_within(grid: Numbers, at: tuple[npt.NDArray[np.int64], ...], boxes: tuple[npt.NDArray[np.int64], ...]) -> Numbers:
-    """The grid with the highest of a box at each of these cells: that of four boxes whose sides are powers of 2 and that overlap."""
+    """The grid with the highest of a box at each of these cells: that of four boxes that overlap, with sides of powers of 2."""
     top, bottom, left, right = boxes
     result = grid.copy()
     tall, wide = np.frexp(bottom - top)[1] - 1, np.frexp(right - left)[1] - 1  # exponents of 2

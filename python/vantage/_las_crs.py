@@ -66,8 +66,8 @@ def file_crs(header: Any, keys: GeoKeys, file: str) -> str | None:
         raise input_error("crs-missing", "the file has records of a CRS, and it cannot be read from them", file, fix)
     is_projected = keys.values.get(_MODEL) == 1 or keys.values.get(_PROJECTED, 0) > 0
     if is_projected and not crs.is_projected:
-        raise input_error("crs-missing", f"the file's coordinates are of a projection that it does not name, based on {crs.name!r}",
-                          file, fix)
+        raise input_error("crs-missing", "the file's coordinates are of a projection that it does not name, based on "
+                          f"{crs.name!r}", file, fix)
     stated_m = _unit_m(keys, _UNIT, _UNIT_SIZE)
     if stated_m is not None and crs.is_projected and not _is_same(stated_m, crs.axis_info[0].unit_conversion_factor):
         raise input_error("crs-missing", f"the file's x and y are in units of {stated_m:.10g} m by its GeoTIFF keys, and of "

@@ -152,7 +152,7 @@ def _whole(moved: list[list[Ring]], polygons: list[list[Ring]], place: Georefere
         if np.abs(y - latitude).max() < 1 and np.abs((shift - shift[0] + 180) % 360 - 180).max() < 1:
             return [[np.column_stack([ring[:, 0] % 360, ring[:, 1]]) for ring in rings] for rings in moved]
     if np.ptp(x) > 100 * max(np.ptp(in_frame, axis=0)):
-        raise input_error("crs-unusable", f"the slice crosses the edge of the map of {crs!r}, and would run around the globe there",
+        raise input_error("crs-unusable", f"the slice crosses the edge of the map of {crs!r}, and would run around the globe",
                           "crs", "choose a CRS for that region, such as a zone of UTM, or longitude and latitude")
     return moved
 
