@@ -5,6 +5,7 @@ import pytest
 
 import vantage as vt
 from conftest import refused
+from vantage import _ifc
 
 pytest.importorskip("ifcopenshell", reason="the extra `ifc` is not installed")
 
@@ -196,6 +197,19 @@ def test_faces_without_area_and_those_there_twice_are_no_loss(tmp_path, more):
     scene = vt.Scene.from_ifc(written(tmp_path, face_set("cube", CUBE + more)))
     a, b, c = np.moveaxis(scene.vertices[scene.faces], 1, 0)
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 > 6 - 1e-9  # m2
+
+
+def test_entries_of_the_log_that_tell_of_losses():
+    def lost(*entries):
+        return len(_ifc._lost("".join(f"[warning] [{code}] [2026-01-01 00:00:00] {{guid}} {text}\n#1=IfcWall()\n"
+                                      for code, text in entries)))
+
+    counted = ("GEO169", "2 duplicate faces removed, 1 degenerate loops eliminated and 0 non-manifold edges")
+    one_face = (("GEO159", "Face boundary loop not included"), ("GEO162", "Face with no boundaries"),
+                ("GEO198", "Failed to convert face:"))
+    assert [lost(counted, *one_face * count) for count in (0, 3, 4, 6)] == [0, 0, 1, 3]
+    assert lost(*one_face) == 1 and lost(one_face[2]) == 1
+    assert lost(("GEO185", "Mesher generated a degenerate triangle, ignoring"), ("GEO031", "No material")) == 0
 
 
 def test_what_was_logged_before_is_not_taken_for_the_files(tmp_path):

@@ -73,6 +73,8 @@ def _lost(log: str) -> list[str]:
             faces += 1
         elif code == "GEO198" and faces > 0:
             faces -= 1
+        elif code == "GEO185":  # a triangle without area
+            continue
         elif counted := _ATTRIBUTES.match(text):  # more than there should be mean nothing
             lost += [told] if int(counted[2]) < int(counted[1]) else []
         elif level in ("error", "fatal") or (level == "warning" and _LOSSES.search(text)):
