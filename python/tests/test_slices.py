@@ -282,3 +282,29 @@ def test_notebooks(placed):
     html = placed.slice(z=20)._repr_html_()
     assert "<svg" in html and "20 m" in html
     assert "<svg" not in placed.slice(z=2000)._repr_html_()
+
+
+@pytest.mark.parametrize("code, at_deg", [(23030, (40.4, -3.7)), (23032, (45.46, 9.19)), (4326, (48.0, 11.0)), (2263, (40.75, -73.98))])
+def test_positions_of_a_crs_are_those_of_a_mesh_in_it(tmp_path, code, at_deg):
+    """Old datums have several ways to WGS 84, metres apart: the mesh and the positions must go the same."""
+    here = vt.Scene.from_arrays([[0, 0, 0], [90, 0, 1], [0, 60, 2]], [[0, 1, 2]], georeference=vt.Georeference(*at_deg))
+    there = here.positions_in_crs(here.vertices[:, :2], code)
+    mesh = tmp_path / "mesh.obj"
+    mesh.write_text("".join(f"v {x:.17g} {y:.17g} {z:.17g}\n" for (x, y), z in zip(there, here.vertices[:, 2])) + "f 1 2 3\n")
+    scene = vt.Scene.from_mesh(mesh, crs=f"EPSG:{code}")
+    moved = scene.positions(there, code)
+    assert abs(moved - scene.vertices[:, :2]).max() < 1e-6
+    # Steps of Helmert's seven parameters are not exact backwards.
+    assert abs(here.positions(there, code) - here.vertices[:, :2]).max() < 5e-3
+
+
+def test_positions_that_cannot_be_converted():
+    scene = vt.Scene.from_arrays([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]], georeference=PLACE)
+    assert scene.positions([], 4326).shape == (0, 2) and scene.positions([-73.9857, 40.7484], 4326).shape == (1, 2)
+    lost = vt.Scene.from_arrays(scene.vertices, scene.faces)
+    for of, points, crs, code in ((scene, [[0, 0]], 4326, "too-far-away"), (scene, [[0, 0, 0]], 4326, "array-sizes-differ"),
+                                  (scene, [[0, np.nan]], 4326, "coordinate-not-finite"), (scene, [[0, 0]], 99999, "crs-unknown"),
+                                  (lost, [[0, 0]], 4326, "not-georeferenced")):
+        with pytest.raises(vt.Error) as raised:
+            of.positions(points, crs)
+        assert raised.value.code == code

@@ -22,7 +22,7 @@ from ._folders import Folder
 from ._ifc import model_of
 from ._mesh import Triangles, poly_data
 from ._objects import KINDS, SceneObject
-from ._place import Georeference
+from ._place import Georeference, crs_text, no_place
 from ._prisms import prisms_of
 from ._progress import Progress
 from ._render import html
@@ -432,6 +432,41 @@ class Scene(Triangles):
             warnings.warn(f"latitude {north} and longitude {east} seem to be swapped: the place lies outside of the scene, and "
                           "inside with them the other way round", stacklevel=2)
         return at
+
+    def positions(self, points: npt.ArrayLike, crs: Any) -> npt.NDArray[np.float64]:
+        """x and y of places in any CRS: converted as a mesh in this CRS is, by the same operation of PROJ.
+
+        Args:
+            points: (n, 2), in the CRS's unit: east and north, or longitude and latitude in degrees, in this order.
+            crs: 32618, "EPSG:32618", a PROJ or WKT text, or a pyproj.CRS.
+
+        Returns:
+            (n, 2) float64, metres in the scene's frame, read-only.
+
+        Raises:
+            Error: there is no such CRS, a place is more than 100 km from the scene's origin, or it is not known where on the
+                earth the scene lies.
+
+        Example:
+            >>> import vantage as vt
+            >>> scene = vt.Scene.from_arrays([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]],
+            ...                              georeference=vt.Georeference(48.0, 11.0))
+            >>> north_m = scene.positions([[11.0, 48.001]], "EPSG:4326")[0, 1]
+            >>> round(float(north_m), 2)
+            111.19
+        """
+        place = self._placed()
+        return _core.from_crs(place.latitude_deg, place.longitude_deg, crs_text(crs), _arrays.plan(points))
+
+    def positions_in_crs(self, points: npt.ArrayLike, crs: Any) -> npt.NDArray[np.float64]:
+        """The other way round: x and y of the scene's frame, (n, 2) metres, in a CRS. As `Slice.to_crs` does."""
+        place = self._placed()
+        return _core.to_crs(place.latitude_deg, place.longitude_deg, crs_text(crs), _arrays.plan(points))
+
+    def _placed(self) -> Georeference:
+        if self.georeference is None:
+            raise no_place("crs", "take a scene with a place: a map, a file with a CRS, or from_arrays with a Georeference")
+        return self.georeference
 
     def prepare(self, progress: Progress = None) -> Scene:
         """Prepares the scene now, and not with the first volume."""

@@ -23,7 +23,7 @@ from qgis.core import (NULL, QgsApplication, QgsCoordinateReferenceSystem, QgsCo
 import support
 import vantage as vt
 from support import FOLDER, PROJECT, TOWN, Feedback, QgsProcessingException, QgsVectorLayer, corners_of, layer, processing, run
-from vantage_processing.places import LOCAL
+from vantage_processing.places import LOCAL, text_of
 
 UTM = "EPSG:32632"
 
@@ -387,6 +387,62 @@ class Flights(Checked):
                 named += 1
                 self.assertTrue(square.query(corners_of(row.geometry())).inside[0])
         self.assertGreater(named, 0)
+
+
+def city_in(crs, at_deg, file):
+    """An OBJ of a plain and a tower in a CRS, about a place. Returns the scene, and where its middle is in the CRS."""
+    plain = [(x, y, 0.0) for x, y in ((-90, -90), (90, -90), (90, 90), (-90, 90))]
+    tower = [(x, y, z) for z in (0.0, 30.0) for x, y in ((10, -6), (18, -6), (18, 6), (10, 6))]
+    faces = [(0, 1, 2, 3), (8, 9, 10, 11), (4, 5, 9, 8), (5, 6, 10, 9), (6, 7, 11, 10), (7, 4, 8, 11)]
+    about = QgsCoordinateTransform(QgsCoordinateReferenceSystem("EPSG:4326"), QgsCoordinateReferenceSystem(crs),
+                                   QgsCoordinateTransformContext()).transform(at_deg[1], at_deg[0])
+    corners = np.array(plain + tower) + np.round([about.x(), about.y(), 0])
+    file.write_text("".join("v {:.17g} {:.17g} {:.17g}\n".format(*corner) for corner in corners) +
+                    "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces))
+    return vt.Scene.from_mesh(file, crs=text_of(QgsCoordinateReferenceSystem(crs))), np.round([about.x(), about.y()])
+
+
+class Datums(Checked):
+    """Between old datums and WGS 84 there are several operations: layers must go the way of the scene's file."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.file = pathlib.Path(scratch.name) / "city.obj"
+
+    def test_a_layer_in_the_crs_of_the_mesh_lies_where_it_lies_in_the_mesh(self):
+        square = np.array([(-5, -4), (6, -4), (6, 5), (-5, 5), (-5, -4)])
+        for crs, at_deg in (("EPSG:23030", (40.4, -3.7)), ("EPSG:23032", (45.46, 9.19)), (UTM, (48.0, 11.0))):
+            scene, middle = city_in(crs, at_deg, self.file)
+            wkt = "POLYGON((" + ", ".join(f"{x} {y}" for x, y in square + middle) + "))"
+            asked = {"SCENE": self.file, "SCENE_CRS": QgsCoordinateReferenceSystem(crs), "RANGE": 60, "TARGET_Z": 1,
+                     "TARGETS": layer("Polygon", [wkt], crs)}
+            # The tower's corners are in the file, so where the mesh lies is known without any conversion of positions.
+            tower = scene.vertices[scene.vertices[:, 2] == 30]
+            points = layer("PointZ", [f"POINT Z({x + middle[0]} {y + middle[1]} 30)" for x, y in ((10, -6), (18, 6))], crs)
+            made = run("volume", CRS=QgsCoordinateReferenceSystem(crs), **asked)
+            answers = list(run("query", POINTS=points, **asked)["OUTPUT"].getFeatures())
+            mission = vt.Mission.of(scene, [[*xy, 1.0] for xy in (square[:4] + middle).tolist()], max_range=60, crs=crs)
+            expected = mission.run()
+            with self.subTest(crs=crs):
+                self.assertAlmostEqual(made["VOLUME_M3"] / expected.volume_m3, 1, places=9)
+                corners = [tower[tower[:, :2].sum(axis=1).argmin()], tower[tower[:, :2].sum(axis=1).argmax()]]
+                for row, margin in zip(answers, mission.query(corners).margin_m):
+                    self.assertAlmostEqual(row["margin_m"], margin, places=5)
+                # The wall x = 10 bounds the volume: its facets lie there in the file's coordinates.
+                facets = [corners_of(row.geometry()) - [*middle, 0] for row in made["FACETS"].getFeatures()]
+                self.assertLess(min(np.abs(facet[:, 0] - 10).max() for facet in facets), 5e-3)
+
+    def test_an_origin_in_the_crs_of_the_layer(self):
+        crs, plaza = "EPSG:23030", PROJECT / "examples" / "plaza" / "plaza.obj"
+        _, middle = city_in(crs, (40.4, -3.7), self.file)
+        square = layer("Polygon", ["POLYGON((-5 -4, 6 -4, 6 5, -5 5, -5 -4))"])
+        points = layer("PointZ", ["POINT Z({} {} 20)".format(*middle)], crs)
+        made = run("query", SCENE=plaza, ORIGIN="{},{} [{}]".format(*middle, crs), TARGETS=square, TARGET_Z=1, RANGE=60,
+                   POINTS=points)["OUTPUT"]
+        mission = vt.Mission.of(vt.Scene.from_mesh(plaza), [[-5, -4, 1], [6, -4, 1], [6, 5, 1], [-5, 5, 1]], max_range=60)
+        margin = next(made.getFeatures())["margin_m"]
+        self.assertAlmostEqual(margin, mission.query([[0, 0, 20]]).margin_m[0], delta=5e-3)
 
 
 class Refused(Checked):

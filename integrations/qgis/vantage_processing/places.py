@@ -2,12 +2,14 @@
 
 The frame of a scene with a place on the earth is a projected CRS, an azimuthal equidistant projection about the scene's
 origin, in metres. Without a place it is a local (engineering) CRS: QGIS takes layers without any for degrees. Horizontal
-coordinates are converted by QGIS, that is by PROJ; heights stay as they are: metres above the zero of the scene.
+coordinates are converted by vantage, not by QGIS: between old datums and WGS 84 there are several operations, metres apart,
+and layers must go the way that the scene's file went. Heights stay as they are: metres above the zero of the scene.
 """
 
 import numpy as np
-from qgis.core import (QgsCoordinateReferenceSystem, QgsCoordinateTransform, QgsCsException, QgsLineString,
-                       QgsProcessingException)
+from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingException
+
+from .engine import vt
 
 LOCAL = "Frame of a vantage scene"
 _LOCAL_WKT = (f'ENGCRS["{LOCAL}",EDATUM["Origin of the scene"],CS[Cartesian,2],AXIS["(E)",east,ORDER[1],'
@@ -22,11 +24,11 @@ class Frame:
         is_placed: whether its place on the earth is known.
     """
 
-    def __init__(self, scene, context):
+    def __init__(self, scene):
+        self.scene = scene
         self.is_placed = bool(scene.crs)
         read = QgsCoordinateReferenceSystem.fromProj if self.is_placed else QgsCoordinateReferenceSystem.fromWkt
         self.crs = read(scene.crs if self.is_placed else _LOCAL_WKT)
-        self.context = context
         if not self.crs.isValid():
             raise QgsProcessingException(f"QGIS does not understand the CRS of the scene's frame: {scene.crs or _LOCAL_WKT}")
 
@@ -36,11 +38,11 @@ class Frame:
 
     def into(self, xy, crs, what):
         """(n, 2) positions of a layer, in the frame."""
-        return self._moved(xy, crs, self.crs, what)
+        return self._moved(xy, crs, self.scene.positions, what)
 
     def out_of(self, xy, crs, what):
         """(n, 2) positions of the frame, in a CRS."""
-        return self._moved(xy, self.crs, crs, what)
+        return self._moved(xy, crs, self.scene.positions_in_crs, what)
 
     def chosen(self, crs):
         """The CRS of what is written: the one that was chosen, or else the frame's."""
@@ -54,12 +56,20 @@ class Frame:
                 f"It is not known where on the earth the scene lies, and {what} the CRS {name_of(crs)}.\n"
                 "  what to do: give the scene's ORIGIN or SCENE_CRS, or work in the scene's metres, without a CRS")
 
-    def _moved(self, xy, source, destination, what):
+    def _moved(self, xy, crs, move, what):
         xy = np.asarray(xy, float).reshape(-1, 2)
-        if self.has(source) and self.has(destination) or not len(xy):
+        if self.has(crs) or not len(xy):
             return xy
-        self.check(source, f"{what} has")
-        return transformed(xy, QgsCoordinateTransform(source, destination, self.context.transformContext()), what)
+        self.check(crs, f"{what} has")
+        try:
+            return move(xy, text_of(crs))
+        except vt.Error as error:
+            raise QgsProcessingException(f"{what}, in {name_of(crs)}: {error}") from error
+
+
+def text_of(crs):
+    """A QgsCoordinateReferenceSystem for vantage."""
+    return crs.authid() or crs.toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
 
 
 def name_of(crs):
@@ -67,19 +77,8 @@ def name_of(crs):
     return crs.authid() or crs.toProj() or crs.description()
 
 
-def transformed(xy, transform, what):
-    """(n, 2) positions by a QgsCoordinateTransform, all at once."""
-    if not transform.isValid():
-        raise QgsProcessingException(f"{what}: there is no way from the CRS {name_of(transform.sourceCrs())} to "
-                                     f"{name_of(transform.destinationCrs())}.\n  what to do: take another CRS")
-    line = QgsLineString(xy[:, 0].tolist(), xy[:, 1].tolist())
-    try:
-        line.transform(transform)
-    except QgsCsException as error:
-        raise QgsProcessingException(f"{what}: positions cannot be converted: {error}") from error
-    moved = np.frombuffer(bytes(line.asWkb()), "<f8", offset=9).reshape(-1, 2)
-    if moved.shape != xy.shape or not np.isfinite(moved).all():
-        raise QgsProcessingException(
-            f"{what}: some positions cannot be converted from {name_of(transform.sourceCrs())} to "
-            f"{name_of(transform.destinationCrs())}.\n  what to do: take a CRS that is made for that place")
-    return moved
+def degrees_of(x, y, crs, guess):
+    """(latitude, longitude) of a position by vantage. `guess`: the same by QGIS, which may be metres off."""
+    about = vt.Scene.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], georeference=vt.Georeference(*guess))
+    longitude, latitude = about.positions_in_crs(about.positions([[x, y]], text_of(crs)), "EPSG:4326")[0].tolist()
+    return latitude, longitude

@@ -82,7 +82,7 @@ class FlightAlgorithm(VantageAlgorithm):
     def run_in_vantage(self, parameters, context, feedback):
         progress = Progress(feedback)
         mission = vt.Mission.read(self.parameterAsString(parameters, "MISSION", context), progress)
-        frame = Frame(mission.scene, context)
+        frame = Frame(mission.scene)
         crs = frame.chosen(self.parameterAsCrs(parameters, "CRS", context))
         tour = None
         if is_given(parameters, "PLAN"):

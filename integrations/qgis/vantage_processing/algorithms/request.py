@@ -6,10 +6,11 @@ import numpy as np
 from qgis.core import (QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsProcessing, QgsProcessingException,
                        QgsProcessingFeatureSource, QgsProcessingParameterCrs, QgsProcessingParameterEnum,
                        QgsProcessingParameterFeatureSource, QgsProcessingParameterField, QgsProcessingParameterFile,
-                       QgsProcessingParameterNumber, QgsProcessingParameterPoint, QgsWkbTypes)
+                       QgsProcessingParameterNumber, QgsProcessingParameterPoint, QgsReferencedPointXY,
+                       QgsWkbTypes)
 
 from ..engine import vt
-from ..places import Frame
+from ..places import Frame, degrees_of, text_of
 from .base import is_given
 
 _MAPS = (".osm", ".osm.gz", ".osm.bz2", ".pbf")
@@ -95,13 +96,13 @@ def read_request(algorithm, parameters, context, progress):
             raise QgsProcessingException(f"Both a mission file and {', '.join(besides)} are given.\n  what to do: write them in "
                                          "the mission file, or leave out the mission file")
         mission = vt.Mission.read(algorithm.parameterAsString(parameters, "MISSION", context), progress)
-        return mission, Frame(mission.scene, context)
+        return mission, Frame(mission.scene)
     missing = [name for name in ("SCENE", "TARGETS", "RANGE") if not is_given(parameters, name)]
     if missing:
         raise QgsProcessingException(f"There is no mission file, and {', '.join(missing)} is missing.\n  what to do: give a "
                                      "mission file, or a scene file, targets and a range")
     scene = _scene(algorithm, parameters, context, progress)
-    frame = Frame(scene, context)
+    frame = Frame(scene)
     targets = _targets(algorithm, parameters, context, frame)
     has_choice = algorithm.parameterDefinition("COMBINE") is not None
     combine = COMBINE[algorithm.parameterAsEnum(parameters, "COMBINE", context)] if has_choice else "all"
@@ -115,8 +116,14 @@ def place_of(algorithm, parameters, name, context):
     """(latitude, longitude) of a point parameter; None where it is not given."""
     if not is_given(parameters, name):
         return None
-    point = algorithm.parameterAsPoint(parameters, name, context, QgsCoordinateReferenceSystem("EPSG:4326"))
-    return point.y(), point.x()
+    degrees = QgsCoordinateReferenceSystem("EPSG:4326")
+    point = algorithm.parameterAsPoint(parameters, name, context, degrees)
+    value, crs = parameters[name], algorithm.parameterAsPointCrs(parameters, name, context)
+    has_crs = isinstance(value, QgsReferencedPointXY) or isinstance(value, str) and "[" in value
+    if not has_crs or not crs.isValid() or crs == degrees:
+        return point.y(), point.x()
+    given = algorithm.parameterAsPoint(parameters, name, context)
+    return degrees_of(given.x(), given.y(), crs, (point.y(), point.x()))
 
 
 def _scene(algorithm, parameters, context, progress):
@@ -126,7 +133,7 @@ def _scene(algorithm, parameters, context, progress):
     origin = place_of(algorithm, parameters, "ORIGIN", context)
     crs = algorithm.parameterAsCrs(parameters, "SCENE_CRS", context)
     given = {"center": center, "radius": radius, "origin": origin, "up": _UP[algorithm.parameterAsEnum(parameters, "UP", context)],
-             "crs": (crs.authid() or crs.toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)) if crs.isValid() else None}
+             "crs": text_of(crs) if crs.isValid() else None}
     if name == "tileset.json":
         read, keys = vt.Scene.from_tiles, ("center", "radius", "crs")
     elif name.endswith(_MAPS):
