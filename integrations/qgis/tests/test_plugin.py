@@ -444,6 +444,18 @@ class Datums(Checked):
         margin = next(made.getFeatures())["margin_m"]
         self.assertAlmostEqual(margin, mission.query([[0, 0, 20]]).margin_m[0], delta=5e-3)
 
+    def test_results_across_the_antimeridian_are_refused_where_the_crs_ends_there(self):
+        plaza = PROJECT / "examples" / "plaza" / "plaza.obj"
+        square = layer("Polygon", ["POLYGON((-5 -4, 6 -4, 6 5, -5 5, -5 -4))"])
+        asked = {"SCENE": plaza, "ORIGIN": "180,-16.8", "TARGETS": square, "TARGET_Z": 1, "RANGE": 60}
+        raster = {"Z": 20, "OUTPUT": self.file.with_suffix(".tif")}
+        for name, crs, more in (("volume", "EPSG:4326", {}), ("volume", "EPSG:3857", {}), ("share", "EPSG:3857", raster)):
+            self.assertIn("antimeridian", self.refused(name, CRS=QgsCoordinateReferenceSystem(crs), **asked, **more))
+        for crs in ("EPSG:32760", "EPSG:3832"):
+            made = run("volume", CRS=QgsCoordinateReferenceSystem(crs), SLICE_HEIGHTS="20", **asked)
+            extent = made["SLICES"].getFeature(1).geometry().boundingBox()
+            self.assertTrue(90 < extent.width() < 130, extent.width())
+
 
 class Refused(Checked):
     def test_errors_of_vantage_reach_the_user_whole(self):

@@ -7,13 +7,16 @@ and layers must go the way that the scene's file went. Heights stay as they are:
 """
 
 import numpy as np
-from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingException
+from qgis.core import QgsCoordinateReferenceSystem, QgsProcessingException, QgsUnitTypes
 
 from .engine import vt
 
 LOCAL = "Frame of a vantage scene"
 _LOCAL_WKT = (f'ENGCRS["{LOCAL}",EDATUM["Origin of the scene"],CS[Cartesian,2],AXIS["(E)",east,ORDER[1],'
               'LENGTHUNIT["metre",1]],AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]]]')
+
+
+_HALF_GLOBE_M = 20_037_508  # half the equator
 
 
 class Frame:
@@ -41,8 +44,16 @@ class Frame:
         return self._moved(xy, crs, self.scene.positions, what)
 
     def out_of(self, xy, crs, what):
-        """(n, 2) positions of the frame, in a CRS."""
-        return self._moved(xy, crs, self.scene.positions_in_crs, what)
+        """(n, 2) positions of the frame, in a CRS. All are of one thing: refused where the edge of the CRS cuts it."""
+        moved = self._moved(xy, crs, self.scene.positions_in_crs, what)
+        if not self.has(crs) and len(moved):
+            in_metres = QgsUnitTypes.fromUnitToUnitFactor(crs.mapUnits(), QgsUnitTypes.DistanceMeters)
+            if np.ptp(moved, axis=0).max() * in_metres > _HALF_GLOBE_M:
+                raise QgsProcessingException(
+                    f"{what} lies across the antimeridian or a pole, where {name_of(crs)} ends: its polygons would reach around "
+                    "the globe.\n  what to do: choose no CRS for the results, or one that does not end there, such as that UTM "
+                    "zone")
+        return moved
 
     def chosen(self, crs):
         """The CRS of what is written: the one that was chosen, or else the frame's."""
