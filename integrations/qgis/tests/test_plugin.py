@@ -456,6 +456,34 @@ class Datums(Checked):
             extent = made["SLICES"].getFeature(1).geometry().boundingBox()
             self.assertTrue(90 < extent.width() < 130, extent.width())
 
+    def test_a_crs_that_its_user_made_is_passed_on_as_text(self):
+        """In a profile of its own: QGIS writes such CRSs there."""
+        text = ("import sys, pathlib, tempfile, support\n"
+                "from qgis.core import QgsCoordinateReferenceSystem as Crs\n"
+                "from test_plugin import city_in, layer\n"
+                "crs = Crs.fromProj('+proj=tmerc +lat_0=40 +lon_0=-3 +k=1 +x_0=500 +y_0=900 +ellps=intl '\n"
+                "                   '+towgs84=-87,-98,-121 +units=m +type=crs')\n"
+                "assert crs.saveAsUserCrs('mine') > 0\n"
+                "mine = Crs('USER:100000')\n"
+                "assert mine.isValid() and mine.authid() == 'USER:100000', mine.authid()\n"
+                "square = [(-5, -4), (6, -4), (6, 5), (-5, 5), (-5, -4)]\n"
+                "with tempfile.TemporaryDirectory() as scratch:\n"
+                "    file = pathlib.Path(scratch) / 'city.obj'\n"
+                "    scene, middle = city_in(mine, (40.001, -3.001), file)\n"
+                "    targets = layer('Polygon', ['POLYGON((' + ', '.join(f'{x + middle[0]} {y + middle[1]}'\n"
+                "                                                       for x, y in square) + '))'])\n"
+                "    targets.setCrs(mine)\n"
+                "    made = support.run('volume', SCENE=file, SCENE_CRS=mine, CRS=mine, TARGETS=targets, TARGET_Z=1, RANGE=60)\n"
+                "    extent = made['FACETS'].extent()\n"
+                "    assert made['FACETS'].crs() == mine\n"
+                "    assert extent.contains(*map(float, middle)) and extent.width() < 130, extent.toString()\n"
+                "support.quit_now(0)\n")
+        with tempfile.TemporaryDirectory() as profile:
+            environment = {**os.environ, "QGIS_CUSTOM_CONFIG_PATH": profile, "HOME": profile,
+                           "PYTHONPATH": os.pathsep.join([os.environ["PYTHONPATH"], str(FOLDER / "tests")])}
+            ran = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+
 
 class Refused(Checked):
     def test_errors_of_vantage_reach_the_user_whole(self):

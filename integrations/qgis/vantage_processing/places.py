@@ -17,6 +17,7 @@ _LOCAL_WKT = (f'ENGCRS["{LOCAL}",EDATUM["Origin of the scene"],CS[Cartesian,2],A
 
 
 _HALF_GLOBE_M = 20_037_508  # half the equator
+_OF_PROJ = ("EPSG", "ESRI", "IAU_2015", "IGNF", "NKG", "NRCAN", "OGC")  # authorities in PROJ's database
 
 
 class Frame:
@@ -79,8 +80,9 @@ class Frame:
 
 
 def text_of(crs):
-    """A QgsCoordinateReferenceSystem for vantage."""
-    return crs.authid() or crs.toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
+    """A QgsCoordinateReferenceSystem for vantage. Codes of other authorities, such as USER, are known to QGIS alone."""
+    is_known = crs.authid().partition(":")[0] in _OF_PROJ
+    return crs.authid() if is_known else crs.toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
 
 
 def name_of(crs):
