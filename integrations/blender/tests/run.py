@@ -448,6 +448,77 @@ class Live(Case):
         self.assertTrue(live.follower.is_stale)
 
 
+    def house_that_hides(self):
+        return bpy.data.objects[next(one["name"] for one in volume_mesh.causes_of(self.settings.volume)
+                                     if one["name"].startswith("house"))]
+
+    def test_a_change_that_is_not_followed_makes_the_volume_old(self):
+        follower = live.follower
+        other = bpy.data.scenes.new("other")
+        self.addCleanup(bpy.data.scenes.remove, other)
+
+        def in_another_scene():
+            with bpy.context.temp_override(scene=other):
+                self.follow()
+
+        def off_while_it_runs():
+            time.sleep(2 * live.DELAY_S)
+            live.tick()
+            self.assertIsNotNone(follower.job)
+            self.settings.live = False
+
+        leave = [lambda: setattr(self.settings, "live", False), off_while_it_runs, lambda: self.settings.property_unset("live"),
+                 in_another_scene]
+        for number, way in enumerate(leave):
+            with self.subTest(number=number):
+                city.build()
+                self.use_square()
+                self.compute()
+                self.settings.live = True
+                self.follow()
+                self.assertFalse(follower.is_stale)
+                before = self.settings.volume["vantage_volume_m3"]
+                self.house_that_hides().location.z = 10
+                bpy.context.view_layer.update()
+                self.assertIsNotNone(follower.due)
+                way()
+                self.follow()
+                self.assertEqual(self.settings.volume["vantage_volume_m3"], before)
+                self.assertTrue(follower.is_stale)
+                self.settings.live = False
+                self.compute()
+                self.assertFalse(follower.is_stale)
+
+    def test_a_volume_that_is_edited_is_old_after_a_change(self):
+        square = self.use_square()
+        self.compute()
+        self.settings.live = True
+        self.follow()
+        bpy.context.view_layer.objects.active = self.settings.volume
+        bpy.ops.object.mode_set(mode="EDIT")
+        square.location.x = 3
+        bpy.context.view_layer.update()
+        self.follow()
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertTrue(live.follower.is_stale)
+
+    def test_an_export_does_not_lose_what_is_computed(self):
+        square = self.use_square()
+        self.compute()
+        self.settings.live = True
+        self.follow()
+        before = self.settings.volume["vantage_volume_m3"]
+        square.location.x = 3
+        bpy.context.view_layer.update()
+        time.sleep(2 * live.DELAY_S)
+        live.tick()
+        self.assertIsNotNone(live.follower.job)
+        with tempfile.TemporaryDirectory() as folder:
+            bpy.ops.vantage.export_mission(filepath=os.path.join(folder, "m.yaml"))
+        self.follow()
+        self.assertNotEqual(self.settings.volume["vantage_volume_m3"], before)
+
+
 class Export(Case):
     def test_the_program_computes_the_same_bytes(self):
         self.use_square()
@@ -480,6 +551,24 @@ class Export(Case):
 
     def test_nothing_is_saved_before_a_volume_is_computed(self):
         self.refused(bpy.ops.vantage.save_volume, filepath=os.path.join(tempfile.gettempdir(), "none.ply"))
+
+
+    def test_an_old_volume_is_not_saved(self):
+        self.use_square()
+        self.compute()
+        house = bpy.data.objects["house 3"]
+        changes = [lambda: setattr(house, "location", (0, 0, 5)), lambda: house.hide_set(True),
+                   lambda: setattr(self.settings, "max_range", 50)]
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "volume.ply")
+            for change in changes:
+                bpy.ops.vantage.save_volume(filepath=file)
+                saved = pathlib.Path(file).read_bytes()
+                change()
+                self.refused(bpy.ops.vantage.save_volume, filepath=file)
+                self.assertEqual(pathlib.Path(file).read_bytes(), saved)
+                self.assertTrue(live.follower.is_stale)
+                self.compute()
 
 
 class Hostile(Case):

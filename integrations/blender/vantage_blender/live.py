@@ -32,12 +32,14 @@ class Follower:
         self.job = None
         self.shown = None  # the Inputs of the volume that is shown
         self.result = None  # the vantage.Result
-        self.is_stale = False
+        self.is_stale = False  # what is shown is of before the last change, and nothing will replace it by itself
         self.status = []
         self.blockers = None
         self.is_scene_known = False  # no object but the target has changed since the blockers were read
 
     def request(self, scene, only_target=False):
+        if scene.name != self.scene_name:  # what was shown, and what runs, is of another one
+            self.shown, self.result, self.is_stale, self.status = None, None, False, []
         self.scene_name = scene.name
         self.is_scene_known = self.is_scene_known and only_target
         if self.due is None:
@@ -62,6 +64,7 @@ class Follower:
     def _start(self):
         scene = self._scene()
         if scene is None or scene != bpy.context.scene:  # of another one nothing is evaluated
+            self.leave()
             return
         try:
             package.load()
@@ -76,12 +79,13 @@ class Follower:
         if inputs.equals(self.shown):
             self.is_stale = False
             return
-        self.job = Job(inputs)
+        self.job = Job(inputs, scene.name)
         self.job.start()
 
     def _show(self, job):
         scene = self._scene()
-        if scene is None:
+        if scene is None or scene.name != job.scene_name:
+            self.leave()
             return
         if job.error is not None:
             self._fail(scene, job.error)
@@ -89,14 +93,26 @@ class Follower:
             try:
                 self.note(scene, job.result, job.inputs, volume_mesh.show(job.result, scene, job.inputs.unit_m))
             except package.AddonError as error:
+                self.leave()
                 self.status = str(error).splitlines()
         _redraw()
+
+    def leave(self):
+        """A change is not followed: what is shown stays, and is told to be old."""
+        self.is_stale = self.shown is not None
+        _redraw()
+
+    def wait(self):
+        """For a computation that runs; what it found is shown by the next step."""
+        if self.job is not None:
+            self.job.join()
 
     def finish(self):
         """Waits for a computation that runs, and drops it: what is asked now is newer."""
         if self.job is not None:
             self.job.join()
             self.job = None
+            self.leave()
 
     def note(self, scene, result, inputs, moved_m):
         """What was shown, for the panel."""
@@ -106,16 +122,16 @@ class Follower:
 
     def _fail(self, scene, error):
         self.shown, self.result, self.status = None, None, package.message_of(error).splitlines()
-        volume_mesh.clear(scene)  # it would claim what no longer holds
+        self.is_stale = not volume_mesh.clear(scene)  # it would claim what no longer holds
         _redraw()
 
 
 class Job(threading.Thread):
     """One computation, of inputs that nobody changes."""
 
-    def __init__(self, inputs):
+    def __init__(self, inputs, scene_name):
         super().__init__(daemon=True)
-        self.inputs, self.result, self.error = inputs, None, None
+        self.inputs, self.scene_name, self.result, self.error = inputs, scene_name, None, None
 
     def run(self):
         try:
@@ -147,6 +163,8 @@ def request(scene, is_sure=True, only_target=False):
 def switched(settings, context):
     if settings.live:
         follower.request(context.scene)
+    elif follower.due is not None or follower.job is not None:
+        follower.leave()
 
 
 def tick():

@@ -108,7 +108,7 @@ class VANTAGE_OT_export_mission(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.yaml", options={"HIDDEN"})
 
     def _execute(self, context):
-        live.follower.finish()
+        live.follower.wait()
         scene_file = mission_file.export(_inputs(context), bpy.path.abspath(self.filepath))
         self.report({"INFO"}, f"wrote {self.filepath} and {scene_file.name}")
         return {"FINISHED"}
@@ -124,9 +124,15 @@ class VANTAGE_OT_save_volume(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.ply", options={"HIDDEN"})
 
     def _execute(self, context):
-        result = live.follower.result
-        if result is None or live.follower.scene_name != context.scene.name:
+        follower = live.follower
+        result = follower.result
+        if result is None or follower.scene_name != context.scene.name:
             raise package.AddonError("there is no volume of this session", "press Compute first")
+        # Blender does not tell of all changes: what is asked now is compared itself.
+        if not _inputs(context).equals(follower.shown):
+            follower.leave()
+            raise package.AddonError("something has changed since the volume was computed: it is not saved",
+                                     "press Compute, or wait for Live, and save it then")
         result.save(bpy.path.abspath(self.filepath))
         self.report({"INFO"}, f"wrote {self.filepath}")
         return {"FINISHED"}

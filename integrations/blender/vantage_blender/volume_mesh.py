@@ -48,13 +48,17 @@ def show(result, scene, unit_m):
 
 
 def clear(scene):
-    """Empties the volume object: what it shows no longer holds."""
+    """Empties the volume object: what it shows no longer holds. Returns False where it cannot: it is being edited."""
     volume = scene.vantage.volume
-    if volume is not None and volume.type == "MESH" and VOLUME in volume and volume.mode != "EDIT":
-        volume.data.clear_geometry()
-        volume["vantage_causes"] = "[]"
-        volume["vantage_volume_m3"] = 0.0
-        volume["vantage_outcome"] = ""
+    if volume is None or volume.type != "MESH" or VOLUME not in volume:
+        return True
+    if volume.mode == "EDIT":
+        return False
+    volume.data.clear_geometry()
+    volume["vantage_causes"] = "[]"
+    volume["vantage_volume_m3"] = 0.0
+    volume["vantage_outcome"] = ""
+    return True
 
 
 def causes_of(volume):
