@@ -12,6 +12,7 @@ import importlib
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -261,6 +262,52 @@ class Volumes(Case):
         volume = self.compute()["vantage_volume_m3"]
         self.assertEqual(sum("points" in name for name in live.follower.shown.blockers.names), 4)
         self.assertAlmostEqual(volume / expected, 1, delta=0.02)  # the triangle hides, too, between the boxes
+
+    def reduced(self):
+        """Names in the panel's notes after Compute."""
+        self.compute()
+        notes = [line for line in live.follower.status if line.startswith("note")]
+        return sorted(name for line in notes for name in re.findall("'([^']+)'", line))
+
+    def test_what_the_viewport_leaves_out_is_told(self):
+        self.use_square()
+        self.assertEqual(self.reduced(), [])
+        wall = city.add("wall", city.box_corners((9, -1, 0), (11, 1, 20)), city.BOX_FACES)
+        array = wall.modifiers.new("array", "ARRAY")
+        array.show_viewport = False
+        self.assertEqual(self.reduced(), ["wall"])
+        array.show_render = False
+        self.assertEqual(self.reduced(), [])
+        array.show_viewport, array.show_render, array.show_in_editmode = True, True, False
+        self.assertEqual(self.reduced(), [])
+        bpy.context.view_layer.objects.active = wall
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.assertEqual(self.reduced(), ["wall"])
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual(self.reduced(), [])
+
+    def test_particles_that_the_viewport_leaves_out_are_told(self):
+        self.use_square()
+        tree = city.add("tree", city.box_corners((60, 60, 0), (61, 61, 9)), city.BOX_FACES)
+        ground = bpy.data.objects["ground"]
+        ground.modifiers.new("trees", "PARTICLE_SYSTEM")
+        settings = ground.particle_systems[0].settings
+        settings.render_type, settings.instance_object, settings.count = "OBJECT", tree, 40
+        settings.frame_start = settings.frame_end = 0
+        self.assertEqual(self.reduced(), [])
+        settings.child_type, settings.rendered_child_count = "SIMPLE", 100
+        self.assertEqual(self.reduced(), ["ground"])
+        settings.rendered_child_count = 1
+        self.assertEqual(self.reduced(), [])
+        settings.child_type, settings.display_percentage = "NONE", 10
+        self.assertEqual(self.reduced(), ["ground"])
+        ground.show_instancer_for_viewport, settings.display_percentage = False, 0
+        self.assertEqual(self.reduced(), ["ground"])
+        chosen = bpy.data.collections.new("chosen")
+        bpy.context.scene.collection.children.link(chosen)
+        chosen.objects.link(bpy.data.objects["house 3"])
+        self.settings.collection = chosen
+        self.assertEqual(self.reduced(), [])
 
     def test_a_collection_chooses_what_hides(self):
         self.use_square()

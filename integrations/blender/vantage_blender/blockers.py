@@ -46,6 +46,39 @@ def _instances(depsgraph, collection, without):
             yield instance, thing, owner
 
 
+def reduced_objects(depsgraph, collection=None, without=None):
+    """Names of objects that hide less here than when they are rendered, as the viewport shows a part of them alone:
+    particles by their percentage, modifiers that are off in the viewport, or in Edit Mode while the object is edited."""
+    allowed = None if collection is None else {thing.name_full for thing in collection.all_objects}
+    looked_at, found = set(), []
+    for instance in depsgraph.object_instances:  # also emitters that are not shown themselves
+        thing = instance.object.original
+        owner = instance.parent.original if instance.is_instance else thing
+        if owner == without or VOLUME in owner or (allowed is not None and owner.name_full not in allowed):
+            continue
+        for one in (owner, thing):
+            if one.name_full not in looked_at:
+                looked_at.add(one.name_full)
+                if _is_reduced(one):
+                    found.append(one.name_full)
+    return sorted(found)
+
+
+def _is_reduced(thing):
+    for modifier in thing.modifiers:
+        is_shown = modifier.show_viewport and (thing.mode != "EDIT" or modifier.show_in_editmode)
+        if modifier.show_render and not is_shown:
+            return True
+    for settings in (system.settings for system in thing.particle_systems):
+        if settings.render_type in ("OBJECT", "COLLECTION"):
+            is_new = hasattr(settings, "child_percent")  # its name since Blender 4
+            shown = settings.child_percent if is_new else settings.child_nbr
+            if settings.display_percentage < 100 or (
+                    settings.child_type != "NONE" and shown < settings.rendered_child_count):
+                return True
+    return False
+
+
 def gather(depsgraph, unit_m, collection=None, without=None):
     """The objects that are visible in the viewport, but for volumes and the object `without`.
 

@@ -18,6 +18,7 @@ class Inputs(NamedTuple):
     sensor: dict  # keys of vt.Sensor
     navigation: dict  # keys of vt.Navigation
     unit_m: float
+    reduced: list  # names, of `blockers.reduced_objects`
 
     def equals(self, other):
         return (other is not None and self[2:] == other[2:] and self.blockers.equals(other.blockers) and
@@ -40,7 +41,7 @@ def read_inputs(scene, depsgraph, known=None):
     is_known = known is not None and known.shown == blockers.shown_objects(*which)
     found = known if is_known else blockers.gather(*which)
     return Inputs(found, polygons, settings.sides, settings.offset, _sensor(settings), _navigation(settings, found.names),
-                  unit_m)
+                  unit_m, blockers.reduced_objects(depsgraph, *which[2:]))
 
 
 def _sensor(settings):

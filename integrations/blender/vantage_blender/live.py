@@ -118,7 +118,7 @@ class Follower:
         """What was shown, for the panel."""
         self.scene_name, self.shown, self.result, self.is_stale = scene.name, inputs, result, False
         self.shown_count += 1
-        self.status = status_of(result, moved_m)
+        self.status = status_of(result, moved_m) + notes_of(inputs)
 
     def _fail(self, scene, error):
         self.shown, self.result, self.status = None, None, package.message_of(error).splitlines()
@@ -147,6 +147,15 @@ def status_of(result, moved_m):
     lines = [f"{result.volume_m3:,.1f} m3, {len(result.faces):,} facets",
              f"shown in single precision: corners moved by up to {moved_m * 1000:.2g} mm"]
     return lines + [f"note: {note.text}" for note in result.notes]
+
+
+def notes_of(inputs, most=5):
+    """What to know of the scene that was read."""
+    if not inputs.reduced:
+        return []
+    more = len(inputs.reduced) - most
+    names = ", ".join(f"'{name}'" for name in inputs.reduced[:most]) + (f" and {more} more" if more > 0 else "")
+    return [f"note: what the viewport leaves out hides nothing here. It shows less than is rendered of {names}"]
 
 
 follower = Follower()

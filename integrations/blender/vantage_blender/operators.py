@@ -26,6 +26,11 @@ def _inputs(context):
     return computation.read_inputs(context.scene, context.evaluated_depsgraph_get())
 
 
+def _warn(operator, inputs):
+    for note in live.notes_of(inputs):
+        operator.report({"WARNING"}, note)
+
+
 class VANTAGE_OT_use_selected_faces(bpy.types.Operator):
     """The selected faces of the active object become the target. Faces of one plane that form a convex polygon are one
 part of it; of several parts, all must be seen"""
@@ -95,6 +100,7 @@ class VANTAGE_OT_compute(bpy.types.Operator):
             self.report({"WARNING"}, "\n".join(follower.status))
         else:
             self.report({"INFO"}, follower.status[0])
+        _warn(self, inputs)
         return {"FINISHED"}
 
     execute = _guarded(_execute)
@@ -109,7 +115,9 @@ class VANTAGE_OT_export_mission(bpy.types.Operator, ExportHelper):
 
     def _execute(self, context):
         live.follower.wait()
-        scene_file = mission_file.export(_inputs(context), bpy.path.abspath(self.filepath))
+        inputs = _inputs(context)
+        scene_file = mission_file.export(inputs, bpy.path.abspath(self.filepath))
+        _warn(self, inputs)
         self.report({"INFO"}, f"wrote {self.filepath} and {scene_file.name}")
         return {"FINISHED"}
 
@@ -129,11 +137,13 @@ class VANTAGE_OT_save_volume(bpy.types.Operator, ExportHelper):
         if result is None or follower.scene_name != context.scene.name:
             raise package.AddonError("there is no volume of this session", "press Compute first")
         # Blender does not tell of all changes: what is asked now is compared itself.
-        if not _inputs(context).equals(follower.shown):
+        inputs = _inputs(context)
+        if not inputs.equals(follower.shown):
             follower.leave()
             raise package.AddonError("something has changed since the volume was computed: it is not saved",
                                      "press Compute, or wait for Live, and save it then")
         result.save(bpy.path.abspath(self.filepath))
+        _warn(self, inputs)
         self.report({"INFO"}, f"wrote {self.filepath}")
         return {"FINISHED"}
 
