@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
@@ -595,6 +596,32 @@ class Export(Case):
             self.assertEqual([one.name for one in other.parent.iterdir()], [other.name])
             self.assertEqual(other.read_text(), "v 0 0 0\n")
         self.refused(bpy.ops.vantage.export_mission, filepath=str(pathlib.Path(name, "m.yaml")))
+
+    def test_both_files_or_none(self):
+        square = self.use_square()
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            mission, scene = folder / "m.yaml", folder / "m.scene.obj"
+            bpy.ops.vantage.export_mission(filepath=str(mission))
+            before = {file.name: file.read_bytes() for file in (mission, scene)}
+            square.location.x = 1
+            bpy.data.objects["house 3"].location.z = 5
+
+            def fails(source, to, replace=os.replace):
+                if str(to) == str(mission):
+                    raise PermissionError(1, "Operation not permitted")
+                replace(source, to)
+
+            with mock.patch("os.replace", fails):
+                self.assertIn("m.yaml", self.refused(bpy.ops.vantage.export_mission, filepath=str(mission)))
+                self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir()}, before)
+                mission.unlink(), scene.unlink()
+                self.refused(bpy.ops.vantage.export_mission, filepath=str(mission))
+            self.assertEqual(list(folder.iterdir()), [])
+            mission.mkdir()
+            scene.write_bytes(before["m.scene.obj"])
+            self.assertIn("m.yaml", self.refused(bpy.ops.vantage.export_mission, filepath=str(mission)))
+            self.assertEqual(scene.read_bytes(), before["m.scene.obj"])
 
     def test_nothing_is_saved_before_a_volume_is_computed(self):
         self.refused(bpy.ops.vantage.save_volume, filepath=os.path.join(tempfile.gettempdir(), "none.ply"))

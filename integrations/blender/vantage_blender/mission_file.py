@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import shutil
 import tempfile
 
 from . import computation, package
@@ -25,6 +26,8 @@ def export(inputs, mission_file):
     scene_file = scene_file_of(mission_file)
     if not mission_file.parent.is_dir():
         raise package.AddonError(f"there is no folder '{mission_file.parent}'", "choose a folder that exists")
+    if mission_file.is_dir():
+        raise package.AddonError(f"'{mission_file}' is a folder", "give the mission another name")
     _refuse_foreign(scene_file)
     scene = computation.shared.scene_of(inputs.blockers)
     try:
@@ -37,12 +40,28 @@ def export(inputs, mission_file):
                                          "please report this as a defect")
             text = computation.mission_of(read, inputs).text(folder)
             (folder / mission_file.name).write_text(text, encoding="utf-8")
-            os.replace(folder / scene_file.name, scene_file)
-            os.replace(folder / mission_file.name, mission_file)
+            _put_both(folder, scene_file, mission_file)
     except OSError as error:
         raise package.AddonError(f"'{mission_file}' cannot be written: {error.strerror or error}",
                                  "choose another folder, or make room") from None
     return scene_file
+
+
+def _put_both(folder, scene_file, mission_file):
+    """Moves two files from `folder`, on the same disk, to their places. If the second one fails, the first is as it was."""
+    before = folder / "before.obj"
+    has_before = scene_file.exists()
+    if has_before:
+        shutil.copy2(scene_file, before)
+    os.replace(folder / scene_file.name, scene_file)
+    try:
+        os.replace(folder / mission_file.name, mission_file)
+    except OSError:
+        if has_before:
+            os.replace(before, scene_file)
+        else:
+            scene_file.unlink()
+        raise
 
 
 def _refuse_foreign(scene_file):
