@@ -100,7 +100,6 @@ class Volumes(Checked):
             areas = [one["area_m2"] for one in facets if (one["cause_kind"], one["cause_name"]) == (cause.kind, cause.name)]
             self.assertAlmostEqual(sum(areas), cause.area_m2, places=6)
         self.assertTrue(any(self.result.scene.attribution in text for text in feedback.told))
-        self.assertTrue(feedback.stages)
 
     def test_in_a_thread_of_its_own_as_the_toolbox_runs_it_and_with_a_style(self):
         project, context, feedback, ended = QgsProject.instance(), QgsProcessingContext(), Feedback(), []
