@@ -81,8 +81,8 @@ TEST(Tileset, ReplacesParentsAndAddsToThem) {
   for (const bool is_add : {false, true}) {
     json root = tile_json(50, "coarse.glb");
     root["refine"] = is_add ? "ADD" : "REPLACE";
-    root["children"] = {tile_json(5, "fine.glb"), tile_json(0, "other.glb")};
-    root["children"][0]["children"] = {tile_json(0, "finest.glb")};
+    root["children"] = json::array({tile_json(5, "fine.glb"), tile_json(0, "other.glb")});
+    root["children"][0]["children"] = json::array({tile_json(0, "finest.glb")});
     Tileset tiles(tileset_json(root));
     for (const char* name : {"coarse.glb", "fine.glb", "finest.glb", "other.glb"}) tiles.add(name, box_glb({{}}));
     const auto at = [&](double detail) {
@@ -151,7 +151,7 @@ TEST(Tileset, LeavesOutTilesAndObjectsBeyondTheRadius) {
   root["refine"] = "ADD";
   json near = tile_json(0, "near.glb", 60), far = tile_json(0, "far.glb", 60);
   far["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 500, 0, 0, 1};
-  root["children"] = {near, far};
+  root["children"] = json::array({near, far});
   Tileset tiles(tileset_json(root));
   json two = {{"nodes", {{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}, {"translation", {250, 0, 0}}}}}};
   two["scenes"] = {{{"nodes", {0, 1}}}};
@@ -171,7 +171,7 @@ TEST(Tileset, LeavesOutTilesAndObjectsBeyondTheRadius) {
 TEST(Tileset, ReadsWhatSticksOutOfItsTile) {
   json root = tile_json(10, "", 5000);
   root["transform"] = testing::transform_at(52, 4.4);
-  root["children"] = {tile_json(0, "a.glb", 60)};
+  root["children"] = json::array({tile_json(0, "a.glb", 60)});
   root["children"][0]["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 170, 0, 0, 1};
   Tileset tiles(tileset_json(root));
   tiles.add("a.glb", box_glb({{{-120, 0, 0}, 1, 0}}));  // 50 m from the middle; the tile begins at 110 m
@@ -216,7 +216,7 @@ TEST(Tileset, AMeshMayBeNamedAsATileset) {
   Tileset alone(tileset_json(root));
   alone.add("a.json", box_glb({{}}));
   EXPECT_EQ(ids_of(alone.read()), std::set<std::string>{"a.json"});
-  root["children"] = {tile_json(0, "fine.glb")};
+  root["children"] = json::array({tile_json(0, "fine.glb")});
   Tileset tiles(tileset_json(root));
   tiles.add("a.json", box_glb({{}}));
   tiles.add("fine.glb", box_glb({{}}));
@@ -228,7 +228,7 @@ TEST(Tileset, AMeshMayBeNamedAsATileset) {
 TEST(Tileset, ObjectsAreFeaturesOfBatchTables) {
   json root = tile_json(0);
   root["refine"] = "ADD";
-  root["children"] = {tile_json(0, "a.b3dm"), tile_json(0, "b.b3dm")};
+  root["children"] = json::array({tile_json(0, "a.b3dm"), tile_json(0, "b.b3dm")});
   Tileset tiles(tileset_json(root));
   const json batch = {{"gml_id", {"bldg_1", "bldg_2"}},
                       {"bldg:address", {"Main Street 1", "Main Street 2"}},
@@ -428,7 +428,7 @@ TEST(Tileset, GarbledAvailabilityIsAHole) {
                                 {"subtrees", {{"uri", "s.subtree"}}}};
   json root = tile_json(50);
   root["refine"] = "ADD";
-  root["children"] = {implicit, tile_json(0, "a.glb")};
+  root["children"] = json::array({implicit, tile_json(0, "a.glb")});
   Tileset tiles(tileset_json(root));
   tiles.add("a.glb", box_glb({{}}));
   tiles.add("c/0.glb", box_glb({{}}));
@@ -457,7 +457,7 @@ TEST(Tileset, GarbledAvailabilityIsAHole) {
 TEST(Tileset, TablesWithoutLengthsAreHoles) {
   json root = tile_json(50);
   root["refine"] = "ADD";
-  root["children"] = {tile_json(0, "a.glb"), tile_json(0, "b")};
+  root["children"] = json::array({tile_json(0, "a.glb"), tile_json(0, "b")});
   Tileset tiles(tileset_json(root));
   tiles.add("a.glb", box_glb({{}}));
   const auto holes_of = [&](const std::string& bytes) {
@@ -564,8 +564,8 @@ TEST(Tileset, CountsHolesAndGoesOn) {
 TEST(Tileset, KeepsACoarserTileWhereAFinerOneIsMissing) {
   json root = tile_json(50, "coarse.glb");
   root["refine"] = "REPLACE";
-  root["children"] = {tile_json(5, "fine.glb"), tile_json(0, "other.glb")};
-  root["children"][0]["children"] = {tile_json(0, "finest.glb"), tile_json(0, "more/tileset.json")};
+  root["children"] = json::array({tile_json(5, "fine.glb"), tile_json(0, "other.glb")});
+  root["children"][0]["children"] = json::array({tile_json(0, "finest.glb"), tile_json(0, "more/tileset.json")});
   Tileset tiles(tileset_json(root));
   for (const char* name : {"coarse.glb", "fine.glb", "finest.glb", "other.glb", "more/c.glb"}) {
     tiles.add(name, box_glb({{}}));
@@ -602,10 +602,10 @@ TEST(Tileset, QueriesMayHoldAddresses) {
 TEST(Tileset, FollowsExternalTilesetsButNotInCircles) {
   json root = tile_json(10);
   root["refine"] = "ADD";
-  root["children"] = {tile_json(5, "b/tileset.json"), tile_json(0, "a.glb")};
+  root["children"] = json::array({tile_json(5, "b/tileset.json"), tile_json(0, "a.glb")});
   Tileset tiles(tileset_json(root));
   json inner = tile_json(3, "x.glb");
-  inner["children"] = {tile_json(1, "../tileset.json")};
+  inner["children"] = json::array({tile_json(1, "../tileset.json")});
   tiles.add("b/tileset.json", tileset_json(inner, 4).dump());
   tiles.add("a.glb", box_glb({{}}));
   tiles.add("b/x.glb", box_glb({{}}));
@@ -660,7 +660,7 @@ TEST(Tileset, IsAKindOfScene) {
 TEST(Tileset, MissionsWarnOfMissingTiles) {
   json root = tile_json(10);
   root["refine"] = "ADD";
-  root["children"] = {tile_json(0, "a.glb"), tile_json(0, "b.glb")};
+  root["children"] = json::array({tile_json(0, "a.glb"), tile_json(0, "b.glb")});
   Tileset tiles(tileset_json(root));
   tiles.add("a.glb", box_glb({{}}));
   const auto has_warning = [&] {

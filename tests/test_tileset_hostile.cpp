@@ -84,7 +84,7 @@ Files every_kind() {
   files["all.cmpt"] = testing::cmpt({houses, trees});
   json top = tile_json(10);
   top["refine"] = "ADD";
-  top["children"] = {tile_json(5, "tree.json"), tile_json(0, "meta.glb"), tile_json(0, "all.cmpt")};
+  top["children"] = json::array({tile_json(5, "tree.json"), tile_json(0, "meta.glb"), tile_json(0, "all.cmpt")});
   files["tileset.json"] = tileset_json(top).dump();
   return files;
 }
@@ -182,7 +182,8 @@ TEST(TilesetHostile, MutantsOfRealTilesAreReadOrRefused) {
   Files files;
   json root = tile_json(10);
   root["refine"] = "ADD";
-  root["children"] = {tile_json(0, "plateau.b3dm"), tile_json(0, "quarter.b3dm"), tile_json(0, "billboards.i3dm")};
+  root["children"] =
+      json::array({tile_json(0, "plateau.b3dm"), tile_json(0, "quarter.b3dm"), tile_json(0, "billboards.i3dm")});
   files["tileset.json"] = tileset_json(root).dump();
   files["plateau.b3dm"] = testing::read_bytes(testing::shared_data("tiles/plateau/data/data3.b3dm"));
   files["quarter.b3dm"] =
@@ -200,7 +201,7 @@ TEST(TilesetHostile, TilesWithoutEndAreRefused) {
     json root = tile_json(10);
     root["refine"] = "ADD";
     const std::string next = i == 39 ? "a.glb" : "t" + std::to_string(i + 1) + ".json";
-    root["children"] = {tile_json(0, next), tile_json(0, next)};
+    root["children"] = json::array({tile_json(0, next), tile_json(0, next)});
     files[i == 0 ? "tileset.json" : "t" + std::to_string(i) + ".json"] = tileset_json(root).dump();
   }
   files["a.glb"] = box_glb({{}});
@@ -224,7 +225,7 @@ TEST(TilesetHostile, OneTileCannotBringMoreThanItsLimit) {
   gltf["meshes"] = {{{"primitives", primitives}}};
   json root = tile_json(10);
   root["refine"] = "ADD";
-  root["children"] = {tile_json(0, "a.glb"), tile_json(0, "many.gltf")};
+  root["children"] = json::array({tile_json(0, "a.glb"), tile_json(0, "many.gltf")});
   Files files;
   files["tileset.json"] = tileset_json(root).dump();
   files["many.gltf"] = gltf.dump();
@@ -266,7 +267,7 @@ TEST(TilesetHostile, NestedTilesetsShareOneLimit) {
   for (int i = 0; i < 5; ++i) {
     json root = tile_json(10, "a.glb");
     root["refine"] = "ADD";
-    root["children"] = {tile_json(5, "t" + std::to_string(i + 1) + ".json")};
+    root["children"] = json::array({tile_json(5, "t" + std::to_string(i + 1) + ".json")});
     const std::string text = tileset_json(root).dump();
     files[i == 0 ? "tileset.json" : "t" + std::to_string(i) + ".json"] =
         gzip(text.substr(0, text.size() - 1) + ",\"extras\":" + arrays + "]}");

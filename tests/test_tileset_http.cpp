@@ -126,13 +126,14 @@ class Photorealistic {
         ++number_;
         left_ = files_in_session;
       }
-      root["children"] = {tile_json(1e3, "/v1/3dtiles/datasets/abc/files/top.json?a=1&session=" + session())};
+      root["children"] =
+          json::array({tile_json(1e3, "/v1/3dtiles/datasets/abc/files/top.json?a=1&session=" + session())});
       return {200, tileset_json(root).dump()};
     }
     if (!has(target, "session=" + session()) || left_-- <= 0) return {403, "over"};
     if (has(target, "top.json")) {
       json root = tile_json(1e3, "coarse.glb");
-      root["children"] = {tile_json(1, "a.glb"), tile_json(1, "/v1/3dtiles/datasets/abc/files/b.glb")};
+      root["children"] = json::array({tile_json(1, "a.glb"), tile_json(1, "/v1/3dtiles/datasets/abc/files/b.glb")});
       return {200, tileset_json(root).dump()};
     }
     return {200, box_glb({{}})};
@@ -221,7 +222,7 @@ TEST(TilesetHttp, AServerThatNoLongerAnswersEndsTheReading) {
     if (!has(target, "tileset.json")) return {200, "", "", 0, true};
     json root = tile_json(10);
     root["refine"] = "ADD";
-    root["children"] = {tile_json(0, "a.glb")};
+    root["children"] = json::array({tile_json(0, "a.glb")});
     for (int i = 0; i < 1000; ++i) root["children"].push_back(tile_json(0, std::to_string(i) + ".glb"));
     return {200, tileset_json(root).dump()};
   });
