@@ -262,7 +262,7 @@ def test_names_with_drives(monkeypatch: pytest.MonkeyPatch) -> None:
     try:
         assert _system.to_engine("C:\\maps\\town.obj") == "/C:/maps/town.obj"
         assert _system.to_host("/C:/maps/town.obj") == "C:/maps/town.obj"
-        assert _system.to_host("/C:/work/D:\\maps\\town.obj") == "D:\\maps\\town.obj"
+        assert _system.to_host("/C:/flights/D:\\maps\\town.obj") == "D:\\maps\\town.obj"
     finally:
         monkeypatch.undo()
 
