@@ -147,7 +147,8 @@ export class Engine {
 
   /** What volumes can be saved as: "ply", "glb" and others. */
   formats(): string[] {
-    return this.calls.call("output_formats", {});
+    // Those for maps place the scene on the earth, which needs PROJ: this build lacks it.
+    return this.calls.call("output_formats", { scenes: true });
   }
 
   /**
