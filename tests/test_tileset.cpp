@@ -31,11 +31,9 @@ using testing::expect_code;
 using testing::expect_error;
 using testing::i3dm;
 using testing::ids_of;
-using testing::TemporaryDirectory;
 using testing::tile_json;
 using testing::Tileset;
 using testing::tileset_json;
-using testing::write_bytes;
 
 using Names = std::vector<std::string>;
 
