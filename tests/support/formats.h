@@ -11,7 +11,7 @@ namespace vantage::testing {
 /// "v.ply", "v.obj" and so on for "v".
 inline std::vector<std::string> in_each_format(const std::string& stem) {
   std::vector<std::string> names;
-  for (const std::string& word : mesh_format_words()) names.push_back(stem + "." + word);
+  for (const std::string& word : mesh_format_words()) names.emplace_back(stem + '.').append(word);
   return names;
 }
 
