@@ -17,7 +17,7 @@
 namespace vantage::internal::prove {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kDoubleEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Half-spaces that hold all positions from which a convex polygon hides something of the target: planes that have the
 /// polygon on one side and the target on the other, through an edge of one and a corner of the other. Of those that
@@ -41,7 +41,7 @@ class Hidden {
       const NearestPoints found = nearest_points(fan, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
       nearest = std::min(nearest, found.distance - unsure_over(fan, found.distance));
     }
-    unsure_m_ = 16 * kEpsilon * largest;
+    unsure_m_ = 16 * kDoubleEpsilon * largest;
     behind_ = nearest > radius + unsure_m_ ? (reach_m + largest) / (nearest - radius - unsure_m_)
                                            : std::numeric_limits<double>::infinity();
     find();
@@ -155,7 +155,7 @@ class Cover {
   double held_by(const ConvexSolid& solid, const Box& box) const {
     constexpr double kRoundings = 128;
     const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + depth_m_;
-    return depth_m_ - skin_m() - solid.lost_m() - kRoundings * kEpsilon * largest;
+    return depth_m_ - skin_m() - solid.lost_m() - kRoundings * kDoubleEpsilon * largest;
   }
 
   /// A distance from a convex set is convex: its corners decide.
