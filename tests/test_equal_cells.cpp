@@ -95,7 +95,7 @@ TEST(EqualCells, HoldEveryPoint) {
         const Vector2d edge = cell[(i + 1) % cell.size()] - cell[i], next = cell[(i + 2) % cell.size()] - cell[i];
         outline += edge.norm();
         EXPECT_GE(cross(edge, next), 0) << "a corner turns the wrong way";
-        EXPECT_GE(depth_in(polygon, cell[i]), -target::kMostOverlap * extent);
+        EXPECT_GE(depth_in(polygon, cell[i]), -target::kMostOutlineGrowth * extent);
       }
       EXPECT_NEAR(area_of(cell), equal, 0x1p-39 * extent * outline);
     }

@@ -84,7 +84,8 @@ Volume expect_right(const Scene& scene, const Target& target, double range = 60)
   const VerifyReport report = verify_volume(scene, target, Sensor{range}, {}, volume.mesh, options);
   EXPECT_TRUE(report.is_right()) << report.worst_over_depth_m << " m at " << report.worst_over_point.transpose() << ": "
                                  << report.worst_over_cause;
-  EXPECT_EQ(report.under_claimed, 0U) << report.worst_under_point.transpose();
+  // Where a wall stands in the plane of an edge what a viewpoint just behind it does not see falls between the samples.
+  EXPECT_LE(report.worst_under_depth_m, 1e-4) << report.worst_under_point.transpose();
   return volume;
 }
 

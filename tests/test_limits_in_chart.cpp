@@ -54,21 +54,44 @@ std::string draw_limits(Random& random, double scale, Sensor& sensor) {
   return text;
 }
 
+enum class Shape { convex, star };
+
+/// Triangles about the middle of a target, in its plane, with tips and notches.
+Target star_in_place_of(const Target& target, Random& random) {
+  const TargetFrame frame = make_target_frame(target);
+  const int corners = 2 * random.integer(2, 6);
+  std::vector<Vec3> outline;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.uniform(0, 0.4)) / corners;
+    const double radius = frame.enclosing_radius_m * (i % 2 == 0 ? random.uniform(0.7, 1) : random.uniform(0.2, 0.6));
+    outline.push_back(frame.to_scene({radius * std::cos(angle), radius * std::sin(angle), 0}));
+  }
+  Target star = target;
+  star.front = frame.normal;
+  star.parts.clear();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    star.parts.push_back({frame.origin, outline[i], outline[(i + 1) % outline.size()]});
+  }
+  return star;
+}
+
 struct Drawn {
+  Scene scene;
   PreparedTarget target;
   std::string text;
 };
 
-Drawn draw(Random& random, double scale, const Vec3& offset) {
+Drawn draw(Random& random, double scale, const Vec3& offset, Shape shape) {
   Scene scene = testing::random_city(random, random.integer(3, 30), 12);
   for (Vec3& vertex : scene.mesh.vertices) vertex = scale * vertex + offset;
   const double radius = random.uniform(0.2, 4);
   const Vec3 centre(random.uniform(-3, 3), random.uniform(-3, 3), radius + random.uniform(0.1, 12));
   Target target = testing::random_target(random, random.integer(3, 7), scale * radius, scale * centre + offset,
                                          direction_of(random, -0.2));
+  if (shape == Shape::star) target = star_in_place_of(target, random);
   Sensor sensor{.max_range_m = scale * random.uniform(30, 90)};
   const std::string text = draw_limits(random, scale, sensor);
-  return {PreparedTarget(PreparedScene(scene), target, sensor), text};
+  return {scene, PreparedTarget(PreparedScene(scene), target, sensor), text};
 }
 
 /// What booleans leave.
@@ -78,18 +101,18 @@ Volume by_booleans(const PreparedTarget& target, const ExactOptions& options) {
 
 class LimitsInChart : public ::testing::Test {
  protected:
-  void compare(std::uint64_t seed, double scale, const Vec3& offset, int rounds);
+  void compare(std::uint64_t seed, double scale, const Vec3& offset, int rounds, Shape shape = Shape::convex);
 
   int in_chart_ = 0, empty_ = 0;
   std::size_t fallbacks_ = 0;
 };
 
-void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset, int rounds) {
+void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset, int rounds, Shape shape) {
   Random random(seed);
   ExactOptions options;
   options.tolerance_m = 0.01 * scale;
   for (int round = 0; round < rounds; ++round) {
-    const Drawn drawn = draw(random, scale, offset);
+    const Drawn drawn = draw(random, scale, offset, shape);
     const std::string where = "round " + std::to_string(round) + ":" + drawn.text;
     const Volume found = compute_volume(drawn.target, {}, options), wanted = by_booleans(drawn.target, options);
     ASSERT_EQ(found.outcome, wanted.outcome) << where;
@@ -106,6 +129,13 @@ void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset
     EXPECT_LE((one.volume_m3 - other.volume_m3) / other.area_m2, 0.1 * options.tolerance_m) << where;
     EXPECT_GE((one.volume_m3 - other.volume_m3) / other.area_m2, -3e-6 * scale) << where;
     EXPECT_EQ(found.cause_of.size(), found.mesh.triangles.size()) << where;
+    if (shape == Shape::convex) continue;
+    const PreparedTarget& target = drawn.target;
+    ProveOptions prove;
+    prove.lift_m = found.lift_m;
+    EXPECT_EQ(prove_volume(drawn.scene, target.target(), target.sensor(), {}, found.mesh, prove).verdict(),
+              ProofVerdict::proved)
+        << where;
   }
 }
 
@@ -121,6 +151,15 @@ TEST_F(LimitsInChart, AtEveryScale) {
   compare(4103, 100, Vec3::Zero(), 20);
   compare(4104, 1, Vec3(4.5e5, 5.6e6, 300), 20);
   EXPECT_GT(in_chart_, 20);
+  EXPECT_EQ(fallbacks_, 0U);
+}
+
+TEST_F(LimitsInChart, OfStarShapedTargets) {
+  compare(4109, 1, Vec3::Zero(), 60, Shape::star);
+  compare(4110, 1e-3, Vec3::Zero(), 20, Shape::star);
+  compare(4111, 100, Vec3::Zero(), 20, Shape::star);
+  compare(4112, 1, Vec3(4.5e5, 5.6e6, 300), 20, Shape::star);
+  EXPECT_GT(in_chart_, 40);
   EXPECT_EQ(fallbacks_, 0U);
 }
 

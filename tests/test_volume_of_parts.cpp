@@ -38,6 +38,26 @@ Parts comb(int teeth) {
   return parts;
 }
 
+/// Two bars that share a corner, on a slope: one point of theirs sees them all.
+Parts ell() {
+  Parts parts = {{{0, 0, 8}, {9, 0, 8}, {9, 3, 8}, {0, 3, 8}}, {{0, 3, 8}, {3, 3, 8}, {3, 10, 8}, {0, 10, 8}}};
+  for (auto& part : parts) {
+    for (Vec3& v : part) v.z() += v.y() / 4;
+  }
+  return parts;
+}
+
+/// Triangles about a middle, with tips and notches.
+Parts star(int tips) {
+  const auto at = [&](int i) {
+    const double angle = std::numbers::pi * i / tips, radius = i % 2 == 0 ? 6 : 3;
+    return Vec3(5 + radius * std::cos(angle), 4 + radius * std::sin(angle), 8);
+  };
+  Parts parts;
+  for (int i = 0; i < 2 * tips; ++i) parts.push_back({{5, 4, 8}, at(i), at(i + 1)});
+  return parts;
+}
+
 /// Two slopes, each in two parts.
 Parts gable() {
   return {{{0, 0, 8}, {6, 0, 8}, {6, 4, 10}, {0, 4, 10}},
@@ -121,7 +141,7 @@ void expect_as_large_as(const Volume& reference, const Volume& volume, double to
 
 TEST_P(VolumeOfParts, IsWhatSeesThemAll) {
   Random random(3301);
-  const std::vector<Parts> all = {comb(2), comb(7), gable(), dome(5), dome(12)};
+  const std::vector<Parts> all = {comb(2), comb(7), ell(), star(5), gable(), dome(5), dome(12)};
   for (std::size_t i = 0; i < all.size(); ++i) {
     SCOPED_TRACE("target " + std::to_string(i));
     const Scene scene = placed(testing::random_city(random, 12, 16));

@@ -295,13 +295,13 @@ VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOption
 
 /// compute_parts, but only what keeps those limits of the sensor that are cut where the view is computed:
 /// Volume::kept_limits. These are min_range, incidence, sun and the frame of a camera that does not turn, of a target
-/// that is one polygon (docs/theory.md, "Limits in the chart"). Where that fails (StageCounts::boolean_fallbacks), or
-/// they leave nothing, it is compute_parts: cut_to_limits then cuts it, or says why nothing is left. Throws as
-/// compute_parts does. Cost: the engine's, and 0 to 90 % more for each limit.
+/// that is one polygon, or is computed like one (compute_parts; docs/theory.md, "Limits in the chart"). Where that
+/// fails (StageCounts::boolean_fallbacks), or they leave nothing, it is compute_parts: cut_to_limits then cuts it, or
+/// says why nothing is left. Throws as compute_parts does. Cost: the engine's, and 0 to 90 % more for each limit.
 VANTAGE_API Volume compute_view(const PreparedTarget& target, const ExactOptions& options = {},
                                 const Progress& progress = {});
 
-/// Whether the sensor has such limits, and the target is one polygon.
+/// Whether the sensor has such limits, and the target is one polygon, or is computed like one.
 VANTAGE_API bool has_limits_in_view(const PreparedTarget& target);
 
 /// All that a vehicle may use: compute_view, cut to the limits of the sensor and of navigation. Throws as these do.

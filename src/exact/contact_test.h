@@ -11,7 +11,8 @@ namespace vantage::internal::exact {
 
 /// The facet of a plane is swept from the corners where the plane touches its polygon, away from the target. For a
 /// point o of B(C) and a target point t every plane g of C has g . o >= 1 >= g . t, so o + s (o - t) is in B(C) too:
-/// where a competitor holds those corners it hides the whole facet, if it does not coincide with it.
+/// where a competitor holds those corners it hides the whole facet, if it does not coincide with it. Of a target of
+/// several polygons both must be of the same one.
 class ContactTest {
  public:
   ContactTest(const BlockerSet& blockers, const DirectionTree& tree, double reach)

@@ -14,6 +14,7 @@
 #include "target/lengths.h"
 #include "target/prepared_target_data.h"
 #include "target/range_check.h"
+#include "target/star_target.h"
 #include "vantage/error.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
@@ -23,11 +24,15 @@ namespace {
 
 using namespace internal::exact;
 
-void check(const PreparedTarget& target, const ExactOptions& options) {
+void check_tolerance(const ExactOptions& options) {
   if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m)) {
     throw Error(ErrorCode::value_out_of_range, "tolerance must be a positive, finite number of metres", "exact options",
                 "give for example 0.01");
   }
+}
+
+void check(const PreparedTarget& target, const ExactOptions& options) {
+  check_tolerance(options);
   if (target.part_count() > 1) {
     throw Error(ErrorCode::target_of_parts, "the target has " + std::to_string(target.part_count()) + " parts",
                 "target", "use compute_volume, or compute each part and intersect the volumes");
@@ -116,7 +121,7 @@ Volume volume_for(const PreparedTarget& target, const ExactOptions& options) {
   Volume volume;
   volume.tolerance_m = options.tolerance_m;
   volume.frame = target.frame();
-  volume.lift_m = {target.lift_m()};
+  for (std::size_t i = 0; i < target.part_count(); ++i) volume.lift_m.push_back(target.lift_m(i));
   volume.notes = target.notes();
   volume.provenance = {VANTAGE_VERSION, "exact", target.target(), target.sensor(), "", ""};
   volume.counts.scene_polygons = target.scene().data().polygon_count();
@@ -139,25 +144,41 @@ Volume compute_visibility(const PreparedTarget& target, const ExactOptions& opti
 
 namespace internal::exact {
 
-LimitedVisibility compute_visibility_within(const PreparedTarget& target, const ChartLimits& limits,
-                                            const std::vector<Cause>& causes, const ExactOptions& options,
-                                            const Progress& callback) {
+std::optional<Volume> compute_star_visibility(const PreparedTarget& target, const ExactOptions& options,
+                                              const Progress& callback) {
+  const core::Stopwatch stopwatch;
+  const core::ProgressReporter progress(callback);
+  check_tolerance(options);
+  const std::optional<target::StarTarget> star = target::star_target(target);
+  if (!star) return std::nullopt;
+  const double max_range = range_limit_m(target.sensor());
+  const target::RangeRegion range(star->frame.polygon, max_range);
+  HalfSpaceVolume side = compute_half_space(target.scene(), star->frame, star->cover, range, options, progress);
+  if (side.blocked_within(target::min_useful_depth(max_range))) return std::nullopt;
+  Volume volume = volume_for(target, options);
+  set_mesh(std::move(side), star->frame, volume);
+  volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
+  return volume;
+}
+
+LimitedVisibility compute_visibility_within(const PreparedTarget& target, const target::StarTarget& star,
+                                            const ChartLimits& limits, const std::vector<Cause>& causes,
+                                            const ExactOptions& options, const Progress& callback) {
   using How = LimitedVisibility::How;
   const core::Stopwatch stopwatch;
   const core::ProgressReporter progress(callback);
-  check(target, options);
-  if (!target.data().parts[0].is_reachable) return {How::needs_booleans, {}};
+  check_tolerance(options);
   Volume volume = volume_for(target, options);
-  const target::RangeRegion range(volume.frame.polygon, range_limit_m(target.sensor()));
-  const std::optional<LimitsOfView> ready = limits_of_view(limits, causes, volume.frame, range);
+  const target::RangeRegion range(star.frame.polygon, range_limit_m(target.sensor()));
+  const std::optional<LimitsOfView> ready = limits_of_view(limits, causes, star.frame, range);
   if (!ready) return {How::needs_booleans, {}};
   std::optional<HalfSpaceVolume> side;
   parallel::with_threads(options.threads, [&] {
-    side = compute_half_space_within(target.scene(), volume.frame, range, *ready, options, progress);
+    side = compute_half_space_within(target.scene(), star.frame, star.cover, range, *ready, options, progress);
   });
   if (!side) return {How::failed, {}};
   if (side->mesh.empty()) return {How::needs_booleans, {}};
-  set_mesh(std::move(*side), volume.frame, volume);
+  set_mesh(std::move(*side), star.frame, volume);
   volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
   return {How::computed, std::move(volume)};
 }

@@ -101,18 +101,38 @@ void add_ceilings(const LimitsOfView& limits, BlockerSet& blockers, DirectionTre
   }
 }
 
+/// Convex polygons that all hold the centre; what is to be seen is all that they cover.
+using Cover = std::span<const std::vector<Eigen::Vector2d>>;
+
+// What is hidden behind what hides one polygon of the target may still hide another one: each has its own search. Of
+// what these find, the tree keeps what may be seen.
+void collect_for_all(const PreparedScene::Data& scene, const TargetFrame& frame, Cover cover,
+                     const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
+                     const core::ProgressReporter& progress) {
+  const target::Lengths lengths = target::lengths_of(scene, frame, range.radius());
+  for (std::uint32_t k = 0; k < cover.size(); ++k) {
+    const target::LocalTarget target = target::make_local_target(cover[k], lengths.slack, lengths.rounding);
+    if (cover.size() == 1) return collect_blockers(scene, frame, target, range, blockers, tree, progress);
+    BlockerSet own;
+    DirectionTree own_tree(own, range);
+    collect_blockers(scene, frame, target, range, own, own_tree, progress);
+    for (std::size_t i = 0; i < own.count(); ++i) {
+      blockers.append(own, i, k);
+      if (!tree.insert(static_cast<std::uint32_t>(blockers.count() - 1))) blockers.drop_last();
+    }
+  }
+}
+
 /// `limits`: null where there are none.
-std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetFrame& frame,
+std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetFrame& frame, Cover cover,
                                        const target::RangeRegion& range, const LimitsOfView* limits,
                                        const ExactOptions& options, const core::ProgressReporter& progress) {
-  const target::Lengths lengths = target::lengths_of(scene.data(), frame, range.radius());
-  const target::LocalTarget target = target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
   OctahedralGrid grid(range, options.tolerance_m);
   progress.begin("finding blockers");
   BlockerSet blockers;
   DirectionTree tree(blockers, range);
   if (limits) add_ceilings(*limits, blockers, tree);
-  collect_blockers(scene.data(), frame, target, range, blockers, tree, progress);
+  collect_for_all(scene.data(), frame, cover, range, blockers, tree, progress);
   progress.begin("tracing the envelope");
   // Seen from the centre a chord must also stay well within a cell of the grid: a region may be no wider than the
   // tolerance.
@@ -148,7 +168,14 @@ std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetF
 HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
                                    const target::RangeRegion& range, const ExactOptions& options,
                                    const core::ProgressReporter& progress) {
-  return *compute(scene, frame, range, nullptr, options, progress);
+  return *compute(scene, frame, {&frame.polygon, 1}, range, nullptr, options, progress);
+}
+
+HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
+                                   std::span<const std::vector<Eigen::Vector2d>> cover,
+                                   const target::RangeRegion& range, const ExactOptions& options,
+                                   const core::ProgressReporter& progress) {
+  return *compute(scene, frame, cover, range, nullptr, options, progress);
 }
 
 std::optional<LimitsOfView> limits_of_view(const ChartLimits& limits, std::vector<Cause> causes,
@@ -161,10 +188,11 @@ std::optional<LimitsOfView> limits_of_view(const ChartLimits& limits, std::vecto
 }
 
 std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& scene, const TargetFrame& frame,
+                                                         std::span<const std::vector<Eigen::Vector2d>> cover,
                                                          const target::RangeRegion& range, const LimitsOfView& limits,
                                                          const ExactOptions& options,
                                                          const core::ProgressReporter& progress) {
-  return compute(scene, frame, range, &limits, options, progress);
+  return compute(scene, frame, cover, range, &limits, options, progress);
 }
 
 std::string widest_scene_cause(const std::vector<Cause>& causes) {

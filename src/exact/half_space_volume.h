@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,14 @@ HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame
                                    const target::RangeRegion& range, const ExactOptions& options,
                                    const core::ProgressReporter& progress);
 
+/// The same of a target that is what several convex polygons cover, which all hold the frame's origin in their interior
+/// (docs/theory.md, "Targets of several parts"). The frame's polygon is their convex hull, about whose corners the
+/// range is. Cost: as for each of them, but one triangulation.
+HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
+                                   std::span<const std::vector<Eigen::Vector2d>> cover,
+                                   const target::RangeRegion& range, const ExactOptions& options,
+                                   const core::ProgressReporter& progress);
+
 /// Limits, ready to be cut in the chart.
 struct LimitsOfView {
   std::vector<ChartLimits::Side> ceilings;
@@ -47,6 +56,7 @@ std::optional<LimitsOfView> limits_of_view(const ChartLimits& limits, std::vecto
 /// As compute_half_space, but only what keeps the limits. Its mesh may be empty. nullopt where floor and envelope meet
 /// in a way that could not be triangulated.
 std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& scene, const TargetFrame& frame,
+                                                         std::span<const std::vector<Eigen::Vector2d>> cover,
                                                          const target::RangeRegion& range, const LimitsOfView& limits,
                                                          const ExactOptions& options,
                                                          const core::ProgressReporter& progress);

@@ -47,6 +47,16 @@ double largest_cosine(const Vec3& a, const Vec3& b, const Vec3& direction) {
   return largest;
 }
 
+void add_part(const TargetFrame& frame, const std::vector<Eigen::Vector2d>& polygon, Viewed& viewed) {
+  ViewedPart& part = viewed.parts.emplace_back();
+  if (!frame.all_sides) part.normal = frame.normal;
+  part.centre = frame.origin - viewed.origin;
+  for (const Eigen::Vector2d& corner : polygon) {
+    part.corners.push_back(part.centre + frame.axis_u * corner.x() + frame.axis_v * corner.y());
+  }
+  viewed.corners.insert(viewed.corners.end(), part.corners.begin(), part.corners.end());
+}
+
 }  // namespace
 
 double Viewed::radius() const {
@@ -59,15 +69,15 @@ Viewed viewed_of(const PreparedTarget& target) {
   Viewed viewed;
   viewed.origin = target.frame(0).origin;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
-    const TargetFrame& frame = target.frame(i);
-    ViewedPart& part = viewed.parts.emplace_back();
-    if (!frame.all_sides) part.normal = frame.normal;
-    part.centre = frame.origin - viewed.origin;
-    for (const Eigen::Vector2d& corner : frame.polygon) {
-      part.corners.push_back(part.centre + frame.axis_u * corner.x() + frame.axis_v * corner.y());
-    }
-    viewed.corners.insert(viewed.corners.end(), part.corners.begin(), part.corners.end());
+    add_part(target.frame(i), target.frame(i).polygon, viewed);
   }
+  return viewed;
+}
+
+Viewed viewed_of(const TargetFrame& frame, std::span<const std::vector<Eigen::Vector2d>> polygons) {
+  Viewed viewed;
+  viewed.origin = frame.origin;
+  for (const auto& polygon : polygons) add_part(frame, polygon, viewed);
   return viewed;
 }
 

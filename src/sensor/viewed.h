@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "vantage/export.h"
@@ -34,6 +35,9 @@ struct SensorView {
 
 /// The parts as they are used, lifts included.
 Viewed viewed_of(const PreparedTarget& target);
+
+/// Convex polygons in a frame, which hold its origin in their interior.
+Viewed viewed_of(const TargetFrame& frame, std::span<const std::vector<Eigen::Vector2d>> polygons);
 
 // All of the part's positions and of the points are about Viewed::origin.
 

@@ -62,6 +62,7 @@ Volume volume_of_all(const PreparedTarget& target, const ExactOptions& options, 
   if (target.part_count() > 1 && !may_have_common_front(target)) return without_common_front(target, options);
   if (internal::solid::has_share(target)) return internal::solid::share_volume(target, options, progress);
   if (target.part_count() > 1) {
+    if (auto volume = internal::exact::compute_star_visibility(target, options, progress)) return *std::move(volume);
     if (auto volume = internal::solid::volume_of_parts(target, options, progress)) return *std::move(volume);
   }
   std::vector<Volume> volumes;
@@ -81,10 +82,11 @@ Volume volume_of_all(const PreparedTarget& target, const ExactOptions& options, 
 std::optional<Volume> volume_in_chart(const PreparedTarget& target, const ExactOptions& options,
                                       const Progress& progress, std::size_t& fallbacks) {
   using How = internal::exact::LimitedVisibility::How;
-  const internal::solid::LimitsInChart chart =
-      internal::solid::sensor_limits_in_chart(internal::sensor::viewed_of(target), target.sensor(), target.frame());
+  const std::optional<internal::target::StarTarget> star = internal::target::star_target(target);
+  if (!star) return std::nullopt;
+  const internal::solid::LimitsInChart chart = internal::solid::sensor_limits_in_chart(*star, target.sensor());
   auto [how, volume] =
-      internal::exact::compute_visibility_within(target, chart.limits, chart.causes, options, progress);
+      internal::exact::compute_visibility_within(target, *star, chart.limits, chart.causes, options, progress);
   if (how == How::failed) ++fallbacks;
   if (how != How::computed) return std::nullopt;
   volume.kept_limits = chart.done;
@@ -94,12 +96,12 @@ std::optional<Volume> volume_in_chart(const PreparedTarget& target, const ExactO
 }  // namespace
 
 bool has_limits_in_view(const PreparedTarget& target) {
-  if (target.part_count() > 1 || target.target().is_point() || internal::solid::has_share(target)) return false;
+  if (target.target().is_point() || internal::solid::has_share(target)) return false;
   bool found = false;
   each_limit(target.sensor(), [&](auto limit, const auto& /*value*/) {
     found = found || internal::solid::is_cut_in_chart(decltype(limit)::value, target.sensor());
   });
-  return found;
+  return found && (target.part_count() == 1 || internal::target::star_target(target).has_value());
 }
 
 Volume compute_view(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {

@@ -177,9 +177,12 @@ bool is_cut_in_chart(Limit limit, const Sensor& sensor) {
   }
 }
 
-LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame) {
+LimitsInChart sensor_limits_in_chart(const target::StarTarget& target, const Sensor& sensor) {
   LimitsInChart chart;
-  SensorRegionBuilder builder(viewed, sensor, frame, chart);
+  // What is kept is kept of the convex hull, too: its corners say all. What is taken away is convex for each polygon.
+  const sensor::Viewed hull = sensor::viewed_of(target.frame, {&target.frame.polygon, 1});
+  const sensor::Viewed cover = sensor::viewed_of(target.frame, target.cover);
+  SensorRegionBuilder builder(hull, sensor, target.frame, chart);
   each_limit(sensor, [&](auto limit, const auto& value) {
     constexpr Limit kLimit = decltype(limit)::value;
     if (!is_cut_in_chart(kLimit, sensor)) return;
@@ -187,7 +190,9 @@ LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor&
     if constexpr (kLimit == Limit::frame) {
       add_frame_region(*sensor.camera, builder);
     } else {
-      add_regions<kLimit>(value, viewed.parts[0], builder);
+      for (const sensor::ViewedPart& part : kLimit == Limit::incidence ? hull.parts : cover.parts) {
+        add_regions<kLimit>(value, part, builder);
+      }
     }
   });
   return chart;

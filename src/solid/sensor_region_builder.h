@@ -10,6 +10,7 @@
 #include "sensor/viewed.h"
 #include "solid/kernel_point.h"
 #include "solid/regions.h"
+#include "target/star_target.h"
 #include "vantage/each_limit.h"
 
 namespace vantage::internal::solid {
@@ -82,7 +83,7 @@ void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std:
 /// Whether a limit of the sensor is convex, so that it can be cut in the chart.
 bool is_cut_in_chart(Limit limit, const Sensor& sensor);
 
-/// Those limits of the sensor, of a target that is one polygon.
-LimitsInChart sensor_limits_in_chart(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame);
+/// Those limits of the sensor, in the frame of the target.
+LimitsInChart sensor_limits_in_chart(const target::StarTarget& target, const Sensor& sensor);
 
 }  // namespace vantage::internal::solid

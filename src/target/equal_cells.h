@@ -6,10 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace vantage::internal::target {
+#include "target/clean_outline.h"
 
-/// Cells reach over their own border by no more than this part of the polygon's extent, of its largest coordinate.
-constexpr double kMostOverlap = 1e-6;
+namespace vantage::internal::target {
 
 /// `count` >= 1 convex cells that together hold every point of the polygon (convex, counter-clockwise, at least 3
 /// corners, metres about a point inside it). Each has corners counter-clockwise, at least 3 of them.
@@ -20,9 +19,9 @@ constexpr double kMostOverlap = 1e-6;
 ///
 /// Rounding: every cut is made twice, 2^-44 of the extent to either side, and its ends are moved outward by as much,
 /// 64 times what they are rounded by. So cells overlap in strips, and leave no gap. Areas differ from equal ones by
-/// what these strips have, 20 of them at most: 2^-39 times the extent times the cell's outline. Edges shorter than 1e-9
-/// of the extent are replaced by the corner that the edges beside them make where that is no farther off than
-/// kMostOverlap, and else stay. Cost: O(count) for few corners.
+/// what these strips have, 20 of them at most: 2^-39 times the extent times the cell's outline. Cells are
+/// cleaned (clean_outline.h), and reach over their own border by no more than kMostOutlineGrowth. Cost: O(count) for
+/// few corners.
 std::vector<std::vector<Eigen::Vector2d>> equal_cells(const std::vector<Eigen::Vector2d>& polygon, std::size_t count);
 
 /// Square metres, of a counter-clockwise polygon.

@@ -1,0 +1,69 @@
+#include "target/star_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/enclosing_circle.h"
+#include "scene/prepared_data.h"
+#include "target/lengths.h"
+#include "target/range_check.h"
+#include "target/star_cover.h"
+
+namespace vantage::internal::target {
+namespace {
+
+using Eigen::Vector2d;
+using Polygon = std::vector<Vector2d>;
+
+/// The parts in the frame of the first one. Nothing where one lies in another plane, or is looked at from behind.
+std::vector<Polygon> parts_in_one_plane(const PreparedTarget& target) {
+  const TargetFrame& frame = target.frame();
+  const double slack = lengths_of(target.scene().data(), frame, range_limit_m(target.sensor())).slack;
+  std::vector<Polygon> parts;
+  for (std::size_t i = 0; i < target.part_count(); ++i) {
+    const TargetFrame& own = target.frame(i);
+    if (!(own.normal.dot(frame.normal) > 0)) return {};
+    Polygon& part = parts.emplace_back();
+    for (const Vector2d& corner : own.polygon) {
+      const Vec3 at = frame.to_local(own.to_scene({corner.x(), corner.y(), 0}));
+      if (std::abs(at.z()) > slack) return {};
+      part.emplace_back(at.x(), at.y());
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::optional<StarTarget> star_target(const PreparedTarget& target) {
+  if (target.target().is_point()) return std::nullopt;
+  if (target.part_count() == 1) {
+    if (!can_reach(target.frame(), target.sensor())) return std::nullopt;
+    return StarTarget{target.frame(), {target.frame().polygon}};
+  }
+  const std::vector<Polygon> parts = parts_in_one_plane(target);
+  if (parts.empty()) return std::nullopt;
+  std::optional<StarCover> cover = star_cover(parts);
+  if (!cover) return std::nullopt;
+
+  StarTarget star{target.frame(), std::move(cover->polygons)};
+  star.frame.origin = target.frame().to_scene({cover->centre.x(), cover->centre.y(), 0});
+  // What rounding does to its place in the scene is taken out of the coordinates.
+  const Vector2d moved = target.frame().to_local(star.frame.origin).head<2>();
+  star.frame.polygon = std::move(cover->hull);
+  for (Vector2d& corner : star.frame.polygon) corner -= moved;
+  for (Polygon& polygon : star.cover) {
+    for (Vector2d& corner : polygon) corner -= moved;
+  }
+  star.frame.enclosing_radius_m = core::smallest_enclosing_circle(star.frame.polygon).radius;
+  double farthest = 0;
+  for (const Vector2d& corner : star.frame.polygon) farthest = std::max(farthest, corner.norm());
+  // As far as origins of other targets may be: move_into_range.
+  const double allowed = 0.5 * (star.frame.enclosing_radius_m + range_limit_m(target.sensor()));
+  if (!can_reach(star.frame, target.sensor()) || farthest > allowed) return std::nullopt;
+  return star;
+}
+
+}  // namespace vantage::internal::target
