@@ -11,15 +11,22 @@
 namespace vantage::internal::exact {
 namespace {
 
-constexpr int kTrial = 16;           // lines of the grid on which the facets' depth below the sphere is measured
-constexpr int kMostLines = 2500;     // 25 million triangles at most
+constexpr int kTrial = 16;        // lines of the grid on which the facets' depth below the sphere is measured
+constexpr int kStarts = 2;        // places for each line, along a side of the map, where a search for a line may begin
+constexpr int kMostLines = 2500;  // 25 million triangles at most
 constexpr double kLeastSnap = 1e-8;  // a hundred times numerics::kSnap: the same cells for all snapping up to this
 constexpr double kSafety = 0.9;      // the depth falls with the square of the spacing only in the limit
 
+// Lines at the same angles along the axes, t / (1 + t), would make cells halfway to the horizon that need the most
+// lines. Moved by this much of the map they are about as wide as others, which takes a fifth of the facets away.
+// Lines i and n - i add up to 1.
+constexpr double kMoved = 0.0221;
+
 double line_at(int i, int n) {
+  if (i == 0) return 0;
   if (i == n) return 1;
   const double t = portable::tan(std::numbers::pi / 2 * i / n);
-  return t / (1 + t);
+  return t / (1 + t) - kMoved * portable::sin(2 * std::numbers::pi * i / n);
 }
 
 // How far the plane through three points of a ball's sphere can lie inside it.
@@ -66,12 +73,16 @@ OctahedralGrid::OctahedralGrid(const target::RangeRegion& region, double toleran
   }
   n_ = std::max(8, static_cast<int>(std::ceil(needed)));
   for (int i = 0; i <= n_; ++i) lines_.push_back(line_at(i, n_));
+  for (int i = 0, k = 0; k <= kStarts * n_; ++k) {
+    while (i + 1 < n_ && lines_[i + 1] * kStarts * n_ <= k) ++i;
+    starts_.push_back(i);
+  }
   states_.assign(static_cast<std::size_t>(2 * n_) * (2 * n_), unknown);
 }
 
 int OctahedralGrid::locate(double coordinate) const {
   const double x = std::min(std::abs(coordinate), 1.0);
-  int i = std::clamp(static_cast<int>(portable::atan2(x, 1 - x) * (2 / std::numbers::pi) * n_), 0, n_ - 1);
+  int i = starts_[static_cast<std::size_t>(x * kStarts * n_)];
   while (i > 0 && lines_[i] > x) --i;
   while (i + 1 < n_ && lines_[i + 1] <= x) ++i;
   if (coordinate >= 0) return i;

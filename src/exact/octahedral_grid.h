@@ -12,8 +12,8 @@
 
 namespace vantage::internal::exact {
 
-/// Lines at |a| = line(i), i = 0..n, so spaced that the cells are about equal in angle. The horizon |a| + |b| = 1 runs
-/// through the nodes with |i| + |j| = n, so cells are squares, or halves of squares at the horizon.
+/// Lines at |a| = line(i), i = 0..n, so spaced that the widest cells are about equal in angle. The horizon |a| + |b| =
+/// 1 runs through the nodes with |i| + |j| = n, so cells are squares, or halves of squares at the horizon.
 class OctahedralGrid {
  public:
   /// Fine enough that the triangles on the range sphere lie at most `tolerance` inside it.
@@ -97,6 +97,7 @@ class OctahedralGrid {
   int n_;
   double tolerance_;
   std::vector<double> lines_;
+  std::vector<int> starts_;                      ///< per k: the line at or below k / (starts_.size() - 1)
   std::vector<std::uint8_t> states_, fineness_;  // per cell
   std::vector<Run> runs_;
   std::vector<std::uint32_t> first_run_;  // per row
