@@ -133,9 +133,10 @@ void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset
     const PreparedTarget& target = drawn.target;
     ProveOptions prove;
     prove.lift_m = found.lift_m;
-    EXPECT_EQ(prove_volume(drawn.scene, target.target(), target.sensor(), {}, found.mesh, prove).verdict(),
-              ProofVerdict::proved)
-        << where;
+    for (const ClaimProof& claim :
+         prove_volume(drawn.scene, target.target(), target.sensor(), {}, found.mesh, prove).claims) {
+      EXPECT_EQ(claim.verdict, ProofVerdict::proved) << where << ": " << claim.name << ": " << claim.text;
+    }
   }
 }
 
@@ -155,11 +156,11 @@ TEST_F(LimitsInChart, AtEveryScale) {
 }
 
 TEST_F(LimitsInChart, OfStarShapedTargets) {
-  compare(4109, 1, Vec3::Zero(), 60, Shape::star);
-  compare(4110, 1e-3, Vec3::Zero(), 20, Shape::star);
-  compare(4111, 100, Vec3::Zero(), 20, Shape::star);
-  compare(4112, 1, Vec3(4.5e5, 5.6e6, 300), 20, Shape::star);
-  EXPECT_GT(in_chart_, 40);
+  compare(4109, 1, Vec3::Zero(), 20, Shape::star);
+  compare(4110, 1e-3, Vec3::Zero(), 8, Shape::star);
+  compare(4111, 100, Vec3::Zero(), 8, Shape::star);
+  compare(4112, 1, Vec3(4.5e5, 5.6e6, 300), 8, Shape::star);
+  EXPECT_GT(in_chart_, 20);
   EXPECT_EQ(fallbacks_, 0U);
 }
 

@@ -151,7 +151,8 @@ class Scene(Triangles):
 
     @classmethod
     def from_tiles(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
-                   detail: float | None = None, ground: float | None = None, crs: str | None = None, sea_level: float | None = None,
+                   detail: float | None = None, ground: float | None = None, terrain: Path | None = None,
+                   error: float | None = None, crs: str | None = None, sea_level: float | None = None,
                    progress: Progress = None) -> Scene:
         """Reads a tileset of 3D Tiles: docs/tilesets.md.
 
@@ -160,15 +161,17 @@ class Scene(Triangles):
             center: (latitude, longitude) of the part that is read, with `radius` in metres. Default: all of it.
             detail: the largest geometric error of a tile that is not refined, metres. Default: 1.
             ground: z of a plane that is the ground. Default: none but what the tileset has.
+            terrain: instead, a raster of the ground's heights. Of heights above the sea level, `sea_level` says where that is.
+            error: how far the ground's triangles may be from that raster, metres. Default: 0.5.
             crs: the coordinate reference system of a tileset in projected metres: "EPSG:3946".
-            sea_level: z of the mean sea level.
+            sea_level: z of the mean sea level, metres: on the earth how high the geoid lies above the ellipsoid there.
             progress: called with stage and fraction; False stops.
 
         Raises:
             Error: the tileset cannot be read, or has nothing there. Files that are missing are holes: see `report`.
         """
-        return cls._load({"tiles": path, "center": center, "radius": radius, "detail": detail, "ground": ground, "crs": crs,
-                          "sea_level": sea_level}, progress)
+        return cls._load({"tiles": path, "center": center, "radius": radius, "detail": detail, "ground": ground,
+                          "terrain": terrain, "error": error, "crs": crs, "sea_level": sea_level}, progress)
 
     @classmethod
     def from_bytes(cls, data: bytes | bytearray | memoryview, format: str, **options: Any) -> Scene:
