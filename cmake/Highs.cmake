@@ -38,7 +38,8 @@ function(vantage_add_highs source_dir)
   add_library(highs::highs ALIAS vantage_highs)
   target_include_directories(vantage_highs SYSTEM PRIVATE
     ${include_dirs} ${source_dir}/highs/ipm/hipo ${source_dir}/highs/ipm/hipo/auxiliary
-    ${source_dir}/highs/ipm/hipo/factorhighs ${source_dir}/highs/ipm/hipo/ipm)
+    ${source_dir}/highs/ipm/hipo/factorhighs ${source_dir}/highs/ipm/hipo/ipm
+    ${ZLIB_INCLUDE_DIRS})  # it tells zlib's version
   target_include_directories(vantage_highs SYSTEM INTERFACE ${generated} ${source_dir}/extern ${source_dir}/highs)
   target_compile_features(vantage_highs PRIVATE cxx_std_11)
   # No fused multiply-add, so that no answer depends on the compiler.

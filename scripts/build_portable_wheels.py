@@ -4,16 +4,14 @@ system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI
 
     build_portable_wheels.py [--targets x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
 
-What is in them: wheel_libraries.toml. The name of a wheel says which glibc it needs: the newest version that one of the
-functions has which it takes from glibc. It may not be newer than that of the target.
-
-State: no wheel has been linked by it yet. For x86-64 the libraries are built, the bindings are compiled for the stable
-ABI, and most other sources pass the compiler's checks. HiGHS is left out (`vantage_options`), as it takes minutes to
-compile. Nothing was tried for aarch64 but a program in C.
+What is in them: wheel_libraries.toml, and the page, where `make web` has built it. The name of a wheel says which glibc it
+needs: the newest version that one of the functions has which it takes from glibc. It may not be newer than that of the
+target. auditwheel must say the same.
 """
 
 import argparse
 import base64
+import csv
 import hashlib
 import os
 import pathlib
@@ -146,15 +144,15 @@ def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pat
     (info / "WHEEL").write_text("\n".join(lines) + "\n", encoding="utf-8")
     (info / "RECORD").unlink(missing_ok=True)
     files = sorted(file for file in folder.rglob("*") if file.is_file())
-    record = []
-    for file in files:
-        digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).rstrip(b"=").decode()
-        record.append(f"{file.relative_to(folder).as_posix()},sha256={digest},{file.stat().st_size}")
+    with (info / "RECORD").open("w", encoding="utf-8", newline="") as opened:
+        record = csv.writer(opened, lineterminator="\n")
+        for file in files:
+            digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).rstrip(b"=").decode()
+            record.writerow([file.relative_to(folder).as_posix(), f"sha256={digest}", file.stat().st_size])
+        record.writerow([f"{info.name}/RECORD", "", ""])
     name = info.name.removesuffix(".dist-info")
-    (info / "RECORD").write_text("\n".join([*record, f"{info.name}/RECORD,,"]) + "\n", encoding="utf-8")
     for old in dist.glob(f"{name}-{tag}-*_{processor}.whl"):
-        if not re.search("manylinux_2_3[0-9]_", old.name):  # that of `make wheel`
-            old.unlink()
+        old.unlink()
     wheel = dist / f"{name}-{tag}-{'.'.join(platforms)}.whl"
     half = wheel.with_suffix(".new")
     with zipfile.ZipFile(half, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -164,6 +162,14 @@ def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pat
             archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED)
     half.replace(wheel)
     return wheel
+
+
+def check_tag(wheel: pathlib.Path, tools: pathlib.Path) -> None:
+    """Fails where auditwheel names another system than the wheel's name does."""
+    told = subprocess.run([str(tools), "-m", "auditwheel", "show", str(wheel)], capture_output=True, text=True, check=False)
+    match = re.search(r'following platform\s+tag:\s+"(\w+)"', told.stdout)
+    if told.returncode or not match or match[1] not in re.split("[-.]", wheel.stem):
+        raise Failure(f"auditwheel does not say what the name of {wheel} says:\n{told.stdout}{told.stderr}")
 
 
 def main() -> int:
@@ -185,7 +191,10 @@ def main() -> int:
                 print(f"building vantage for {target}, {TAGS[python]}", flush=True)
                 folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, libraries)
                 wheel = pack(folder, TAGS[python], target, dist)
+                check_tag(wheel, tools)
                 subprocess.run([sys.executable, str(HERE / "wheel_licences.py"), "check", str(wheel)], check=True)
+                if not (folder / "vantage" / "share" / "web" / "index.html").exists():
+                    print("the page of `vantage view` is not in it: run `make web` first")
                 print(f"{wheel.stat().st_size / 1e6:.1f} MB  {wheel}", flush=True)
     except (Failure, OSError, KeyError, subprocess.CalledProcessError) as error:
         print(f"{error}", file=sys.stderr)

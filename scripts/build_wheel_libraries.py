@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Builds the libraries that a wheel of vantage contains, static and small, into .deps/wheel/prefix: those of
-wheel_libraries.toml, from Debian's source packages, pinned by hash. Does nothing when they are there.
+"""Builds the libraries that a wheel of vantage contains, static and small, into .deps/wheel-TARGET/prefix: those of
+wheel_libraries.toml, from Debian's source packages, pinned by hash, with the compiler of zig. Does nothing when they are
+there.
 
-    build_wheel_libraries.py [--list FILE] [--folder FOLDER] [--jobs N]
-    build_wheel_libraries.py --target x86_64-linux-gnu.2.17 [...]    with zig for another system, into .deps/wheel-TARGET
+    build_wheel_libraries.py --target x86_64-linux-gnu.2.17 [--list FILE] [--folder FOLDER] [--jobs N]
 
-The sources come from the archive that apt uses on this machine. For another system no library of this one is taken, only
-headers and data; and each library that is built is kept, where the next one fails.
+The sources come from the archive that apt uses on this machine. Of this system no library is taken, only headers and
+data. Each library that is built is kept, where the next one fails.
 """
 
 import argparse
@@ -15,6 +15,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -74,27 +75,24 @@ def installed_version(package: str) -> str:
     asked = subprocess.run(["dpkg-query", "--show", "--showformat", "${source:Package} ${Version}", package],
                            capture_output=True, text=True, check=False)
     if asked.returncode:
-        raise Failure(f"the Debian package {package} is not installed: scripts/install_packages.sh --wheel")
+        raise Failure(f"the Debian package {package} is not installed: scripts/install_packages.sh --wheels")
     return asked.stdout
 
 
 @dataclasses.dataclass
 class Tools:
-    """The commands that compile, what CMake and configure must be told of them, and the keys of the list that are meant
-    for them."""
+    """The commands that compile for a processor, and what CMake and configure must be told of them."""
 
-    c: str = "gcc"
-    cxx: str = "g++"
-    ar: str = "ar"
-    ranlib: str = "ranlib"
-    for_cmake: list[str] = dataclasses.field(default_factory=list)
-    for_configure: list[str] = dataclasses.field(default_factory=list)
-    kind: str = "native"
-    processor: str = ""
+    c: str
+    cxx: str
+    ar: str
+    ranlib: str
+    for_cmake: list[str]
+    for_configure: list[str]
+    processor: str
 
     def options(self, library: dict) -> list[str]:
-        more = library.get("portable_options", []) if self.kind == "portable" else []
-        return [*library["options"], *more, *library.get(f"{self.processor}_options", [])]
+        return [*library["options"], *library.get(f"{self.processor}_options", [])]
 
 
 def zig_tools(target: str, prefix: pathlib.Path) -> Tools:
@@ -107,18 +105,16 @@ def zig_tools(target: str, prefix: pathlib.Path) -> Tools:
     return Tools(*(str(folder / name) for name in ("clang", "clang++", "ar", "ranlib")),
                  [f"-DCMAKE_TOOLCHAIN_FILE={HERE.parent / 'cmake' / 'Zig.cmake'}", f"-DVANTAGE_ZIG={folder}",
                   f"-DVANTAGE_ZIG_PREFIX={prefix}", f"-DVANTAGE_ZIG_PROCESSOR={processor}"],
-                 [f"--host={target.partition('.')[0]}"], "portable", processor)
+                 [f"--host={target.partition('.')[0]}"], processor)
 
 
 class Builder:
     def __init__(self, folder: pathlib.Path, prefix: pathlib.Path, flags: str, jobs: int, tools: Tools):
         self.folder, self.prefix, self.jobs, self.tools = folder, prefix, str(jobs), tools
-        # zig keeps what it compiled by itself.
-        self.launcher = (shutil.which("ccache") if tools.kind == "native" else None) or "env"
         # The folder must not show in what is built.
         self.flags = f"{flags} -ffile-prefix-map={folder}=."
-        self.environment = {"CFLAGS": self.flags, "CXXFLAGS": self.flags, "CCACHE_BASEDIR": str(folder),
-                            "CCACHE_NOHASHDIR": "1", "PKG_CONFIG_LIBDIR": str(prefix / "lib" / "pkgconfig")}
+        self.environment = {"CFLAGS": self.flags, "CXXFLAGS": self.flags,
+                            "PKG_CONFIG_LIBDIR": str(prefix / "lib" / "pkgconfig")}
 
     def build(self, library: dict) -> None:
         slug = library["name"].lower().replace("/", "-")
@@ -137,9 +133,7 @@ class Builder:
         run(["cmake", "-S", str(source / library.get("folder", ".")), "-B", str(build), "-G", "Ninja",
              "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG", "-DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG",
              "-DBUILD_SHARED_LIBS=OFF", "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", f"-DCMAKE_PREFIX_PATH={self.prefix}",
-             "-DCMAKE_INSTALL_PREFIX=/usr", "-DCMAKE_INSTALL_LIBDIR=lib",
-             f"-DCMAKE_C_COMPILER_LAUNCHER={self.launcher}", f"-DCMAKE_CXX_COMPILER_LAUNCHER={self.launcher}",
-             *options], work, log, **self.environment)
+             "-DCMAKE_INSTALL_PREFIX=/usr", "-DCMAKE_INSTALL_LIBDIR=lib", *options], work, log, **self.environment)
         run(["cmake", "--build", str(build), "--parallel", self.jobs, "--target", library.get("target", "all")], work,
             log, **self.environment)
         for to, origin in library.get("before_install", {}).items():
@@ -150,7 +144,7 @@ class Builder:
         build = work / "build"
         build.mkdir()
         run([str(source / "configure"), f"--prefix={self.prefix}", "--disable-shared", "--enable-static",
-             *self.tools.for_configure, *self.tools.options(library), f"CC={self.launcher} {self.tools.c}",
+             *self.tools.for_configure, *self.tools.options(library), f"CC={self.tools.c}",
              f"AR={self.tools.ar}", f"RANLIB={self.tools.ranlib}", f"LDFLAGS=-L{self.prefix / 'lib'}", "LIBS=-lz -lm"],
             build, log, **self.environment)
         run(["make", f"-j{self.jobs}", "-C", library["folder"], "install"], build, log, **self.environment)
@@ -164,35 +158,25 @@ class Builder:
         for name in library["sources"]:
             compiler = self.tools.cxx if name.endswith(".cpp") else self.tools.c
             objects.append(str(work / (pathlib.PurePosixPath(name).stem + ".o")))
-            run([self.launcher, compiler, *shlex.split(self.flags), *library.get("defines", []), "-DNDEBUG", "-c", name, "-o", objects[-1]], source,
-                log, **self.environment)
+            run([compiler, *shlex.split(self.flags), *library.get("defines", []), "-DNDEBUG", "-c", name, "-o", objects[-1]],
+                source, log, **self.environment)
         run([self.tools.ar, "rcs", str(self.prefix / "lib" / f"lib{library['library']}.a"), *objects], work, log)
         for folder, headers in library["includes"].items():
             to = self.prefix / "include" / folder
             to.mkdir(parents=True, exist_ok=True)
             for header in headers:
                 shutil.copy(source / header, to)
-        self.describe(library.get("pkg_config", library["library"]), library["library"], library["version"], folders=list(library["includes"]))
+        self.describe(library.get("pkg_config", library["library"]), library["library"], library["version"],
+                      list(library["includes"]))
 
     def take_installed(self, package: dict) -> None:
         """What is taken from an installed Debian package, with its version."""
         asked = installed_version(package["package"])
-        listed = subprocess.run(["dpkg-query", "--listfiles", package["package"]], capture_output=True, text=True,
-                                check=True)
-        files = {pathlib.PurePosixPath(line).name: line for line in listed.stdout.splitlines()}
-        for name in package.get("archives", []):
-            shutil.copy(files[name], self.prefix / "lib")
-        for name in package.get("includes", []):
-            shutil.copy(files[name], self.prefix / "include")
-        if self.tools.kind == "portable":
-            self.link_headers(package)
+        self.link_headers(package)
         for folder, names in package.get("files", {}).items():
             (self.prefix / folder).mkdir(parents=True, exist_ok=True)
             for name in names:
                 shutil.copy(name, self.prefix / folder)
-        if "library" in package:
-            self.describe(package.get("pkg_config", package["library"]), package["library"],
-                          asked.split()[1].rpartition(":")[2], package.get("needs", ""))
         self.keep_texts({**package, "texts": [f"/usr/share/doc/{package['package']}/copyright"]}, pathlib.Path("/"))
         (self.prefix / "versions").mkdir(exist_ok=True)
         (self.prefix / "versions" / package["package"]).write_text(asked + "\n", encoding="utf-8")
@@ -209,12 +193,12 @@ class Builder:
             # But not what names libraries.
             shutil.copytree(origin, to, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*-targets-none.cmake"))
 
-    def describe(self, name: str, library: str, version: str, needs: str = "", folders: list[str] | None = None) -> None:
+    def describe(self, name: str, library: str, version: str, folders: list[str]) -> None:
         """What pkg-config tells of a library; `folders` below include/ are those of its headers."""
         file = self.prefix / "lib" / "pkgconfig" / f"{name}.pc"
-        flags = " ".join(f"-I{self.prefix / 'include' / folder}" for folder in folders or ["."])
+        flags = " ".join(f"-I{self.prefix / 'include' / folder}" for folder in folders)
         file.write_text(f"Name: {name}\nDescription: {name}\nVersion: {version}\nCflags: {flags}\n"
-                        f"Libs: -L{self.prefix}/lib -l{library} {needs}\n", encoding="utf-8")
+                        f"Libs: -L{self.prefix}/lib -l{library}\n", encoding="utf-8")
 
     def keep_texts(self, library: dict, source: pathlib.Path) -> None:
         folder = self.prefix / "licences"
@@ -224,46 +208,15 @@ class Builder:
 
 
 def settle_prefix(prefix: pathlib.Path) -> None:
-    """The descriptions that CMake installed name /usr, which is compiled in as the place of their data."""
+    """The descriptions that CMake installed name /usr, which is compiled in as the place of their data, and the files in
+    zig's cache of the C++ library, which zig links by itself."""
     for file in (prefix / "lib" / "pkgconfig").glob("*.pc"):
         lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
-        lines = [f"prefix={prefix}\n" if line.startswith("prefix=") else line for line in lines]
+        lines = [f"prefix={prefix}\n" if line.startswith("prefix=") else re.sub(r"-l/\S+\.a\s*", "", line) for line in lines]
         file.write_text("".join(lines), encoding="utf-8")
 
 
-def wanted(libraries: dict, section: str, kind: str) -> list[dict]:
-    return [entry for entry in libraries.get(section, []) if entry.get("only", kind) == kind]
-
-
-def build_native(libraries: dict, folder: pathlib.Path, listed: pathlib.Path, jobs: int) -> None:
-    """All of them anew, where one of them, or how they are built, has changed."""
-    prefix, build = folder / "prefix", folder / "build"
-    installed, built = (wanted(libraries, section, "native") for section in ("installed", "built"))
-    versions = [installed_version(package["package"]) for package in installed]
-    files = [listed, pathlib.Path(__file__), *sorted((HERE / "wheel_patches").glob("*.patch"))]
-    text = b"".join(file.read_bytes() for file in files) + "\n".join(versions).encode()
-    stamp = folder / f"{hashlib.sha256(text).hexdigest()[:16]}.stamp"
-    if stamp.exists():
-        return
-    for old in (prefix, build, *folder.glob("*.stamp")):
-        shutil.rmtree(old) if old.is_dir() else old.unlink(missing_ok=True)
-    for part in ("include", "lib/pkgconfig"):
-        (prefix / part).mkdir(parents=True)
-    build.mkdir()
-    (folder / "downloads").mkdir(exist_ok=True)
-    (build / "downloads").symlink_to(folder / "downloads")
-    builder = Builder(build, prefix, libraries["flags"]["compiler"], jobs, Tools())
-    for package in installed:
-        builder.take_installed(package)
-    for number, library in enumerate(built, 1):
-        print(f"building {library['name']} {library['version']} ({number} of {len(built)})", flush=True)
-        builder.build(library)
-        settle_prefix(prefix)
-    shutil.rmtree(build)
-    stamp.touch()
-
-
-def build_portable(libraries: dict, folder: pathlib.Path, target: str, jobs: int) -> None:
+def build_all(libraries: dict, folder: pathlib.Path, target: str, jobs: int) -> None:
     """Those that are not there yet as the list describes them."""
     prefix, build, done = folder / "prefix", folder / "build", folder / "done"
     for part in (prefix / "include", prefix / "lib" / "pkgconfig", build, done, folder / "downloads"):
@@ -273,9 +226,9 @@ def build_portable(libraries: dict, folder: pathlib.Path, target: str, jobs: int
     tools = zig_tools(target, prefix)
     flags = f"{libraries['portable']['compiler']} {libraries['portable'][tools.processor]}"
     builder = Builder(build, prefix, flags, jobs, tools)
-    for package in wanted(libraries, "installed", "portable"):
+    for package in libraries.get("installed", []):
         builder.take_installed(package)
-    built = wanted(libraries, "built", "portable")
+    built = libraries["built"]
     for number, library in enumerate(built, 1):
         patch = (HERE / library["own_patch"]).read_text(encoding="utf-8") if "own_patch" in library else ""
         text = f"{json.dumps(library, sort_keys=True)}\n{flags}\n{patch}"
@@ -291,18 +244,14 @@ def build_portable(libraries: dict, folder: pathlib.Path, target: str, jobs: int
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--list", type=pathlib.Path, default=HERE / "wheel_libraries.toml")
-    parser.add_argument("--folder", type=pathlib.Path, help=".deps/wheel or .deps/wheel-TARGET")
-    parser.add_argument("--target", help="build with zig for this system: x86_64-linux-gnu.2.17")
+    parser.add_argument("--folder", type=pathlib.Path, help=".deps/wheel-TARGET")
+    parser.add_argument("--target", required=True, help="the system, as zig names it: x86_64-linux-gnu.2.17")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
-    name = f"wheel-{arguments.target}" if arguments.target else "wheel"
-    folder = (arguments.folder or HERE.parent / ".deps" / name).resolve()
+    folder = (arguments.folder or HERE.parent / ".deps" / f"wheel-{arguments.target}").resolve()
     try:
         libraries = tomllib.loads(arguments.list.read_text(encoding="utf-8"))
-        if arguments.target:
-            build_portable(libraries, folder, arguments.target, arguments.jobs)
-        else:
-            build_native(libraries, folder, arguments.list, arguments.jobs)
+        build_all(libraries, folder, arguments.target, arguments.jobs)
     except (Failure, OSError, KeyError, tomllib.TOMLDecodeError) as error:
         print(f"{error}", file=sys.stderr)
         return 1

@@ -56,12 +56,13 @@ closure() {
 
 # make_root NAME PACKAGE...
 make_root() {
-  local root=$folder/$1 name file
+  local root=$folder/$1 name file names
   shift
   rm -rf "$root"
   mkdir -p "$root/usr/bin" "$root/usr/sbin" "$root/usr/lib" "$root/usr/lib64" "$root/tmp" "$root/check"
   for name in bin sbin lib lib64; do ln -s "usr/$name" "$root/$name"; done
-  for name in $(closure "$@"); do
+  names=$(closure "$@")
+  for name in $names; do
     file=$(find "$packages" -name "${name}_*.deb" -print -quit)
     if [ -z "$file" ]; then
       (cd "$packages" && apt-get "${apt[@]}" download "$name" 2>/dev/null)
@@ -79,7 +80,7 @@ make_root() {
   "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-deps --no-index "$wheel"
   cp -r "$here/../examples" "$here/check_wheel.py" "$here/read_elf.py" "$here/../python/wheel/same_bytes.py" "$folder/expected" "$root/check/"
   if [ -n "$emulator" ]; then cp "$(command -v "$emulator")" "$root/usr/bin/"; fi
-  echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: $(closure "$@" | tr '\n' ' ')"
+  echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: ${names//$'\n'/ }"
 }
 
 # in_root NAME ARGUMENT...: runs the check there

@@ -3,9 +3,8 @@
 #   scripts/install_packages.sh            what building needs
 #   scripts/install_packages.sh --tests    and what the tests need
 #   scripts/install_packages.sh --python   and what the Python package needs
-#   scripts/install_packages.sh --wheel    and what a wheel of it needs (scripts/build_wheel.sh)
 #   scripts/install_packages.sh --blender  and Blender, for the add-on's tests
-#   scripts/install_packages.sh --wheels   and what those for other systems need (scripts/build_portable_wheels.py)
+#   scripts/install_packages.sh --wheels   and what wheels of it need (scripts/build_portable_wheels.py)
 #   scripts/install_packages.sh --web      and what the page and its tests need (scripts/build_web.sh)
 #   scripts/install_packages.sh --qgis     and QGIS, for its plugin and the tests of it (integrations/qgis)
 #   scripts/install_packages.sh --tools    and what developers need: benchmarks, sanitizers, fuzzing, formatting, lint
@@ -32,9 +31,8 @@ packages=(
 )
 tests=(libgtest-dev osmium-tool locales)  # of locales one with a decimal comma is made
 python=(python3-dev python3-venv)
-wheel=("${python[@]}" patch xz-utils bzip2 libexpat1-dev libsqlite3-dev proj-data)
 blender=("${python[@]}" blender python3-numpy xvfb xauth)
-wheels=("${wheel[@]}" tcl qemu-user-static)
+wheels=("${python[@]}" patch xz-utils bzip2 tcl proj-data qemu-user-static)
 web=(emscripten node-acorn chromium python3-venv)  # the last for scripts/check_wasm_wheel.sh
 command -v npm >/dev/null || web+=(nodejs npm)  # there may be a newer one, of another source
 qgis=(qgis python3-qgis qgis-providers python3-numpy xvfb)
@@ -45,13 +43,12 @@ case "${1:-}" in
   "") ;;
   --tests) packages+=("${tests[@]}") ;;
   --python) packages+=("${python[@]}") ;;
-  --wheel) packages+=("${wheel[@]}") ;;
   --blender) packages+=("${blender[@]}") ;;
   --wheels) packages+=("${wheels[@]}") ;;
   --web) packages+=("${web[@]}") ;;
   --qgis) packages+=("${python[@]}" "${qgis[@]}") ;;
   --tools) packages+=("${tests[@]}" "${tools[@]}") ;;
-  *) echo "usage: $0 [--tests|--python|--wheel|--wheels|--blender|--web|--qgis|--tools]" >&2; exit 2 ;;
+  *) echo "usage: $0 [--tests|--python|--wheels|--blender|--web|--qgis|--tools]" >&2; exit 2 ;;
 esac
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "not a Debian system: please install the equivalents of: ${packages[*]}" >&2

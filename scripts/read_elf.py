@@ -22,7 +22,7 @@ _VERSIONS, _VERSION_COUNT = 0x6FFFFFFE, 0x6FFFFFFF
 _FLAGS_1, _GNU_HASH, _HASH = 0x6FFFFFFB, 0x6FFFFEF5, 4
 _BIND_NOW, _NOW = 8, 1  # in DT_FLAGS, in DT_FLAGS_1
 _FUNCTION, _LOCAL = 2, 0  # of symbols
-_SYMTAB_SECTION = 2  # sh_type
+_SYMTAB_SECTION, _DYNAMIC_SYMTAB_SECTION = 2, 11  # sh_type
 _ENDBR64 = b"\xf3\x0f\x1e\xfa"
 _X86_FEATURES, IBT, SHSTK = 0xC0000002, 1, 2
 
@@ -177,9 +177,13 @@ class Elf:
 
     @property
     def dynamic_symbols(self) -> list[Symbol]:
-        """What it takes from others, and what it shows to them. The tables follow each other in all that linkers write."""
+        """What it takes from others, and what it shows to them. Where it has no sections, the names are taken to follow
+        the symbols, as most linkers write them."""
         if not self._values(_SYMTAB):
             return []
+        for section in self._sections:
+            if section[1] == _DYNAMIC_SYMTAB_SECTION:
+                return self._symbols_at(section[4], section[5] // 24, self._sections[section[6]][4])
         symbols, names = self._values(_SYMTAB)[0], self._values(_STRTAB)[0]
         if names <= symbols:
             raise NotElf("has its names before its symbols")
@@ -196,6 +200,11 @@ class Elf:
     @property
     def imports(self) -> set[str]:
         return {symbol.name for symbol in self.dynamic_symbols if not symbol.is_defined and symbol.name}
+
+    @property
+    def reads_stack_canary(self) -> bool:
+        """Whether code for x86-64 looks at the word that stack protection compares: zig brings __stack_chk_fail along."""
+        return self.machine == _X86_64 and re.search(rb"\x64\x48\x8b.\x25\x28\0\0\0", self._data, re.DOTALL) is not None
 
     def begins_with_endbr(self, symbol: Symbol) -> bool:
         offset = self._offset(symbol.address)
@@ -252,7 +261,7 @@ def hardening_faults(elf: Elf, is_fortified: bool) -> list[str]:
     if not elf.binds_at_once:
         found.append("has no BIND_NOW")
     imports = elf.imports
-    if "__stack_chk_fail" not in imports:
+    if not imports & {"__stack_chk_fail", "__stack_chk_guard"} and not elf.reads_stack_canary:
         found.append("does not import __stack_chk_fail (-fstack-protector-strong)")
     if is_fortified and not any(re.fullmatch(r"__\w+_chk", name) for name in imports):
         found.append("imports none of __memcpy_chk and the like (-D_FORTIFY_SOURCE)")

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Says what a wheel of vantage contains, under which licences, and fails where wheel_libraries.toml does not know it.
 
-    wheel_licences.py collect --build FOLDER {--map FILE | --portable} --prefix FOLDER --deps FOLDER --out FOLDER
+    wheel_licences.py collect --build FOLDER --prefix FOLDER --deps FOLDER --out FOLDER
     wheel_licences.py check WHEEL...
 
-`collect` runs while the wheel is made. It reads from the linker's map which static libraries code was taken from (with
---portable, of a wheel that zig makes, from the linker's command which it was given), and
-from ninja which headers were compiled, and writes the list LIBRARIES.txt with the texts of the licences. `check` looks
-into a finished wheel: at what each binary loads, at binaries that nobody listed, and at the list.
+`collect` runs while the wheel is made. It reads from ninja which static libraries the linker was given and which headers
+were compiled, and writes the list LIBRARIES.txt with the texts of the licences. `check` looks into a finished wheel: at
+what each binary loads, at binaries that nobody listed, and at the list.
 """
 
 import argparse
@@ -15,7 +14,6 @@ import pathlib
 import re
 import subprocess
 import sys
-import sysconfig
 import tempfile
 import tomllib
 import zipfile
@@ -30,12 +28,8 @@ class Failure(Exception):
     pass
 
 
-def read_list(kind: str = "") -> dict:
-    """The list, without what is meant for wheels of the other kind."""
-    libraries = tomllib.loads((HERE / "wheel_libraries.toml").read_text(encoding="utf-8"))
-    for section in ("built", "installed", "fetched"):
-        libraries[section] = [entry for entry in libraries[section] if not kind or entry.get("only", kind) == kind]
-    return libraries
+def read_list() -> dict:
+    return tomllib.loads((HERE / "wheel_libraries.toml").read_text(encoding="utf-8"))
 
 
 def entries(libraries: dict) -> list[dict]:
@@ -49,22 +43,8 @@ def is_copyleft(licence: str) -> bool:
 
 # ---- collect
 
-def linked_archives(map_file: pathlib.Path) -> set[str]:
-    """The static libraries that the linker took members from."""
-    found = set()
-    for line in map_file.read_text(encoding="utf-8", errors="replace").splitlines():
-        if line.startswith("Memory Configuration") or line.startswith("Discarded input sections"):
-            break
-        match = re.match(r"(\S+\.a)\(", line)
-        if match:
-            found.add(pathlib.PurePosixPath(match[1]).name)
-    if not found:
-        raise Failure(f"{map_file} names no static library: is it the linker's map?")
-    return found
-
-
 def given_archives(build: pathlib.Path) -> set[str]:
-    """The static libraries that the linker was given for the module."""
+    """The static libraries that the linker was given for the module: all that code may have been taken from."""
     asked = subprocess.run(["ninja", "-C", str(build), "-t", "commands", "vantage_python"], capture_output=True, text=True,
                            check=True)
     command = next((line for line in reversed(asked.stdout.splitlines()) if "_core." in line and ".a" in line), "")
@@ -129,11 +109,10 @@ def own_folders(build: pathlib.Path, libraries: dict, places: dict[str, str]) ->
     folders = {}
     for entry in libraries.get("fetched", []):
         folders |= {pathlib.Path(header.format(**places)).resolve(): entry["name"] for header in entry["headers"]}
-    # Headers of the libraries that were built: the linker's map tells which of these are used.
-    python = pathlib.Path(sysconfig.get_paths()["include"]).resolve()
-    ours = [build, *(PROJECT / folder for folder in ("src", "include", "python", "cmake")),
-            pathlib.Path(places["prefix"]).parent / "python"]  # headers of Pythons that do not run here
-    return folders | {path: "" for path in (pathlib.Path(places["prefix"]), python, *ours)}
+    # Headers of the libraries that were built: the linker's command tells which of these are used.
+    prefix = pathlib.Path(places["prefix"])
+    ours = [build, *(PROJECT / folder for folder in ("src", "include", "python", "cmake"))]
+    return folders | {path: "" for path in (prefix, prefix.parent / "python", *ours)}  # the latter: headers of Pythons
 
 
 def first_comment(text: str) -> str:
@@ -143,25 +122,24 @@ def first_comment(text: str) -> str:
     return re.sub(r"(?m)^ \* ?", "", match[1])
 
 
-def collect(build: pathlib.Path, map_file: pathlib.Path | None, prefix: pathlib.Path, deps: pathlib.Path,
-            out: pathlib.Path) -> None:
-    libraries = read_list("native" if map_file else "portable")
+def collect(build: pathlib.Path, prefix: pathlib.Path, deps: pathlib.Path, out: pathlib.Path) -> None:
+    libraries = read_list()
     spec = util.find_spec("nanobind")
     if spec is None or spec.origin is None:
         raise Failure("nanobind is not installed for this Python")
     info = metadata.distribution("nanobind")
     texts = next(pathlib.Path(info.locate_file(file)).parent for file in info.files or [] if file.name == "LICENSE")
     places = {"deps": str(deps.resolve()), "prefix": str(prefix.resolve()),
-              "nanobind": str(pathlib.Path(spec.origin).parent), "nanobind_texts": str(texts), "zig": str(deps.resolve() / "zig" / "python" / "ziglang" / "lib")}
-    archives = linked_archives(map_file) if map_file else given_archives(build)
-    strange, by_archive = unknown_archives(archives, libraries)
+              "nanobind": str(pathlib.Path(spec.origin).parent), "nanobind_texts": str(texts),
+              "zig": str(deps.resolve() / "zig" / "python" / "ziglang" / "lib")}
+    strange, by_archive = unknown_archives(given_archives(build), libraries)
     folders = own_folders(build.resolve(), libraries, places)
     strange_headers, by_header = unknown_headers(compiled_headers(build.resolve()), folders, libraries)
     if strange or strange_headers:
         raise Failure("the wheel would contain what scripts/wheel_libraries.toml does not list: "
                       + ", ".join(strange + strange_headers[:10]))
     contained = [entry for entry in entries(libraries) if entry["name"] in by_archive | by_header or "files" in entry
-                 or entry.get("only") == "portable" and "archives" not in entry]
+                 or entry.get("of_zig")]
     copyleft = [f"{entry['name']} ({entry['licence']})" for entry in contained if is_copyleft(entry["licence"])]
     if copyleft:
         raise Failure(f"the wheel would contain what is under no licence but GPL or LGPL: {', '.join(copyleft)}")
@@ -187,7 +165,7 @@ def origin(entry: dict, prefix: pathlib.Path, nanobind: str) -> str:
         return "Debian source package: " + pathlib.PurePosixPath(entry["source"]).name
     if "package" in entry:
         return "Debian source package: " + (prefix / "versions" / entry["package"]).read_text(encoding="utf-8").strip()
-    if entry.get("only") == "portable":
+    if entry.get("of_zig"):
         return f"release of ziglang on PyPI: {(PROJECT / 'python/wheel/zig-requirements.lock').read_text().split()[-2]}"
     if entry["name"] in ("nanobind", "robin-map"):
         return f"release of nanobind {nanobind} on PyPI"
@@ -267,15 +245,12 @@ def main() -> int:
     of_build = commands.add_parser("collect")
     for option in ("build", "prefix", "deps", "out"):
         of_build.add_argument(f"--{option}", type=pathlib.Path, required=True)
-    linked = of_build.add_mutually_exclusive_group(required=True)
-    linked.add_argument("--map", type=pathlib.Path)
-    linked.add_argument("--portable", action="store_true")
     of_wheel = commands.add_parser("check")
     of_wheel.add_argument("wheel", nargs="+", type=pathlib.Path)
     arguments = parser.parse_args()
     try:
         if arguments.command == "collect":
-            collect(arguments.build, arguments.map, arguments.prefix, arguments.deps, arguments.out)
+            collect(arguments.build, arguments.prefix, arguments.deps, arguments.out)
             return 0
         libraries = read_list()
         status = 0

@@ -323,17 +323,20 @@ class Scripts(unittest.TestCase):
     def test_wheel_names_what_was_linked_and_compiled(self):
         module = self.licences()
         listed = module.read_list()
-        linker_map = self.scratch / "map"
-        linker_map.write_text("Archive member included to satisfy reference by file (symbol)\n\n"
-                              "/usr/lib/libcairo.a(cairo.o)\n                a.o (cairo_create)\n"
-                              "lib/libvantage.a(a.cpp.o)\n  b.o (f)\nlibjbig.a(jbig.o)\n  c.o (g)\n\n"
-                              "Memory Configuration\n\nLOAD libother.a\nlibother.a(x.o)\n", encoding="utf-8")
-        archives = module.linked_archives(linker_map)
-        self.assertEqual(archives, {"libcairo.a", "libvantage.a", "libjbig.a"})
-        self.assertEqual(module.unknown_archives(archives, listed), (["libjbig.a"], {"Cairo"}))
-        linker_map.write_text("nothing", encoding="utf-8")
+        build = self.scratch / "build"
+        build.mkdir()
+
+        def archives(command: str) -> set[str]:
+            """Those of a build whose module is made by that command."""
+            (build / "build.ninja").write_text(f"rule link\n  command = {command}\nbuild _core.so: link\n"
+                                               "build vantage_python: phony _core.so\n", encoding="utf-8")
+            return module.given_archives(build)
+
+        given = archives("c++ -o _core.so a.o /usr/lib/libcairo.a lib/libvantage.a libjbig.a -lm")
+        self.assertEqual(given, {"libcairo.a", "libvantage.a", "libjbig.a"})
+        self.assertEqual(module.unknown_archives(given, listed), (["libjbig.a"], {"Cairo"}))
         with self.assertRaises(module.Failure):
-            module.linked_archives(linker_map)
+            archives("c++ -o _core.so a.o -lm")
         strange, used = module.unknown_headers(
             {pathlib.Path("/usr/include/stdio.h"), pathlib.Path("/opt/gpl/a.h"), pathlib.Path("/deps/cdt/CDT.h")},
             {pathlib.Path("/deps/cdt"): "CDT"}, listed)
@@ -377,18 +380,21 @@ class Scripts(unittest.TestCase):
         (self.tree / "scripts" / "check_wheel.sh").write_text(f"#!/bin/sh\necho $1 >> {tried}\n", encoding="utf-8")
         dist = self.tree / "dist"
         dist.mkdir()
-        make = ["make", "--no-print-directory", "-o", "wheels", "-o", "build", "wheelscheck"]
+        make = ["make", "--no-print-directory", "-o", "build", "check_wheels"]
 
-        def is_right() -> bool:
-            return subprocess.run(make, cwd=self.tree, env=self.environment, capture_output=True, check=False).returncode == 0
+        def is_right(*variables: str) -> bool:
+            return subprocess.run([*make, *variables], cwd=self.tree, env=self.environment, capture_output=True,
+                                  check=False).returncode == 0
 
-        self.assertFalse(is_right())
-        (dist / "vantage-1-cp311-cp311-manylinux_2_36_x86_64.whl").touch()  # that of `make wheel`
-        self.assertFalse(is_right())
-        portable = "dist/vantage-1-cp312-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl"
-        (self.tree / portable).touch()
-        self.assertTrue(is_right())
-        self.assertEqual(tried.read_text(), f"{portable}\n")
+        self.assertFalse(is_right("PROCESSORS=x86_64"))
+        (dist / "vantage-1-py3-none-any.whl").touch()  # that of `make wheelwasm`
+        self.assertFalse(is_right("PROCESSORS=x86_64"))
+        self.assertFalse(tried.exists())
+        wheel = "dist/vantage-1-cp312-abi3-manylinux_2_17_x86_64.manylinux2014_x86_64.whl"
+        (self.tree / wheel).touch()
+        self.assertTrue(is_right("PROCESSORS=x86_64"))
+        self.assertEqual(tried.read_text(), f"{wheel}\n")
+        self.assertFalse(is_right(), "there is none for aarch64")
 
     def test_cesium_is_not_tried_in_a_node_that_reads_empty_files(self):
         script = ROOT / "integrations" / "cesium" / "check_czml.sh"
@@ -405,14 +411,16 @@ class Scripts(unittest.TestCase):
         (pool / "p").mkdir(parents=True)
         (pool / "p" / "thing.tar.gz").write_bytes(archive)
         self.put_tool("apt-get", f"echo 'Debian stable file://{pool}/'\n")
+        (self.tree / "scripts" / "zig_compiler.sh").write_text("#!/bin/sh\necho /usr/bin\n", encoding="utf-8")
         listing = self.scratch / "list.toml"
 
         def build(sha256: str) -> tuple[int, str]:
             listing.write_text(
-                f'[flags]\ncompiler = "-fPIC"\n[[built]]\nname = "thing"\nversion = "1"\nlicence = "MIT"\nsource = "p/thing.tar.gz"\n'
+                f'[portable]\ncompiler = "-fPIC"\nx86_64 = ""\n[[built]]\nname = "thing"\nversion = "1"\nlicence = "MIT"\nsource = "p/thing.tar.gz"\n'
                 f'sha256 = "{sha256}"\ntexts = ["LICENSE"]\nbuild = "sources"\nlibrary = "thing"\nsources = []\n'
                 'includes = { "." = ["thing.c"] }\n', encoding="utf-8")
-            return self.run_script("build_wheel_libraries.py", "--list", str(listing), "--folder", str(self.scratch / "built"))
+            return self.run_script("build_wheel_libraries.py", "--list", str(listing), "--folder", str(self.scratch / "built"),
+                                   "--target", "x86_64-linux-gnu.2.17")
 
         code, text = build("0" * 64)
         self.assertEqual(code, 1)

@@ -25,8 +25,8 @@ using FrameRow = std::tuple<std::array<double, 2>, std::array<double, 4>, double
 /// Square in metres, region in degrees.
 using TileRow = std::tuple<std::array<double, 4>, std::array<double, 4>>;
 
-std::tuple<FrameRow, std::vector<TileRow>> plan(const std::string& text, const std::string& name, double size_m,
-                                                double margin_m, nb::object progress) {
+std::tuple<FrameRow, std::vector<TileRow>> planned_tiles(const std::string& text, const std::string& name,
+                                                         double size_m, double margin_m, nb::object progress) {
   const TilePlan made = computed(std::move(progress), 0, [&](const Progress& told) {
     const MissionFile mission = read_scene_text(text, name);
     return plan_tiles(mission.scene.file, mission.scene.city, size_m, margin_m, told);
@@ -46,7 +46,7 @@ std::pair<double, double> position(const std::array<double, 2>& origin_deg, doub
 }  // namespace
 
 void bind_tiles(nb::module_& module) {
-  module.def("plan_tiles", &plan, "text"_a, "name"_a, "size_m"_a, "margin_m"_a, "progress"_a = nb::none());
+  module.def("plan_tiles", &planned_tiles, "text"_a, "name"_a, "size_m"_a, "margin_m"_a, "progress"_a = nb::none());
   module.def("position", &position, "origin_deg"_a, "latitude_deg"_a, "longitude_deg"_a);
 }
 
