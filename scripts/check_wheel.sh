@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tries a wheel in a root of its own: Debian's Python, the C++ library that numpy loads too, numpy, the wheel, and nothing
-# else; no network, no /proc, no /dev. Then the same with Debian's software OpenGL, which pictures need. Wheels for
+# else; no network, no /proc, no devices. Then the same with Debian's software OpenGL, which pictures need. Wheels for
 # CPython 3.11 are tried with Debian 12, those for the stable ABI with Python 3.13 of Debian 13; those for aarch64 with
 # qemu-aarch64-static of Debian's qemu-user-static, without OpenGL.
 #   scripts/check_wheel.sh WHEEL [FOLDER]     FOLDER: where the roots are made (build-wheel/roots)
@@ -59,7 +59,8 @@ make_root() {
   local root=$folder/$1 name file names
   shift
   rm -rf "$root"
-  mkdir -p "$root/usr/bin" "$root/usr/sbin" "$root/usr/lib" "$root/usr/lib64" "$root/tmp" "$root/check"
+  mkdir -p "$root/usr/bin" "$root/usr/sbin" "$root/usr/lib" "$root/usr/lib64" "$root/tmp" "$root/check" "$root/dev"
+  head -c 65536 /dev/urandom >"$root/dev/urandom"  # every system has one; `vantage view` makes its token of it
   for name in bin sbin lib lib64; do ln -s "usr/$name" "$root/$name"; done
   names=$(closure "$@")
   for name in $names; do
