@@ -128,27 +128,20 @@ site: package  ## the documentation as a site, in build/site; its tutorials are 
 	PYTHONPATH=$(CURDIR)/build/python .deps/python/bin/python -m sphinx -q -W --keep-going -c docs/site docs build/site
 	@echo "site: $$(find build/site -name '*.html' | wc -l) pages, build/site/index.html"
 
-.PHONY: wheel
-wheel:  ## wheels with all that they need in them, for this processor, in dist/: Python 3.11, and 3.12 and newer
-	@$(MAKE) --no-print-directory wheels TARGETS=$$(uname -m)-linux-gnu.2.17
-
-.PHONY: wheelcheck
-wheelcheck: wheel  ## try these wheels in roots with Python and numpy alone
-	@$(MAKE) --no-print-directory check_wheels PROCESSORS=$$(uname -m)
-
-TARGETS = x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17
-.PHONY: wheels
-wheels:  ## the same for x86-64 and aarch64
+# For aarch64, which was not tried to the end: make wheelcheck TARGETS=aarch64-linux-gnu.2.17
+TARGETS = x86_64-linux-gnu.2.17
+.PHONY: wheel wheels
+wheel wheels:  ## wheels with all that they need in them, in dist/: for Python 3.11, and for 3.12 and newer
 	@scripts/install_packages.sh --wheels
 	@scripts/fetch_sources.sh
 	@scripts/build_portable_wheels.py --jobs $(JOBS) --targets $(TARGETS)
 
-.PHONY: wheelscheck
-wheelscheck: wheels  ## try each of them as `make wheelcheck` does; those for aarch64 in an emulator
+.PHONY: wheelcheck wheelscheck
+wheelcheck wheelscheck: wheel  ## try each of them in a root with Python and numpy alone
 	@$(MAKE) --no-print-directory check_wheels
 
-# The program that `make build` makes computes the same volumes; it knows nothing of the wheels.
-PROCESSORS = x86_64 aarch64
+# The program of `make build` computes the same volumes, without the wheels' libraries.
+PROCESSORS = $(foreach target,$(TARGETS),$(firstword $(subst -, ,$(target))))
 .PHONY: check_wheels
 check_wheels: build
 	@for processor in $(PROCESSORS); do \

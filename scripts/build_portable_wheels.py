@@ -2,11 +2,12 @@
 """Builds wheels that run on old Linux systems and on other processors, into dist/, with the compiler of zig: for each
 system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI).
 
-    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
+    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
 
 What is in them: wheel_libraries.toml, and the page, where `make web` has built it. The name of a wheel says which glibc it
 needs: the newest version that one of the functions has which it takes from glibc. It may not be newer than that of the
-target. auditwheel must say the same.
+target. auditwheel must say the same. Not tried to the end: aarch64-linux-gnu.2.17. There zig's compiler-rt takes the place
+of some of glibc's functions (cmake/zig_runtime.c).
 """
 
 import argparse
@@ -29,7 +30,7 @@ from debian_archive import fetch
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
 DEPS = PROJECT / ".deps"
-TARGETS = ["x86_64-linux-gnu.2.17", "aarch64-linux-gnu.2.17"]
+TARGETS = ["x86_64-linux-gnu.2.17"]
 TAGS = {"cp311": "cp311-cp311", "abi3": "cp312-abi3"}
 FIXED_TIME = (2020, 1, 1, 0, 0, 0)  # of all files: the same wheel from the same sources
 
