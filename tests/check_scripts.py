@@ -374,6 +374,37 @@ class Scripts(unittest.TestCase):
                 pack("newer", "2.28", target)
         self.assertEqual([file.name for file in dist.iterdir()], ["vantage-1-cp312-abi3-manylinux_2_28_x86_64.whl"])
 
+    def test_runtime_of_zig_computes_as_the_compiler_does(self):
+        source = self.scratch / "compare.c"
+        names = ("__udivti3", "__divti3", "__muldc3", "__divdc3")
+        source.write_text("#include <complex.h>\n#include <stdio.h>\n" + "".join(f"#define {name} our{name}\n" for name in names) +
+                          f'#include "{ROOT / "cmake" / "zig_runtime.c"}"\n' + r"""
+static unsigned long long state = 88172645463325252ull;
+static unsigned long long drawn(void) {
+  state ^= state << 13, state ^= state >> 7;
+  return state ^= state << 17;
+}
+static u128 wide(void) { return ((u128)drawn() << 64 | drawn()) >> drawn() % 128; }
+static double number(void) { return scalbn((double)(long long)drawn(), (int)(drawn() % 200) - 160); }
+int main(void) {
+  int wrong = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const u128 a = wide(), b = wide() | 1;
+    const __int128 c = drawn() & 1 ? -a : a, d = (drawn() & 1 ? -(b >> 1) : b >> 1) | 2;
+    wrong += our__udivti3(a, b) != a / b || our__divti3(c, d) != c / d;
+    const double p = number(), q = number(), r = number(), s = number();
+    const complex_double product = CMPLX(p, q) * CMPLX(r, s), quotient = CMPLX(p, q) / CMPLX(r, s);
+    wrong += our__muldc3(p, q, r, s) != product || cabs(our__divdc3(p, q, r, s) - quotient) > 1e-15 * cabs(quotient);
+  }
+  const complex_double over = our__muldc3(INFINITY, NAN, 1, 1), by_zero = our__divdc3(1, 1, 0, 0), none = our__divdc3(1, 2, INFINITY, 1);
+  wrong += !isinf(creal(over)) || !isinf(creal(by_zero)) || none != 0;
+  printf("%d wrong", wrong);
+}
+""", encoding="utf-8")
+        program = self.scratch / "compare"
+        subprocess.run(["gcc", "-O1", "-w", "-ffp-contract=off", str(source), "-o", str(program), "-lm"], check=True)
+        self.assertEqual(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout, "0 wrong")
+
     def test_no_wheel_to_try_is_a_failure(self):
         shutil.copy(ROOT / "Makefile", self.tree)
         tried = self.scratch / "tried"
