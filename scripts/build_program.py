@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+"""Builds the program for all Linux systems of a processor, as tarballs in dist/ that run where they are unpacked, with
+the compiler of zig.
+
+    build_program.py [--targets x86_64-linux-gnu.2.17 x86_64-linux-musl] [--jobs N]
+
+    vantage-VERSION-linux-x86_64.tar.xz          for glibc 2.17 or newer; loads GDAL and OpenGL where they are installed
+    vantage-VERSION-linux-x86_64-static.tar.xz   for any Linux, with no library at all; so neither GDAL nor OpenGL
+
+What is in them: wheel_libraries.toml, as in the wheels, and the build fails on anything else. The same sources give the
+same bytes. The program writes its man pages and completions itself, so this runs on the processor that it builds for.
+"""
+
+import argparse
+import io
+import lzma
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+
+import read_elf
+import wheel_licences
+from build_wheel_libraries import Failure, run, zig_tools
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parent
+DEPS = PROJECT / ".deps"
+TARGETS = ["x86_64-linux-gnu.2.17", "x86_64-linux-musl"]
+FIXED_TIME = 1577836800  # 2020-01-01, of all files
+GLIBC = re.compile(r"(libc|libm|libdl|libpthread|librt|ld-linux-[\w-]+)\.so\.\d+")
+PAGES = ("index.html", "report.html")  # of `vantage view` and `vantage report`
+
+
+def version() -> str:
+    header = (PROJECT / "include" / "vantage" / "version.h").read_text(encoding="utf-8")
+    found = re.search(r'VANTAGE_VERSION "([^"]+)"', header)
+    if found is None:
+        raise Failure("include/vantage/version.h names no VANTAGE_VERSION")
+    return found[1]
+
+
+def is_static(target: str) -> bool:
+    return target.endswith("-musl")
+
+
+def tarball_name(target: str) -> str:
+    """The name of a tarball, and of the folder in it, without the ending."""
+    processor, system = target.split("-")[:2]
+    return f"vantage-{version()}-{system}-{processor}{'-static' if is_static(target) else ''}"
+
+
+# ---- building
+
+def build(target: str, build_folder: pathlib.Path, jobs: int, libraries: dict) -> pathlib.Path:
+    """Compiles the program; where it lies."""
+    folder = DEPS / f"wheel-{target}"
+    prefix, log = folder / "prefix", build_folder.with_suffix(".log")
+    build_folder.mkdir(parents=True, exist_ok=True)
+    zig = zig_tools(target, prefix)
+    portable = libraries["portable"]
+    flags = f"{portable['vantage']} {portable[zig.processor]} -ffile-prefix-map={PROJECT}=. -ffunction-sections -fdata-sections"
+    link = "-Wl,--gc-sections -s" + (" -static-pie" if is_static(target) else "")
+    cache = build_folder / "CMakeCache.txt"
+    if cache.exists() and any(done.stat().st_mtime > cache.stat().st_mtime for done in (folder / "done").iterdir()):
+        cache.unlink()  # what CMake remembers of libraries holds until they are built anew
+    run(["cmake", "-S", str(PROJECT), "-B", str(build_folder), "-G", "Ninja", *zig.for_cmake,
+         "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG",
+         f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}", f"-DCMAKE_EXE_LINKER_FLAGS={link}",
+         "-DBUILD_SHARED_LIBS=OFF", "-DVANTAGE_CCACHE=OFF", "-DVANTAGE_BUILD_TESTS=OFF", "-DVANTAGE_BUILD_BENCHMARKS=OFF",
+         "-DVANTAGE_INSTALL=OFF", "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_THREADS=std",
+         "-DVANTAGE_WITH_DRACO=OFF", "-DVANTAGE_WITH_MESHOPT=OFF", "-DPKG_CONFIG_ARGN=--static",
+         f"-DCMAKE_PREFIX_PATH={prefix}", f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}"],
+        PROJECT, log, PKG_CONFIG_LIBDIR=str(prefix / "lib" / "pkgconfig"))
+    run(["cmake", "--build", str(build_folder), "--parallel", str(jobs), "--target", "vantage_cli"], PROJECT, log)
+    return build_folder / "bin" / "vantage"
+
+
+def check_binary(program: pathlib.Path, target: str) -> str:
+    """What it needs of the system, in words; fails where that is more than the target has."""
+    elf = read_elf.read(program)
+    if elf is None:
+        raise Failure(f"{program} is no program of Linux")
+    if not elf.may_lie_anywhere:
+        raise Failure(f"{program} has a fixed address (no PIE)")
+    if is_static(target):
+        if elf.needed or elf.is_program:
+            raise Failure(f"{program} is not static: it needs {elf.needed or 'a loader'}")
+        return "no library"
+    strange = [name for name in elf.needed if not GLIBC.fullmatch(name)]
+    if strange:
+        raise Failure(f"{program} needs {', '.join(strange)}, which are not of glibc")
+    asked = [tuple(map(int, name.removeprefix("GLIBC_").split("."))) for name in elf.needed_versions
+             if re.fullmatch(r"GLIBC_[0-9.]+", name)]
+    allowed = re.search(r"-gnu\.(\d+)\.(\d+)$", target)
+    if not asked or allowed is None:
+        raise Failure(f"{program} asks for no version of glibc, or {target} names none")
+    newest = max(asked)
+    if newest[:2] > tuple(map(int, allowed.groups())):
+        raise Failure(f"{program} takes functions of glibc {'.'.join(map(str, newest))}, and is for {target}")
+    return f"glibc {'.'.join(map(str, newest))}"
+
+
+# ---- licences
+
+def linked_archives(build_folder: pathlib.Path) -> set[str]:
+    """The static libraries that the linker was given for the program."""
+    asked = subprocess.run(["ninja", "-C", str(build_folder), "-t", "commands", "vantage_cli"], capture_output=True,
+                           text=True, check=True)
+    command = next((line for line in reversed(asked.stdout.splitlines()) if "-o bin/vantage" in line), "")
+    found = {pathlib.PurePosixPath(word).name for word in command.split() if word.endswith(".a")}
+    if not found:
+        raise Failure(f"ninja knows no command in {build_folder} that links static libraries into the program")
+    return found
+
+
+def write_licences(target: str, build_folder: pathlib.Path, out: pathlib.Path) -> int:
+    """The list of all that is in the program, and the texts; how many there are. Fails on what is not listed."""
+    prefix = DEPS / f"wheel-{target}" / "prefix"
+    libraries = wheel_licences.read_list("portable")
+    libraries["fetched"] = [entry for entry in libraries["fetched"] if entry["name"] not in ("nanobind", "robin-map")]
+    places = {"deps": str(DEPS.resolve()), "prefix": str(prefix.resolve()),
+              "zig": str(DEPS.resolve() / "zig" / "python" / "ziglang" / "lib")}
+    strange, by_archive = wheel_licences.unknown_archives(linked_archives(build_folder), libraries)
+    folders = wheel_licences.own_folders(build_folder.resolve(), libraries, places)
+    strange_headers, by_header = wheel_licences.unknown_headers(
+        wheel_licences.compiled_headers(build_folder.resolve()), folders, libraries)
+    if strange or strange_headers:
+        raise Failure("the program would contain what scripts/wheel_libraries.toml does not list: "
+                      + ", ".join(strange + strange_headers[:10]))
+    contained = [entry for entry in wheel_licences.entries(libraries)
+                 if entry["name"] in by_archive | by_header or "files" in entry
+                 or entry.get("only") == "portable" and "archives" not in entry]
+    if is_static(target):
+        contained.append({"name": "musl", "licence": "MIT", "texts": ["{zig}/libc/musl/COPYRIGHT"], "headers": [],
+                          "only": "portable"})
+    copyleft = [entry["name"] for entry in contained if wheel_licences.is_copyleft(entry["licence"])]
+    if copyleft:
+        raise Failure(f"the program would contain what is under no licence but GPL or LGPL: {', '.join(copyleft)}")
+    out.mkdir(parents=True)
+    rows = ["# name | licence | its text | where the source is"]
+    for entry in contained:
+        name = entry["name"].replace("/", "-")
+        texts = [pathlib.Path(text.format(**places)) for text in entry["texts"]] if "headers" in entry and "texts" in entry \
+            else [prefix / "licences" / f"{name}.txt"]
+        (out / f"{name}.txt").write_text("\n".join(text.read_text(encoding="utf-8") for text in texts), encoding="utf-8")
+        rows.append(" | ".join((entry["name"], entry["licence"], f"{name}.txt", wheel_licences.origin(entry, prefix, ""))))
+    (out / wheel_licences.LIST).write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return len(contained)
+
+
+# ---- packing
+
+def put_together(target: str, program: pathlib.Path, build_folder: pathlib.Path) -> pathlib.Path:
+    """The folder that the tarball holds."""
+    prefix = DEPS / f"wheel-{target}" / "prefix"
+    root = build_folder / "tree" / tarball_name(target)
+    shutil.rmtree(root.parent, ignore_errors=True)
+    share = root / "share"
+    data, doc = share / "vantage", share / "doc" / "vantage"
+    for folder in (root / "bin", data, doc, *(share / name for name in (
+            "man/man1", "bash-completion/completions", "zsh/site-functions", "fish/vendor_completions.d"))):
+        folder.mkdir(parents=True)
+    installed = root / "bin" / "vantage"
+    shutil.copy(program, installed)
+    for folder, ending in (("proj", "*.db"), ("fonts", "*.ttf")):
+        (data / folder).mkdir()
+        files = list((prefix / "share" / folder).glob(ending))
+        if not files:
+            raise Failure(f"{prefix / 'share' / folder} has no {ending}")
+        for file in files:
+            shutil.copy(file, data / folder)
+    pages = [PROJECT / "web" / "dist" / name for name in PAGES]
+    if not all(page.is_file() for page in pages):
+        raise Failure("the page of `vantage view` is not built: run make web first")
+    (data / "web").mkdir()
+    for page in pages:
+        shutil.copy(page, data / "web")
+    subprocess.run([str(installed), "docs", "man", str(share / "man" / "man1")], check=True)
+    for shell, file in (("bash", "bash-completion/completions/vantage"), ("zsh", "zsh/site-functions/_vantage"),
+                        ("fish", "fish/vendor_completions.d/vantage.fish")):
+        subprocess.run([str(installed), "docs", "completion", shell, "-o", str(share / file)], check=True)
+    for name in ("LICENSE", "THIRD-PARTY-NOTICES.txt", "CHANGELOG.md"):
+        shutil.copy(PROJECT / name, doc)
+    for name in ("plaza", "town"):
+        tracked = subprocess.run(["git", "ls-files", "-z", f"examples/{name}"], cwd=PROJECT, capture_output=True, text=True,
+                                 check=True).stdout.split("\0")
+        (doc / "examples" / name).mkdir(parents=True)
+        for file in filter(None, tracked):
+            shutil.copy(PROJECT / file, doc / "examples" / name)
+    count = write_licences(target, build_folder, doc / "third-party")
+    print(f"licences: {count} libraries, all listed")
+    return root
+
+
+def pack(root: pathlib.Path, tarball: pathlib.Path) -> None:
+    """The same bytes for the same files: sorted, of nobody, of one time."""
+    packed = io.BytesIO()
+    with tarfile.open(fileobj=packed, mode="w", format=tarfile.GNU_FORMAT) as archive:
+        for file in [root, *sorted(root.rglob("*"))]:
+            entry = archive.gettarinfo(str(file), file.relative_to(root.parent).as_posix())
+            entry.uid = entry.gid = 0
+            entry.uname = entry.gname = "root"
+            entry.mtime = FIXED_TIME
+            entry.mode = 0o755 if file.is_dir() or file.parent.name == "bin" else 0o644
+            with file.open("rb") if file.is_file() else io.BytesIO() as content:
+                archive.addfile(entry, content)
+    half = tarball.with_suffix(".new")
+    half.write_bytes(lzma.compress(packed.getvalue(), preset=9 | lzma.PRESET_EXTREME))
+    half.replace(tarball)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--targets", nargs="+", default=TARGETS)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    arguments = parser.parse_args()
+    dist = PROJECT / "dist"
+    dist.mkdir(exist_ok=True)
+    try:
+        libraries = wheel_licences.read_list("portable")
+        for target in arguments.targets:
+            subprocess.run([str(HERE / "build_wheel_libraries.py"), "--target", target, "--jobs", str(arguments.jobs)], check=True)
+            print(f"building vantage for {target}", flush=True)
+            build_folder = PROJECT / "build-program" / target
+            program = build(target, build_folder, arguments.jobs, libraries)
+            needs = check_binary(program, target)
+            tarball = dist / f"{tarball_name(target)}.tar.xz"
+            pack(put_together(target, program, build_folder), tarball)
+            print(f"{tarball.stat().st_size / 1e6:.1f} MB  {tarball} (needs {needs})", flush=True)
+    except (Failure, wheel_licences.Failure, OSError, KeyError, StopIteration, subprocess.CalledProcessError) as error:
+        print(f"{error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

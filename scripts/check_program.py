@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""Tries the program's tarballs where there is nothing else: that for glibc in roots of Debian 11, 12 and 13 that hold the
+C library alone, the static one in an empty root; no network, no /proc, no /dev. Then the first in Debian 12 and 13 with GDAL
+and software OpenGL, which it loads.
+
+    check_program.py TARBALL... [--program build/bin/vantage] [--folder build-program/roots] [--suites bullseye ...]
+                     [--bare]
+
+    --program   a vantage that was built otherwise: 22 volumes must be its, byte for byte
+    --bare      without the roots that have GDAL and OpenGL
+
+Exit 0 only when all of it worked. Needs no rights where users may make namespaces.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tarfile
+import time
+
+import debian_archive
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parent
+SUITES = ["bullseye", "bookworm", "trixie"]
+LOADED = {"bookworm": ["libgdal32"], "trixie": ["libgdal36"]}  # GDAL, by the name that a suite has for it
+RASTER = "ncols 3\nnrows 3\nxllcorner 500000\nyllcorner 5300000\ncellsize 10\n1 2 3\n4 5 6\n7 8 9\n"
+EXAMPLES = {"plaza": "examples/plaza/mission.yaml", "town": "examples/town/mission.yaml"}
+
+
+class Fault(Exception):
+    pass
+
+
+def dutch_cube() -> str:
+    """A CityJSON file in the Dutch system: reading it takes PROJ and its database."""
+    corners = [[x, y, z] for z in (0, 10) for y in (0, 10) for x in (0, 10)]
+    sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]]
+    return json.dumps({
+        "type": "CityJSON", "version": "1.1", "transform": {"scale": [1, 1, 1], "translate": [155000, 463000, 0]},
+        "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"},
+        "CityObjects": {"house": {"type": "Building", "geometry": [
+            {"type": "Solid", "lod": "1", "boundaries": [[[side] for side in sides]]}]}},
+        "vertices": corners})
+
+
+# ---- roots
+
+class Debian:
+    """Packages of a release of Debian, apart from what apt knows for this machine."""
+
+    def __init__(self, suite: str, folder: pathlib.Path):
+        self.folder = folder / f"packages-{suite}"
+        for name in ("partial", "lists/partial", "archives/partial"):
+            (self.folder / name).mkdir(parents=True, exist_ok=True)
+        status = self.folder / "nothing-installed"
+        status.touch()
+        sources = self.folder / "sources.list"
+        sources.write_text("deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] "
+                           f"{debian_archive.archives()[0]} {suite} main\n", encoding="utf-8")
+        self.options = ["-o", "APT::Architecture=amd64", "-o", "APT::Architectures::=amd64", "-o", f"Dir::Etc::sourcelist={sources}",
+                        "-o", "Dir::Etc::sourceparts=-", "-o", f"Dir::State::lists={self.folder}/lists",
+                        "-o", f"Dir::Cache={self.folder}", "-o", f"Dir::State::status={status}",
+                        "-o", "APT::Install-Recommends=0", "-o", "Debug::NoLocking=1", "-o", "APT::Sandbox::User=root"]
+        self.apt("-q", "-q", "update")
+
+    def apt(self, *arguments: str) -> str:
+        command = ["apt-get", *self.options, *arguments]
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
+        if result.returncode:
+            raise Fault(f"apt-get {' '.join(arguments)} failed: {result.stderr.strip()[-300:]}")
+        return result.stdout
+
+    def unpack(self, packages: list[str], root: pathlib.Path) -> list[str]:
+        """Puts these packages and what they need into a root; what that was."""
+        told = self.apt("--simulate", "install", *packages)
+        names = [line.split()[1] for line in told.splitlines() if line.startswith("Inst ")]
+        missing = [name for name in names if not list(self.folder.glob(f"{name}_*.deb"))]
+        if missing:
+            self.apt("-q", "-q", "download", *missing)
+        for name in names:
+            file = next(self.folder.glob(f"{name}_*.deb"))
+            with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", str(file)], stdout=subprocess.PIPE) as unpacked:
+                subprocess.run(["tar", "-x", "-C", str(root), "--keep-directory-symlink", "--no-same-owner", "--exclude=./usr/share/doc/*",
+                                "--exclude=./usr/share/locale/*"], stdin=unpacked.stdout, check=True)
+        return names
+
+
+def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, packages: list[str]) -> str:
+    """A root with these packages and the program at /opt; in words, what is in it."""
+    shutil.rmtree(root, ignore_errors=True)
+    (root / "tmp").mkdir(parents=True)
+    names: list[str] = []
+    if debian:
+        for name in ("bin", "sbin", "lib", "lib64"):
+            (root / "usr" / name).mkdir(parents=True)
+            (root / name).symlink_to(f"usr/{name}")
+        names = debian.unpack(packages, root)
+    with tarfile.open(tarball) as archive:
+        archive.extractall(root / "opt", filter="data") if hasattr(tarfile, "data_filter") else archive.extractall(root / "opt")
+    (next((root / "opt").iterdir())).rename(root / "opt" / "moved")  # its place is not compiled in
+    shutil.copytree(root / "opt/moved/share/doc/vantage/examples", root / "tmp/examples")
+    shutil.copy(PROJECT / "examples/town/tour.yaml", root / "tmp/examples/town")
+    (root / "tmp/heights.asc").write_text(RASTER, encoding="utf-8")
+    (root / "tmp/cube.city.json").write_text(dutch_cube(), encoding="utf-8")
+    return f"{len(names)} packages of Debian" + (f": {' '.join(names)}" if 0 < len(names) < 8 else "")
+
+
+class Program:
+    """The program in a root."""
+
+    def __init__(self, root: pathlib.Path):
+        self.root = root
+
+    def call(self, *arguments: str) -> subprocess.CompletedProcess:
+        command = ["unshare", "--user", "--map-root-user", "--net", shutil.which("chroot") or "/usr/sbin/chroot", str(self.root),
+                   "/opt/moved/bin/vantage", *arguments]
+        environment = {"PATH": os.environ["PATH"], "HOME": "/tmp"}
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+    def run(self, *arguments: str) -> str:
+        started = time.perf_counter()
+        result = self.call(*arguments)
+        if result.returncode:
+            raise Fault(f"vantage {' '.join(arguments)}: exit code {result.returncode}: {result.stderr.strip()[-400:]}")
+        print(f"  {time.perf_counter() - started:6.2f} s  vantage {' '.join(arguments)}", flush=True)
+        return result.stdout
+
+    def refuses(self, named: str, *arguments: str) -> None:
+        """It must end with exit code 2, and name what it lacks."""
+        result = self.call(*arguments)
+        if result.returncode != 2 or named not in result.stderr:
+            raise Fault(f"vantage {' '.join(arguments)} should say that it lacks {named}: exit code {result.returncode}: "
+                        f"{result.stderr.strip()[-400:]}")
+        print(f"           vantage {' '.join(arguments)}: refused, it names {named}", flush=True)
+
+
+def check_everywhere(program: Program, version: str) -> None:
+    """What needs nothing of the system."""
+    if version not in program.run("--version"):
+        raise Fault(f"the program is not version {version}")
+    program.run("compute", "/tmp/examples/town/mission.yaml", "-o", "/tmp/town.ply", "-o", "/tmp/town.kml")
+    program.run("prove", "/tmp/examples/town/mission.yaml", "/tmp/town.ply")
+    program.run("verify", "/tmp/examples/town/mission.yaml", "/tmp/town.ply")
+    program.run("compute", "/tmp/examples/plaza/mission.yaml", "-o", "/tmp/plaza.ply")
+    program.run("query", "/tmp/examples/plaza/mission.yaml", "/tmp/examples/plaza/points.csv")
+    program.run("tour", "/tmp/examples/town/tour.yaml", "-o", "/tmp/tour.plan", "--certificate", "/tmp/tour.cert")
+    program.run("verify-tour", "/tmp/tour.cert")
+    program.run("inspect", "/tmp/cube.city.json")
+    program.run("report", "/tmp/examples/plaza/mission.yaml", "-o", "/tmp/report.html")
+    subprocess.run([sys.executable, str(PROJECT / "tools" / "check_tour.py"), str(program.root / "tmp/tour.cert")],
+                   stdout=subprocess.DEVNULL, check=True)
+    if b"<coordinates>" not in (program.root / "tmp/town.kml").read_bytes():
+        raise Fault("the volume in KML has no coordinates")
+    man = program.root / "opt/moved/share/man/man1"
+    if "vantage-compute.1" not in {file.name for file in man.iterdir()}:
+        raise Fault("there is no manual page of compute")
+
+
+def check_bare(program: Program) -> None:
+    program.refuses("GDAL", "inspect", "/tmp/heights.asc", "--crs", "EPSG:32632")
+    program.refuses("OpenGL", "render", "/tmp/examples/plaza/mission.yaml", "-o", "/tmp/picture.png")
+
+
+def check_loaded(program: Program) -> None:
+    """What loads libraries of the system."""
+    program.run("inspect", "/tmp/heights.asc", "--crs", "EPSG:32632")
+    program.run("render", "/tmp/examples/plaza/mission.yaml", "--volume", "/tmp/plaza.ply", "-o", "/tmp/picture.png")
+    print(f"           the picture: {program.root}/tmp/picture.png", flush=True)
+
+
+def volumes_of(program: pathlib.Path) -> str:
+    """The hashes of twenty volumes."""
+    command = [sys.executable, str(PROJECT / "python/wheel/same_bytes.py"), "--program", str(program)]
+    table = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    if table.count("\n") < 20:
+        raise Fault(f"{program} gave fewer than 20 volumes")
+    return table
+
+
+def check_bytes(root: pathlib.Path, expected: pathlib.Path, folder: pathlib.Path) -> None:
+    """The volumes of a root, and twenty others, have the bytes of another program's."""
+    for name, mission in EXAMPLES.items():
+        file = folder / f"expected-{name}.ply"
+        subprocess.run([str(expected), "compute", str(PROJECT / mission), "-o", str(file), "--quiet"], check=True)
+        if file.read_bytes() != (root / f"tmp/{name}.ply").read_bytes():
+            raise Fault(f"{name}: other bytes than {expected}")
+
+    def without_times(table: str) -> list[list[str]]:
+        return [line.split(",")[:2] for line in table.splitlines()]
+    if without_times(volumes_of(root / "opt/moved/bin/vantage")) != without_times(volumes_of(expected)):
+        raise Fault(f"one of twenty volumes has other bytes than that of {expected}")
+    print("           22 volumes: the same bytes as another build", flush=True)
+
+
+def check(tarball: pathlib.Path, arguments: argparse.Namespace) -> None:
+    version = tarball.name.split("-")[1]
+    folder = arguments.folder
+    static = "-static" in tarball.name
+    rows: list[tuple[str, str | None, list[str]]] = [("empty", None, [])] if static else [(suite, suite, ["libc6"]) for suite in arguments.suites]
+    if not static and not arguments.bare:
+        rows += [(f"{suite}-loaded", suite, [*LOADED[suite], "libegl1", "libgl1-mesa-dri"]) for suite in arguments.suites if suite in LOADED]
+    for number, (name, suite, packages) in enumerate(rows):
+        root = folder / name
+        debian = Debian(suite, folder) if suite else None
+        print(f"{tarball.name} in {name}, {make_root(root, tarball, debian, packages)}", flush=True)
+        program = Program(root)
+        check_everywhere(program, version)
+        check_loaded(program) if len(packages) > 1 else check_bare(program)
+        if number == 0 and arguments.program:
+            check_bytes(root, arguments.program, folder)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("tarballs", nargs="+", type=pathlib.Path)
+    parser.add_argument("--program", type=pathlib.Path)
+    parser.add_argument("--folder", type=pathlib.Path, default=PROJECT / "build-program" / "roots")
+    parser.add_argument("--suites", nargs="+", default=SUITES)
+    parser.add_argument("--bare", action="store_true")
+    arguments = parser.parse_args()
+    arguments.folder = arguments.folder.resolve()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    try:
+        for tarball in arguments.tarballs:
+            check(tarball, arguments)
+    except (Fault, debian_archive.Failure, OSError, subprocess.CalledProcessError, tarfile.TarError) as error:
+        print(f"check failed: {error}", file=sys.stderr)
+        return 1
+    print(f"{len(arguments.tarballs)} tarballs work")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
