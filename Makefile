@@ -186,6 +186,48 @@ wheelwasm: build  ## a wheel for machines without a native one, in dist/, over W
 	@scripts/build_wasm_wheel.py
 	@scripts/check_wasm_wheel.sh
 
+.PHONY: program
+program: web  ## the program as tarballs that run where they are unpacked, in dist/
+	@scripts/install_packages.sh --wheels
+	@scripts/fetch_sources.sh
+	@scripts/build_program.py --jobs $(JOBS)
+
+.PHONY: programcheck
+programcheck: program build  ## try them in roots of Debian 11, 12 and 13 that hold the C library alone
+	@scripts/check_program.py dist/vantage-*-linux-*.tar.xz --program build/bin/vantage
+
+.PHONY: source
+source:  ## the source tarball and Debian's source package, of the last commit, in dist/
+	@scripts/install_packages.sh --release
+	@scripts/build_source.sh
+
+# The source first: it refuses a tree that differs from the last commit.
+.PHONY: release
+release:  ## all files of a release, in dist/, with SHA256SUMS and a bill of materials (docs/release.md)
+	rm -rf dist
+	@$(MAKE) --no-print-directory source
+	@$(MAKE) --no-print-directory program
+	@$(MAKE) --no-print-directory wheels
+	@$(MAKE) --no-print-directory npm
+	@$(MAKE) --no-print-directory wheelwasm
+	python3 integrations/qgis/build_zip.py
+	python3 integrations/blender/build_zip.py
+	@$(MAKE) --no-print-directory releasecheck
+
+.PHONY: releasecheck
+releasecheck:  ## the bill of materials and SHA256SUMS of what is in dist/, and whether all of it agrees
+	@scripts/install_packages.sh --release
+	@scripts/fetch_python.sh packaging
+	@scripts/write_sbom.py
+	@.deps/packaging/bin/python scripts/check_dist.py --write $(if $(PARTIAL),--partial)
+
+.PHONY: packaging
+packaging:  ## what other package systems are given: hadolint, and a parser of conda recipes
+	@scripts/install_packages.sh --release
+	@scripts/fetch_python.sh packaging
+	.deps/packaging/bin/hadolint packaging/Containerfile
+	@.deps/packaging/bin/python packaging/check_recipe.py
+
 .PHONY: gallery
 gallery: web build  ## reports of the real scenes of docs/gallery, in build/gallery
 	@mkdir -p build/gallery

@@ -55,14 +55,15 @@ def tarball_name(target: str) -> str:
 
 # ---- building
 
-def build(target: str, build_folder: pathlib.Path, jobs: int, libraries: dict) -> pathlib.Path:
-    """Compiles the program; where it lies."""
-    folder = DEPS / f"wheel-{target}"
-    prefix, log = folder / "prefix", build_folder.with_suffix(".log")
-    build_folder.mkdir(parents=True, exist_ok=True)
+def build(target: str, work: pathlib.Path, jobs: int, libraries: dict) -> pathlib.Path:
+    """Compiles the program, in the folder in which build_portable_wheels.py compiles the same libraries with the same
+    flags, where it does; the folder of the build."""
+    folder, build_folder, log = DEPS / f"wheel-{target}", work / "cmake", work / "program.log"
+    prefix = folder / "prefix"
+    work.mkdir(parents=True, exist_ok=True)
     zig = zig_tools(target, prefix)
     portable = libraries["portable"]
-    flags = f"{portable['vantage']} {portable[zig.processor]} -ffile-prefix-map={PROJECT}=. -ffunction-sections -fdata-sections"
+    flags = f"{portable['vantage']} {portable[zig.processor]} -ffile-prefix-map={PROJECT}=."
     link = "-Wl,--gc-sections -s" + (" -static-pie" if is_static(target) else "")
     cache = build_folder / "CMakeCache.txt"
     if cache.exists() and any(done.stat().st_mtime > cache.stat().st_mtime for done in (folder / "done").iterdir()):
@@ -71,12 +72,13 @@ def build(target: str, build_folder: pathlib.Path, jobs: int, libraries: dict) -
          "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG",
          f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}", f"-DCMAKE_EXE_LINKER_FLAGS={link}",
          "-DBUILD_SHARED_LIBS=OFF", "-DVANTAGE_CCACHE=OFF", "-DVANTAGE_BUILD_TESTS=OFF", "-DVANTAGE_BUILD_BENCHMARKS=OFF",
-         "-DVANTAGE_INSTALL=OFF", "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_THREADS=std",
-         "-DVANTAGE_WITH_DRACO=OFF", "-DVANTAGE_WITH_MESHOPT=OFF", "-DPKG_CONFIG_ARGN=--static",
-         f"-DCMAKE_PREFIX_PATH={prefix}", f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}"],
+         "-DVANTAGE_BUILD_PYTHON=OFF",
+         "-DVANTAGE_INSTALL=OFF", "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_WITH_DRACO=OFF",
+         "-DVANTAGE_WITH_MESHOPT=OFF", "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={prefix}",
+         f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}", *portable["vantage_options"]],
         PROJECT, log, PKG_CONFIG_LIBDIR=str(prefix / "lib" / "pkgconfig"))
     run(["cmake", "--build", str(build_folder), "--parallel", str(jobs), "--target", "vantage_cli"], PROJECT, log)
-    return build_folder / "bin" / "vantage"
+    return build_folder
 
 
 def check_binary(program: pathlib.Path, target: str) -> str:
@@ -88,7 +90,7 @@ def check_binary(program: pathlib.Path, target: str) -> str:
         raise Failure(f"{program} has a fixed address (no PIE)")
     if is_static(target):
         if elf.needed or elf.is_program:
-            raise Failure(f"{program} is not static: it needs {elf.needed or 'a loader'}")
+            raise Failure(f"{program} is not static: it needs {', '.join(elf.needed) or 'a loader'}")
         return "no library"
     strange = [name for name in elf.needed if not GLIBC.fullmatch(name)]
     if strange:
@@ -117,26 +119,48 @@ def linked_archives(build_folder: pathlib.Path) -> set[str]:
     return found
 
 
+def compiled_headers(build_folder: pathlib.Path) -> set[pathlib.Path]:
+    """The headers that sources of the program included; in the same folder there may be wheels."""
+    def asked(tool: str, *names: str) -> list[str]:
+        command = ["ninja", "-C", str(build_folder), "-t", tool, *names]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    objects = [name for name in asked("inputs", "bin/vantage") if name.endswith(".o")]
+    names = {line.strip() for line in asked("deps", *objects) if line.startswith("    ")} if objects else set()
+    if not names:
+        raise Failure(f"ninja knows of no headers in {build_folder}")
+    return {(build_folder / name).resolve() for name in names}
+
+
+def without_wheels(libraries: dict) -> dict:
+    """The list without what is in wheels alone: the bindings, and libraries of wheels that are built without zig."""
+    sections = ("built", "installed", "fetched")
+    return libraries | {section: [entry for entry in libraries[section] if entry["name"] not in ("nanobind", "robin-map")
+                                  and entry.get("only") != "native"] for section in sections}
+
+
+def is_of_zig(entry: dict) -> bool:
+    """Whether zig links it in without being asked."""
+    return "archives" not in entry and (entry.get("of_zig", False) or entry.get("only") == "portable")
+
+
 def write_licences(target: str, build_folder: pathlib.Path, out: pathlib.Path) -> int:
     """The list of all that is in the program, and the texts; how many there are. Fails on what is not listed."""
     prefix = DEPS / f"wheel-{target}" / "prefix"
-    libraries = wheel_licences.read_list("portable")
-    libraries["fetched"] = [entry for entry in libraries["fetched"] if entry["name"] not in ("nanobind", "robin-map")]
+    libraries = without_wheels(wheel_licences.read_list())
     places = {"deps": str(DEPS.resolve()), "prefix": str(prefix.resolve()),
               "zig": str(DEPS.resolve() / "zig" / "python" / "ziglang" / "lib")}
     strange, by_archive = wheel_licences.unknown_archives(linked_archives(build_folder), libraries)
     folders = wheel_licences.own_folders(build_folder.resolve(), libraries, places)
-    strange_headers, by_header = wheel_licences.unknown_headers(
-        wheel_licences.compiled_headers(build_folder.resolve()), folders, libraries)
+    strange_headers, by_header = wheel_licences.unknown_headers(compiled_headers(build_folder), folders, libraries)
     if strange or strange_headers:
         raise Failure("the program would contain what scripts/wheel_libraries.toml does not list: "
                       + ", ".join(strange + strange_headers[:10]))
     contained = [entry for entry in wheel_licences.entries(libraries)
                  if entry["name"] in by_archive | by_header or "files" in entry
-                 or entry.get("only") == "portable" and "archives" not in entry]
+                 or is_of_zig(entry)]
     if is_static(target):
         contained.append({"name": "musl", "licence": "MIT", "texts": ["{zig}/libc/musl/COPYRIGHT"], "headers": [],
-                          "only": "portable"})
+                          "only": "portable", "of_zig": True})
     copyleft = [entry["name"] for entry in contained if wheel_licences.is_copyleft(entry["licence"])]
     if copyleft:
         raise Failure(f"the program would contain what is under no licence but GPL or LGPL: {', '.join(copyleft)}")
@@ -154,10 +178,11 @@ def write_licences(target: str, build_folder: pathlib.Path, out: pathlib.Path) -
 
 # ---- packing
 
-def put_together(target: str, program: pathlib.Path, build_folder: pathlib.Path) -> pathlib.Path:
+def put_together(target: str, build_folder: pathlib.Path) -> pathlib.Path:
     """The folder that the tarball holds."""
+    program = build_folder / "bin" / "vantage"
     prefix = DEPS / f"wheel-{target}" / "prefix"
-    root = build_folder / "tree" / tarball_name(target)
+    root = build_folder.parent / "program" / tarball_name(target)
     shutil.rmtree(root.parent, ignore_errors=True)
     share = root / "share"
     data, doc = share / "vantage", share / "doc" / "vantage"
@@ -221,15 +246,14 @@ def main() -> int:
     dist = PROJECT / "dist"
     dist.mkdir(exist_ok=True)
     try:
-        libraries = wheel_licences.read_list("portable")
+        libraries = wheel_licences.read_list()
         for target in arguments.targets:
             subprocess.run([str(HERE / "build_wheel_libraries.py"), "--target", target, "--jobs", str(arguments.jobs)], check=True)
             print(f"building vantage for {target}", flush=True)
-            build_folder = PROJECT / "build-program" / target
-            program = build(target, build_folder, arguments.jobs, libraries)
-            needs = check_binary(program, target)
+            build_folder = build(target, PROJECT / "build-wheel" / target, arguments.jobs, libraries)
+            needs = check_binary(build_folder / "bin" / "vantage", target)
             tarball = dist / f"{tarball_name(target)}.tar.xz"
-            pack(put_together(target, program, build_folder), tarball)
+            pack(put_together(target, build_folder), tarball)
             print(f"{tarball.stat().st_size / 1e6:.1f} MB  {tarball} (needs {needs})", flush=True)
     except (Failure, wheel_licences.Failure, OSError, KeyError, StopIteration, subprocess.CalledProcessError) as error:
         print(f"{error}", file=sys.stderr)

@@ -43,7 +43,7 @@ trap 'rm -rf "$work"' EXIT
 archive() {  # archive FILE [PATHSPEC...]
   local file=$1
   shift
-  git archive --format=tar --prefix="vantage-$version/" HEAD "$@" | xz -9e -T1 >"$file"
+  git archive --format=tar --prefix="vantage-$version/" HEAD "$@" | xz -6 -T1 >"$file"
 }
 mkdir -p "$dist"
 rm -f "$dist"/vantage-*.tar.xz.new "$dist"/vantage_*.orig*.tar.* "$dist"/vantage_*.debian.tar.xz "$dist"/vantage_*.dsc

@@ -3,7 +3,7 @@
 C library alone, the static one in an empty root; no network, no /proc, no /dev. Then the first in Debian 12 and 13 with GDAL
 and software OpenGL, which it loads.
 
-    check_program.py TARBALL... [--program build/bin/vantage] [--folder build-program/roots] [--suites bullseye ...]
+    check_program.py TARBALL... [--program build/bin/vantage] [--folder build-wheel/program-roots] [--suites bullseye ...]
                      [--bare]
 
     --program   a vantage that was built otherwise: 22 volumes must be its, byte for byte
@@ -93,7 +93,7 @@ class Debian:
 def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, packages: list[str]) -> str:
     """A root with these packages and the program at /opt; in words, what is in it."""
     shutil.rmtree(root, ignore_errors=True)
-    (root / "tmp").mkdir(parents=True)
+    (root / "trial").mkdir(parents=True)
     names: list[str] = []
     if debian:
         for name in ("bin", "sbin", "lib", "lib64"):
@@ -103,10 +103,10 @@ def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, 
     with tarfile.open(tarball) as archive:
         archive.extractall(root / "opt", filter="data") if hasattr(tarfile, "data_filter") else archive.extractall(root / "opt")
     (next((root / "opt").iterdir())).rename(root / "opt" / "moved")  # its place is not compiled in
-    shutil.copytree(root / "opt/moved/share/doc/vantage/examples", root / "tmp/examples")
-    shutil.copy(PROJECT / "examples/town/tour.yaml", root / "tmp/examples/town")
-    (root / "tmp/heights.asc").write_text(RASTER, encoding="utf-8")
-    (root / "tmp/cube.city.json").write_text(dutch_cube(), encoding="utf-8")
+    shutil.copytree(root / "opt/moved/share/doc/vantage/examples", root / "trial/examples")
+    shutil.copy(PROJECT / "examples/town/tour.yaml", root / "trial/examples/town")
+    (root / "trial/heights.asc").write_text(RASTER, encoding="utf-8")
+    (root / "trial/cube.city.json").write_text(dutch_cube(), encoding="utf-8")
     return f"{len(names)} packages of Debian" + (f": {' '.join(names)}" if 0 < len(names) < 8 else "")
 
 
@@ -119,7 +119,7 @@ class Program:
     def call(self, *arguments: str) -> subprocess.CompletedProcess:
         command = ["unshare", "--user", "--map-root-user", "--net", shutil.which("chroot") or "/usr/sbin/chroot", str(self.root),
                    "/opt/moved/bin/vantage", *arguments]
-        environment = {"PATH": os.environ["PATH"], "HOME": "/tmp"}
+        environment = {"PATH": os.environ["PATH"], "HOME": "/trial"}
         return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
 
     def run(self, *arguments: str) -> str:
@@ -143,18 +143,18 @@ def check_everywhere(program: Program, version: str) -> None:
     """What needs nothing of the system."""
     if version not in program.run("--version"):
         raise Fault(f"the program is not version {version}")
-    program.run("compute", "/tmp/examples/town/mission.yaml", "-o", "/tmp/town.ply", "-o", "/tmp/town.kml")
-    program.run("prove", "/tmp/examples/town/mission.yaml", "/tmp/town.ply")
-    program.run("verify", "/tmp/examples/town/mission.yaml", "/tmp/town.ply")
-    program.run("compute", "/tmp/examples/plaza/mission.yaml", "-o", "/tmp/plaza.ply")
-    program.run("query", "/tmp/examples/plaza/mission.yaml", "/tmp/examples/plaza/points.csv")
-    program.run("tour", "/tmp/examples/town/tour.yaml", "-o", "/tmp/tour.plan", "--certificate", "/tmp/tour.cert")
-    program.run("verify-tour", "/tmp/tour.cert")
-    program.run("inspect", "/tmp/cube.city.json")
-    program.run("report", "/tmp/examples/plaza/mission.yaml", "-o", "/tmp/report.html")
-    subprocess.run([sys.executable, str(PROJECT / "tools" / "check_tour.py"), str(program.root / "tmp/tour.cert")],
+    program.run("compute", "/trial/examples/town/mission.yaml", "-o", "/trial/town.ply", "-o", "/trial/town.kml")
+    program.run("prove", "/trial/examples/town/mission.yaml", "/trial/town.ply")
+    program.run("verify", "/trial/examples/town/mission.yaml", "/trial/town.ply")
+    program.run("compute", "/trial/examples/plaza/mission.yaml", "-o", "/trial/plaza.ply")
+    program.run("query", "/trial/examples/plaza/mission.yaml", "/trial/examples/plaza/points.csv")
+    program.run("tour", "/trial/examples/town/tour.yaml", "-o", "/trial/tour.plan", "--certificate", "/trial/tour.cert")
+    program.run("verify-tour", "/trial/tour.cert")
+    program.run("inspect", "/trial/cube.city.json")
+    program.run("report", "/trial/examples/plaza/mission.yaml", "-o", "/trial/report.html")
+    subprocess.run([sys.executable, str(PROJECT / "tools" / "check_tour.py"), str(program.root / "trial/tour.cert")],
                    stdout=subprocess.DEVNULL, check=True)
-    if b"<coordinates>" not in (program.root / "tmp/town.kml").read_bytes():
+    if b"<coordinates>" not in (program.root / "trial/town.kml").read_bytes():
         raise Fault("the volume in KML has no coordinates")
     man = program.root / "opt/moved/share/man/man1"
     if "vantage-compute.1" not in {file.name for file in man.iterdir()}:
@@ -162,15 +162,15 @@ def check_everywhere(program: Program, version: str) -> None:
 
 
 def check_bare(program: Program) -> None:
-    program.refuses("GDAL", "inspect", "/tmp/heights.asc", "--crs", "EPSG:32632")
-    program.refuses("OpenGL", "render", "/tmp/examples/plaza/mission.yaml", "-o", "/tmp/picture.png")
+    program.refuses("GDAL", "inspect", "/trial/heights.asc", "--crs", "EPSG:32632")
+    program.refuses("OpenGL", "render", "/trial/examples/plaza/mission.yaml", "-o", "/trial/picture.png")
 
 
 def check_loaded(program: Program) -> None:
     """What loads libraries of the system."""
-    program.run("inspect", "/tmp/heights.asc", "--crs", "EPSG:32632")
-    program.run("render", "/tmp/examples/plaza/mission.yaml", "--volume", "/tmp/plaza.ply", "-o", "/tmp/picture.png")
-    print(f"           the picture: {program.root}/tmp/picture.png", flush=True)
+    program.run("inspect", "/trial/heights.asc", "--crs", "EPSG:32632")
+    program.run("render", "/trial/examples/plaza/mission.yaml", "--volume", "/trial/plaza.ply", "-o", "/trial/picture.png")
+    print(f"           the picture: {program.root}/trial/picture.png", flush=True)
 
 
 def volumes_of(program: pathlib.Path) -> str:
@@ -187,7 +187,7 @@ def check_bytes(root: pathlib.Path, expected: pathlib.Path, folder: pathlib.Path
     for name, mission in EXAMPLES.items():
         file = folder / f"expected-{name}.ply"
         subprocess.run([str(expected), "compute", str(PROJECT / mission), "-o", str(file), "--quiet"], check=True)
-        if file.read_bytes() != (root / f"tmp/{name}.ply").read_bytes():
+        if file.read_bytes() != (root / f"trial/{name}.ply").read_bytes():
             raise Fault(f"{name}: other bytes than {expected}")
 
     def without_times(table: str) -> list[list[str]]:
@@ -219,7 +219,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tarballs", nargs="+", type=pathlib.Path)
     parser.add_argument("--program", type=pathlib.Path)
-    parser.add_argument("--folder", type=pathlib.Path, default=PROJECT / "build-program" / "roots")
+    parser.add_argument("--folder", type=pathlib.Path, default=PROJECT / "build-wheel" / "program-roots")
     parser.add_argument("--suites", nargs="+", default=SUITES)
     parser.add_argument("--bare", action="store_true")
     arguments = parser.parse_args()

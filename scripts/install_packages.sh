@@ -7,6 +7,7 @@
 #   scripts/install_packages.sh --wheels   and what wheels of it need (scripts/build_portable_wheels.py)
 #   scripts/install_packages.sh --web      and what the page and its tests need (scripts/build_web.sh)
 #   scripts/install_packages.sh --qgis     and QGIS, for its plugin and the tests of it (integrations/qgis)
+#   scripts/install_packages.sh --release  and what a release needs besides (scripts/build_source.sh, check_dist.py)
 #   scripts/install_packages.sh --tools    and what developers need: benchmarks, sanitizers, fuzzing, formatting, lint
 # VANTAGE_NO_INSTALL=1 skips the check, for those who bring their own.
 set -euo pipefail
@@ -36,6 +37,7 @@ wheels=("${python[@]}" patch xz-utils bzip2 tcl proj-data qemu-user-static)
 web=(emscripten node-acorn chromium python3-venv)  # the last for scripts/check_wasm_wheel.sh
 command -v npm >/dev/null || web+=(nodejs npm)  # there may be a newer one, of another source
 qgis=(qgis python3-qgis qgis-providers python3-numpy xvfb)
+release=(python3-venv dpkg-dev xz-utils git)
 tools=(libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
@@ -47,8 +49,12 @@ case "${1:-}" in
   --wheels) packages+=("${wheels[@]}") ;;
   --web) packages+=("${web[@]}") ;;
   --qgis) packages+=("${python[@]}" "${qgis[@]}") ;;
+  --release) packages+=("${release[@]}") ;;
   --tools) packages+=("${tests[@]}" "${tools[@]}") ;;
-  *) echo "usage: $0 [--tests|--python|--wheels|--blender|--web|--qgis|--tools]" >&2; exit 2 ;;
+  *)
+    echo "usage: $0 [--tests|--python|--wheels|--blender|--web|--qgis|--release|--tools]" >&2
+    exit 2
+    ;;
 esac
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "not a Debian system: please install the equivalents of: ${packages[*]}" >&2
