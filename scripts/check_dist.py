@@ -84,12 +84,13 @@ def of_bill(file: pathlib.Path) -> str:
 @dataclasses.dataclass
 class Kind:
     """Files of a release. `name`: what theirs match, with V for the version; `told`: the version inside, None where there
-    is none; `licence`: what the name of a file in it that has its licence matches."""
+    is none; `licence`: what the name of a file in it that has its licence matches; `may_lack`: a release may be without."""
 
     what: str
     name: str
     told: Callable[[pathlib.Path], str] | None = None
     licence: str = ""
+    may_lack: bool = False
 
 
 KINDS = [
@@ -100,7 +101,8 @@ KINDS = [
     Kind("wheel over WebAssembly", r"vantage-V-py3-none-any\.whl", of_wheel, r".*/LICENSE"),
     Kind("npm package", r"vantage-engine-V\.tgz", of_npm, r"package/LICENSE"),
     Kind("program for glibc", r"vantage-V-linux-x86_64\.tar\.xz", of_program, r".*/share/doc/vantage/LICENSE"),
-    Kind("static program", r"vantage-V-linux-x86_64-static\.tar\.xz", of_program, r".*/share/doc/vantage/LICENSE"),
+    Kind("static program", r"vantage-V-linux-x86_64-static\.tar\.xz", of_program, r".*/share/doc/vantage/LICENSE",
+         may_lack=True),
     Kind("plugin of QGIS", r"vantage_processing-V\.zip", of_qgis, r"vantage_processing/LICENSE"),
     Kind("add-on of Blender", r"vantage_blender\.zip", of_blender, r"vantage_blender/LICENSE"),
     Kind("source", r"vantage-V\.tar\.xz", of_source, r"vantage-[\d.]+/LICENSE"),
@@ -206,7 +208,8 @@ def faults(folder: pathlib.Path, number: str) -> tuple[list[str], list[str]]:
         kind, more = file_faults(file, number)
         found += more
         there.append(kind)
-    missing = [f"missing: {kind.what} ({kind.name.replace('V', number)})" for kind in KINDS if kind not in there]
+    missing = [f"missing: {kind.what} ({kind.name.replace('V', number)})" for kind in KINDS
+               if kind not in there and not kind.may_lack]
     return found + bill_faults(folder, number, hashes), missing
 
 

@@ -6,7 +6,7 @@ and software OpenGL, which it loads.
     check_program.py TARBALL... [--program build/bin/vantage] [--folder build-wheel/program-roots] [--suites bullseye ...]
                      [--bare]
 
-    --program   a vantage that was built otherwise: 22 volumes must be its, byte for byte
+    --program   a vantage that was built otherwise: 18 volumes of meshes must be its, byte for byte
     --bare      without the roots that have GDAL and OpenGL
 
 Exit 0 only when all of it worked. Needs no rights where users may make namespaces.
@@ -28,8 +28,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
 SUITES = ["bullseye", "bookworm", "trixie"]
 LOADED = {"bookworm": ["libgdal32"], "trixie": ["libgdal36"]}  # GDAL, by the name that a suite has for it
-RASTER = "ncols 3\nnrows 3\nxllcorner 500000\nyllcorner 5300000\ncellsize 10\n1 2 3\n4 5 6\n7 8 9\n"
-EXAMPLES = {"plaza": "examples/plaza/mission.yaml", "town": "examples/town/mission.yaml"}
+RASTER = bytes(2 * 1201 * 1201)
+"""A tile of SRTM, flat, at sea level."""
+OF_MAPS = ("map,", "facade,", "map_clearance,")
+"""Volumes of same_bytes.py whose scenes are maps: zig brings sine and cosine of its own, and hypot differs between versions
+of glibc, so that coordinates of a map differ in the last digit."""
 
 
 class Fault(Exception):
@@ -87,6 +90,9 @@ class Debian:
             with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", str(file)], stdout=subprocess.PIPE) as unpacked:
                 subprocess.run(["tar", "-x", "-C", str(root), "--keep-directory-symlink", "--no-same-owner", "--exclude=./usr/share/doc/*",
                                 "--exclude=./usr/share/locale/*"], stdin=unpacked.stdout, check=True)
+        for name in ("blas", "lapack"):  # what the packages' own scripts would link
+            for library in root.glob(f"usr/lib/*/{name}/lib*.so.3"):
+                (library.parent.parent / library.name).symlink_to(f"{name}/{library.name}")
         return names
 
 
@@ -105,7 +111,7 @@ def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, 
     (next((root / "opt").iterdir())).rename(root / "opt" / "moved")  # its place is not compiled in
     shutil.copytree(root / "opt/moved/share/doc/vantage/examples", root / "trial/examples")
     shutil.copy(PROJECT / "examples/town/tour.yaml", root / "trial/examples/town")
-    (root / "trial/heights.asc").write_text(RASTER, encoding="utf-8")
+    (root / "trial/N48E011.hgt").write_bytes(RASTER)
     (root / "trial/cube.city.json").write_text(dutch_cube(), encoding="utf-8")
     return f"{len(names)} packages of Debian" + (f": {' '.join(names)}" if 0 < len(names) < 8 else "")
 
@@ -143,7 +149,7 @@ def check_everywhere(program: Program, version: str) -> None:
     """What needs nothing of the system."""
     if version not in program.run("--version"):
         raise Fault(f"the program is not version {version}")
-    program.run("compute", "/trial/examples/town/mission.yaml", "-o", "/trial/town.ply", "-o", "/trial/town.kml")
+    program.run("compute", "/trial/examples/town/mission.yaml", "-o", "/trial/town.ply")
     program.run("prove", "/trial/examples/town/mission.yaml", "/trial/town.ply")
     program.run("verify", "/trial/examples/town/mission.yaml", "/trial/town.ply")
     program.run("compute", "/trial/examples/plaza/mission.yaml", "-o", "/trial/plaza.ply")
@@ -154,47 +160,43 @@ def check_everywhere(program: Program, version: str) -> None:
     program.run("report", "/trial/examples/plaza/mission.yaml", "-o", "/trial/report.html")
     subprocess.run([sys.executable, str(PROJECT / "tools" / "check_tour.py"), str(program.root / "trial/tour.cert")],
                    stdout=subprocess.DEVNULL, check=True)
-    if b"<coordinates>" not in (program.root / "trial/town.kml").read_bytes():
-        raise Fault("the volume in KML has no coordinates")
     man = program.root / "opt/moved/share/man/man1"
     if "vantage-compute.1" not in {file.name for file in man.iterdir()}:
         raise Fault("there is no manual page of compute")
 
 
 def check_bare(program: Program) -> None:
-    program.refuses("GDAL", "inspect", "/trial/heights.asc", "--crs", "EPSG:32632")
+    program.refuses("GDAL", "inspect", "/trial/N48E011.hgt")
     program.refuses("OpenGL", "render", "/trial/examples/plaza/mission.yaml", "-o", "/trial/picture.png")
 
 
 def check_loaded(program: Program) -> None:
     """What loads libraries of the system."""
-    program.run("inspect", "/trial/heights.asc", "--crs", "EPSG:32632")
+    program.run("inspect", "/trial/N48E011.hgt")
     program.run("render", "/trial/examples/plaza/mission.yaml", "--volume", "/trial/plaza.ply", "-o", "/trial/picture.png")
     print(f"           the picture: {program.root}/trial/picture.png", flush=True)
 
 
-def volumes_of(program: pathlib.Path) -> str:
-    """The hashes of twenty volumes."""
+def volumes_of(program: pathlib.Path) -> list[list[str]]:
+    """Names and hashes of volumes of meshes."""
     command = [sys.executable, str(PROJECT / "python/wheel/same_bytes.py"), "--program", str(program)]
-    table = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    if table.count("\n") < 20:
-        raise Fault(f"{program} gave fewer than 20 volumes")
-    return table
+    table = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[1:]
+    rows = [line.split(",")[:2] for line in table if not line.startswith(OF_MAPS)]
+    if len(rows) < 17:
+        raise Fault(f"{program} gave {len(rows)} volumes, fewer than 17")
+    return rows
 
 
 def check_bytes(root: pathlib.Path, expected: pathlib.Path, folder: pathlib.Path) -> None:
-    """The volumes of a root, and twenty others, have the bytes of another program's."""
-    for name, mission in EXAMPLES.items():
-        file = folder / f"expected-{name}.ply"
-        subprocess.run([str(expected), "compute", str(PROJECT / mission), "-o", str(file), "--quiet"], check=True)
-        if file.read_bytes() != (root / f"trial/{name}.ply").read_bytes():
-            raise Fault(f"{name}: other bytes than {expected}")
-
-    def without_times(table: str) -> list[list[str]]:
-        return [line.split(",")[:2] for line in table.splitlines()]
-    if without_times(volumes_of(root / "opt/moved/bin/vantage")) != without_times(volumes_of(expected)):
-        raise Fault(f"one of twenty volumes has other bytes than that of {expected}")
-    print("           22 volumes: the same bytes as another build", flush=True)
+    """The example of a mesh in that root, and others on this machine, have the bytes of another program's."""
+    file = folder / "expected-plaza.ply"
+    subprocess.run([str(expected), "compute", str(PROJECT / "examples/plaza/mission.yaml"), "-o", str(file), "--quiet"], check=True)
+    if file.read_bytes() != (root / "trial/plaza.ply").read_bytes():
+        raise Fault(f"plaza: other bytes than {expected}")
+    own, others = volumes_of(root / "opt/moved/bin/vantage"), volumes_of(expected)
+    if own != others:
+        raise Fault(f"other bytes than {expected}: {', '.join(row[0] for row in own if row not in others)}")
+    print(f"           {len(own) + 1} volumes: the same bytes as another build", flush=True)
 
 
 def check(tarball: pathlib.Path, arguments: argparse.Namespace) -> None:
@@ -211,7 +213,7 @@ def check(tarball: pathlib.Path, arguments: argparse.Namespace) -> None:
         program = Program(root)
         check_everywhere(program, version)
         check_loaded(program) if len(packages) > 1 else check_bare(program)
-        if number == 0 and arguments.program:
+        if arguments.program and number == 0:
             check_bytes(root, arguments.program, folder)
 
 
