@@ -174,7 +174,10 @@ def write_licences(target: str, build_folder: pathlib.Path, out: pathlib.Path) -
         texts = [pathlib.Path(text.format(**places)) for text in entry["texts"]] if "headers" in entry and "texts" in entry \
             else [prefix / "licences" / f"{name}.txt"]
         (out / f"{name}.txt").write_text("\n".join(text.read_text(encoding="utf-8") for text in texts), encoding="utf-8")
-        rows.append(" | ".join((entry["name"], entry["licence"], f"{name}.txt", wheel_licences.origin(entry, prefix, ""))))
+        origin = wheel_licences.origin(entry, prefix, "")
+        if origin.endswith(": "):
+            raise Failure(f"{prefix / 'versions' / entry['package']} is empty: remove {prefix.parent}, and build again")
+        rows.append(" | ".join((entry["name"], entry["licence"], f"{name}.txt", origin)))
     (out / wheel_licences.LIST).write_text("\n".join(rows) + "\n", encoding="utf-8")
     return len(contained)
 
