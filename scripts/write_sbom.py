@@ -209,7 +209,9 @@ def bill(folder: pathlib.Path) -> dict:
     for section in ("built", "installed", "fetched"):
         for entry in toml[section]:
             listed.setdefault(entry["name"], []).append(entry)
-    files, used, depends = [], {}, []
+    used: dict[str, Library] = {}
+    files: list[dict] = []
+    depends: list[dict] = []
     for file in sorted(folder.iterdir()):
         if file.name.endswith(NO_LIST):
             continue

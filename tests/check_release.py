@@ -15,9 +15,9 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 
-import build_program  # noqa: E402
-import check_dist  # noqa: E402
-import write_sbom  # noqa: E402
+import build_program
+import check_dist
+import write_sbom
 
 
 class Release(unittest.TestCase):
