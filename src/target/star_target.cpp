@@ -17,14 +17,16 @@ namespace {
 using Eigen::Vector2d;
 using Polygon = std::vector<Vector2d>;
 
-/// The parts in the frame of the first one. Nothing where one lies in another plane, or is looked at from behind.
+/// The parts in the frame of the first one. Nothing where one lies in another plane: the volume is in front of all of
+/// them, as far as it reaches.
 std::vector<Polygon> parts_in_one_plane(const PreparedTarget& target) {
   const TargetFrame& frame = target.frame();
-  const double slack = lengths_of(target.scene().data(), frame, range_limit_m(target.sensor())).slack;
+  const double range = range_limit_m(target.sensor());
+  const double slack = lengths_of(target.scene().data(), frame, range).slack;
   std::vector<Polygon> parts;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
     const TargetFrame& own = target.frame(i);
-    if (!(own.normal.dot(frame.normal) > 0)) return {};
+    if (!((own.normal - frame.normal).norm() * range <= slack)) return {};
     Polygon& part = parts.emplace_back();
     for (const Vector2d& corner : own.polygon) {
       const Vec3 at = frame.to_local(own.to_scene({corner.x(), corner.y(), 0}));

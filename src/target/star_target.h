@@ -18,9 +18,10 @@ struct StarTarget {
 /// Of one part its frame, with the polygon alone. Of several parts all in one frame, with the plane and the axes of the
 /// first one's.
 ///
-/// nullopt for a point, and for one part that is out of range. For several where they do not lie in one plane, within
-/// Lengths::slack, all with their fronts to the same side; where no point in them sees all of them, or one only that is
-/// too near to their outline (star_cover.h); and where that point is not well within range of all corners.
+/// nullopt for a point, and for one part that is out of range. For several where they do not lie in one plane, all with
+/// their fronts to the same side, within Lengths::slack also at the end of the range; where no point in them sees all of
+/// them, or one only that is too near to their outline (star_cover.h); and where that point is not well within range of
+/// all corners.
 std::optional<StarTarget> star_target(const PreparedTarget& target);
 
 }  // namespace vantage::internal::target
