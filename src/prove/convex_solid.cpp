@@ -18,6 +18,12 @@ ConvexSolid ConvexSolid::tetrahedron(const std::array<Vec3, 4>& corners) {
   return solid;
 }
 
+std::size_t ConvexSolid::corner_count() const {
+  std::size_t count = 0;
+  for (const ConvexPolygon& face : faces_) count += face.size();
+  return count;
+}
+
 Box ConvexSolid::box() const {
   Box box;
   for (const ConvexPolygon& face : faces_) {

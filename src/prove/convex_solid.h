@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ class ConvexSolid {
   bool empty() const { return faces_.empty(); }
   const std::vector<ConvexPolygon>& faces() const { return faces_; }
   double lost_m() const { return lost_m_; }
+  std::size_t corner_count() const;  ///< of all faces: each corner once for each face that has it
   Box box() const;
   Vec3 middle() const;
 

@@ -54,6 +54,13 @@ class CornerPlanes {
     return low - high;
   }
 
+  /// Whether the gap is more than minus the doubt. Of a target of many corners the first few mostly tell.
+  bool may_be_apart(const Vec3& way, double doubt) const {
+    double high = way.dot(polygon_[0]);
+    for (const Vec3& p : polygon_) high = std::max(high, way.dot(p));
+    return std::all_of(points_.begin(), points_.end(), [&](const Vec3& p) { return way.dot(p) - high > -doubt; });
+  }
+
   void consider(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
     if (found_) return;
     const auto at = [&](std::size_t i) { return i < points_.size() ? points_[i] : polygon_[i - points_.size()]; };
@@ -65,8 +72,7 @@ class CornerPlanes {
     // Most directions are hopeless; doubles tell. The direction itself may be off by what its edges lose.
     constexpr double kDoubt = 1e-9;
     const double doubt = kDoubt * coarse.norm() * largest_;
-    const bool is_forward = gap(coarse, points_, polygon_) > -doubt;
-    if (!is_forward && !(gap(Vec3(-coarse), points_, polygon_) > -doubt)) return;
+    if (!may_be_apart(coarse, doubt) && !may_be_apart(-coarse, doubt)) return;
     const FineVec3 fine = across<FineVec3>(fine_at, a, b, c, d);
     if (!(fine.norm() > 0)) return;
     for (const long double sign : {1.0L, -1.0L}) try_way(sign * fine / fine.cwiseAbs().maxCoeff());
