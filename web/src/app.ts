@@ -348,7 +348,8 @@ export class App {
   private async restore(): Promise<void> {
     const { shownOf } = this;
     if (!shownOf) return;
-    const tell = () => this.shownOf === shownOf && showMessage(RESTORING);
+    // What is wrong with the mission, or that it was stopped, stays said.
+    const tell = () => this.shownOf === shownOf && !showsError() && showMessage(RESTORING);
     try {
       const volume = await this.late(this.engine.compute(missionText(shownOf)), tell);
       if (volume && this.shownOf === shownOf) this.putAgain(volume, shownOf);
