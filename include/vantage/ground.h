@@ -57,6 +57,29 @@ class VANTAGE_API GroundLevels {
   std::unique_ptr<Data> data_;
 };
 
+// ---- Rasters of heights as the ground of a scene: docs/terrain.md
+
+struct TerrainOptions {
+  double max_error_m = 0.5;  ///< of the triangles, vertically, at the posts of the raster: see CityOptions
+  double margin_m = 50;      ///< how far the ground goes on round the scene
+  double reach_m = 0;        ///< it covers at least a square about the origin, so far to each side
+  /// z of the mean sea level in the scene: in a tileset on the earth how high the geoid lies above the ellipsoid (its
+  /// undulation). Empty: as Georeference::vertical says, where that names a level at the sea.
+  std::optional<double> sea_level_z_m = std::nullopt;
+};
+
+/// Adds a raster of heights (GeoTIFF, SRTM .hgt, ASCII grid; also in a .zip) to a scene that has a place on the earth,
+/// as an object of ObjectKind::ground. Heights of the raster that are above the ellipsoid as those of the scene stay as
+/// they are; all others are taken to be above the mean sea level, which Scene::notes then say. In a frame that touches
+/// the ellipsoid (Georeference::source_crs EPSG:4978) the ground falls away from the origin as the ellipsoid does.
+/// Notes also tell how the objects stand on it.
+///
+/// Throws Error(input): not_georeferenced; height_unknown, where it is not known at which z the raster's level lies;
+/// for what makes a raster unusable, a raster that does not cover the scene, options out of range, and where GDAL is
+/// not installed. Error(cancelled) when told to stop. The scene is then as it was. Cost: n log n in the posts.
+VANTAGE_API void add_terrain(Scene& scene, const std::filesystem::path& raster, const TerrainOptions& options = {},
+                             const Progress& progress = {});
+
 // ---- Rasters of heights as scenes of their own: docs/terrain.md
 
 /// Which part of a raster becomes a scene; at most one of the three, none: all of it.

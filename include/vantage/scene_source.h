@@ -31,7 +31,14 @@ struct SceneSource {
   CityOptions city;
   RasterOptions raster;
   TilesetOptions tileset;
+  /// Of a tileset, instead of its `ground_m`: a raster of heights that becomes its ground (add_terrain). Empty: none.
+  /// That of a map is in `city`.
+  std::filesystem::path terrain = {};
+  TerrainOptions terrain_options = {};
 };
+
+/// The raster that is the ground of a map or a tileset; empty where there is none.
+VANTAGE_API const std::filesystem::path& terrain_of(const SceneSource& source);
 
 /// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .hgt.zip, .vrt and .img
 /// are rasters; tileset.json and web addresses are tilesets; all else are meshes. Case does not count. VRT and IMG are

@@ -125,6 +125,9 @@ class Writer {
         section.add("detail", source.tileset.detail_m);
         if (source.tileset.ground_m) section.add("ground", *source.tileset.ground_m);
         if (!source.tileset.crs.empty()) section.add("crs", quoted(source.tileset.crs));
+        if (source.terrain.empty()) break;
+        section.add("terrain", path(source.terrain));
+        section.add("error", source.terrain_options.max_error_m);
         break;
     }
     if (!mission_.scene.attribution.empty()) section.add("attribution", quoted(mission_.scene.attribution));

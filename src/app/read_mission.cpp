@@ -36,13 +36,14 @@ const char* what_of(SceneSource::Kind kind) {
 
 void check_scene(MissionFile& mission) {
   SceneSource& scene = mission.scene;
+  for (fs::path* const terrain : {&scene.city.terrain, &scene.terrain}) {
+    if (terrain->empty()) continue;
+    check_readable(*terrain, "the terrain", mission.places.terrain);
+    *terrain = with_true_folder(*terrain);
+  }
   if (scene.kind == SceneSource::Kind::tileset && is_web_address(scene.file)) return;
   check_readable(scene.file, what_of(scene.kind), mission.places.scene);
   scene.file = with_true_folder(scene.file);
-  if (!scene.city.terrain.empty()) {
-    check_readable(scene.city.terrain, "the terrain", mission.places.terrain);
-    scene.city.terrain = with_true_folder(scene.city.terrain);
-  }
 }
 
 /// The files that targets name.
@@ -183,7 +184,7 @@ MissionFile read_scene_text(std::string_view text, const fs::path& file) {
 
 std::vector<fs::path> input_files(const MissionFile& mission) {
   std::vector<fs::path> files = {mission.file, mission.scene.file};
-  if (!mission.scene.city.terrain.empty()) files.push_back(mission.scene.city.terrain);
+  if (const fs::path& terrain = terrain_of(mission.scene); !terrain.empty()) files.push_back(terrain);
   for (const MissionTarget& one : mission.targets) {
     if (const auto* target = std::get_if<TargetFile>(&one.source)) files.push_back(target->file);
   }

@@ -34,7 +34,10 @@ class SceneParser {
     if (const YamlNode* credit = find(node_, "attribution")) {
       section_.source.attribution = reader_.text(*credit, "scene.attribution");
     }
-    if (const YamlNode* sea = find(node_, "sea_level")) section_.sea_level_m = reader_.length(*sea, "scene.sea_level");
+    if (const YamlNode* sea = find(node_, "sea_level")) {
+      section_.sea_level_m = reader_.length(*sea, "scene.sea_level");
+      section_.source.terrain_options.sea_level_z_m = section_.sea_level_m;
+    }
     return std::move(section_);
   }
 
@@ -123,14 +126,21 @@ class SceneParser {
   }
 
   void parse_ground() {
-    if (const YamlNode* terrain = take("terrain", {Kind::map}, "maps")) {
-      section_.source.city.terrain = folder_ / reader_.text(*terrain, "scene.terrain");
+    SceneSource& source = section_.source;
+    if (const YamlNode* terrain = take("terrain", {Kind::map, Kind::tileset}, "maps and tilesets")) {
+      if (source.tileset.ground_m) {
+        reader_.fail(ErrorCode::conflicting_keys, *terrain, "scene has both 'ground' and 'terrain'",
+                     "keep one of them");
+      }
+      (source.kind == Kind::tileset ? source.terrain : source.city.terrain) =
+          folder_ / reader_.text(*terrain, "scene.terrain");
       section_.terrain_where = place_in(reader_.file(), terrain->place);
     }
-    if (const YamlNode* error = take("error", {Kind::map, Kind::raster}, "terrain and rasters")) {
-      section_.source.city.terrain_error_m = section_.source.raster.max_error_m =
+    if (const YamlNode* error = take("error", {Kind::map, Kind::raster, Kind::tileset}, "terrain and rasters")) {
+      source.city.terrain_error_m = source.raster.max_error_m = source.terrain_options.max_error_m =
           reader_.positive_length(*error, "scene.error");
     }
+    source.terrain_options.reach_m = source.tileset.radius_m.value_or(0);
   }
 
   void parse_city() {

@@ -40,6 +40,11 @@ LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
       TilesetScene tiles = read_tileset(source.file, source.tileset, progress);
       loaded.scene = std::move(tiles.scene);
       loaded.tileset = std::move(tiles.report);
+      if (source.terrain.empty()) break;
+      internal::app::map_provider("rasters", source.terrain.string())
+          .add_terrain(loaded.scene, source.terrain, source.terrain_options, progress);
+      loaded.tileset->triangles = loaded.scene.mesh.triangles.size();
+      loaded.tileset->objects = loaded.scene.objects.size();
       break;
     }
     case SceneSource::Kind::mesh:
@@ -60,6 +65,10 @@ SceneSource::Kind source_kind(const std::filesystem::path& file) {
     return SceneSource::Kind::raster;
   }
   return name == "tileset.json" ? SceneSource::Kind::tileset : SceneSource::Kind::mesh;
+}
+
+const std::filesystem::path& terrain_of(const SceneSource& source) {
+  return source.kind == SceneSource::Kind::tileset ? source.terrain : source.city.terrain;
 }
 
 SceneLookups::SceneLookups() : data_(std::make_unique<Data>()) {}

@@ -72,7 +72,7 @@ SceneSource source_of(const SceneOptions& options) {
   source.file = options.input;
   source.kind = source_kind(options.input);
   source.city.region = region_of(options);
-  source.city.terrain = options.terrain;
+  (source.kind == SceneSource::Kind::tileset ? source.terrain : source.city.terrain) = options.terrain;
   for (const std::string& setting : options.settings) apply(setting, source.city);
   for (const std::string& kind : options.without) leave_out(source.city.occluders, kind, "--without " + kind);
   const CityRegion& region = source.city.region;
@@ -81,10 +81,14 @@ SceneSource source_of(const SceneOptions& options) {
   if (region.center_deg) source.tileset.radius_m = region.radius_m;
   source.tileset.crs = options.crs;
   if (!options.ground.empty()) source.tileset.ground_m = length_option("--ground", options.ground);
+  source.terrain_options.reach_m = source.tileset.radius_m.value_or(0);
+  if (!options.sea_level.empty())
+    source.terrain_options.sea_level_z_m = length_option("--sea-level", options.sea_level);
   if (!options.detail.empty()) source.tileset.detail_m = length_option("--detail", options.detail);
   if (!options.window.empty()) source.raster.region.pixels = window_of(options.window);
   if (!options.error.empty()) {
-    source.city.terrain_error_m = source.raster.max_error_m = positive_length_option("--error", options.error);
+    source.city.terrain_error_m = source.raster.max_error_m = source.terrain_options.max_error_m =
+        positive_length_option("--error", options.error);
   }
   source.mesh.up = options.up == "y" ? UpAxis::y : UpAxis::z;
   source.mesh.scale = positive_length_option("--scale", options.scale);
@@ -108,8 +112,12 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   only_for(!options.detail.empty(), "--detail", {Kind::tileset}, "tilesets");
   only_for(!options.ground.empty(), "--ground", {Kind::tileset}, "tilesets");
   only_for(!options.bbox.empty(), "--bbox", {Kind::map, Kind::raster}, "maps and rasters");
-  only_for(!options.error.empty(), "--error", {Kind::map, Kind::raster}, "terrain and rasters");
-  only_for(!options.terrain.empty(), "--terrain", {Kind::map}, "maps");
+  only_for(!options.error.empty(), "--error", {Kind::map, Kind::raster, Kind::tileset}, "terrain and rasters");
+  only_for(!options.terrain.empty(), "--terrain", {Kind::map, Kind::tileset}, "maps and tilesets");
+  only_for(!options.sea_level.empty(), "--sea-level", {Kind::tileset}, "tilesets with terrain");
+  if (!options.ground.empty() && !options.terrain.empty()) {
+    fail(ErrorCode::conflicting_keys, "--ground and --terrain cannot be combined", "--terrain", "give one of the two");
+  }
   only_for(!options.settings.empty(), "--set", {Kind::map}, "maps");
   only_for(!options.without.empty(), "--without", {Kind::map}, "maps");
   only_for(options.up == "y", "--up", {Kind::mesh}, "meshes");
@@ -139,6 +147,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--window", options.window, "Part of a raster, in posts")->option_text("COLUMN,ROW,COLUMNS,ROWS");
   command.add_option("--terrain", options.terrain, "Ground heights: GeoTIFF, .hgt or .hgt.zip (default: a plane)")
       ->option_text("FILE");
+  command
+      .add_option(
+          "--sea-level", options.sea_level,
+          "z of the mean sea level in the scene, from which --terrain of a tileset is measured: on the earth how "
+          "high the geoid lies above the ellipsoid there")
+      ->option_text("Z");
   command
       .add_option(
           "--error", options.error,

@@ -14,7 +14,7 @@ namespace vantage::cli {
 struct SceneOptions {
   std::string input;
   std::string center, bbox, window, origin;
-  std::string radius, terrain, error, detail, ground;
+  std::string radius, terrain, error, detail, ground, sea_level;
   std::string up = "z", scale = "1", lod, crs;
   std::vector<std::string> settings, without;
 };

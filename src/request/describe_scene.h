@@ -56,8 +56,9 @@ inline constexpr std::array kSceneKeys = {
          .without = "the file's origin, or its middle"},
         Kind::place},
     Own{{.path = "sea_level",
-         .says = "the z of mean sea level in the scene frame, for [files of zones](#files-of-zones) with heights above "
-                 "it",
+         .says =
+             "the z of mean sea level in the scene frame, for [files of zones](#files-of-zones) and for `terrain` of "
+             "a tileset with heights above it",
          .without = "0 where the heights of the scene have a known zero (terrain, a raster, a reference system with "
                     "heights), else unknown"},
         Kind::number,
@@ -77,11 +78,13 @@ inline constexpr std::array kSceneKeys = {
          .without = "all of the file"},
         Kind::numbers},
     Own{{.path = "terrain",
-         .says = "for a map, the heights of the ground: GeoTIFF, `.hgt` or `.hgt.zip`",
-         .without = "a plane at z = 0"},
+         .says =
+             "for a map or a [tileset](tilesets.md#ground), the heights of the ground: GeoTIFF, `.hgt` or `.hgt.zip`",
+         .without = "for a map a plane at z = 0"},
         Kind::path},
     Own{{.path = "error",
-         .says = "for a map with terrain, or a raster: how far the triangles may differ from it, vertically, [at its "
+         .says = "for a map or a tileset with terrain, or a raster: how far the triangles may differ from it, "
+                 "vertically, [at its "
                  "posts](terrain.md#between-the-posts)",
          .without = "0.5; for a raster 0.25"},
         Kind::number,

@@ -48,6 +48,8 @@ struct MapProvider {
   City (*build_city)(const std::filesystem::path& file, const CityOptions& options, const Progress& progress);
   RasterScene (*scene_from_raster)(const std::filesystem::path& file, const RasterOptions& options,
                                    const Progress& progress);
+  void (*add_terrain)(Scene& scene, const std::filesystem::path& raster, const TerrainOptions& options,
+                      const Progress& progress);
   OutlineFinder (*find_outlines)(const std::filesystem::path& file, const CityRegion& region, const Progress& progress);
   std::vector<ConvexArea> (*convex_areas)(const std::vector<core::Footprint>& footprints, Outlines state);
 };

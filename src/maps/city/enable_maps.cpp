@@ -9,6 +9,7 @@ namespace vantage {
 void enable_maps() {
   static constexpr internal::app::MapProvider kProvider{.build_city = build_city,
                                                         .scene_from_raster = scene_from_raster,
+                                                        .add_terrain = add_terrain,
                                                         .find_outlines = internal::city::find_outlines,
                                                         .convex_areas = internal::city::convex_areas};
   internal::app::provide(kProvider);

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
-#include "core/format.h"
-#include "maps/terrain/height_grid.h"
-#include "maps/terrain/triangulate.h"
+#include "maps/terrain/raster_ground.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -20,19 +19,10 @@ Ground Ground::plane(const Vec2& min, const Vec2& max) {
 Ground Ground::from_file(const std::filesystem::path& file, const geo::LocalFrame& frame, const Vec2& min,
                          const Vec2& max, double max_error_m, std::vector<std::string>& notes,
                          const Progress& progress) {
-  const terrain::HeightGrid grid = terrain::read_height_grid(file, terrain::Window{frame.origin(), min, max}, progress);
-  terrain::Triangulation triangulation = terrain::triangulate(grid, frame, min, max, max_error_m, progress);
-  const std::string name = file.filename().string();
-  if (grid.voids > 0) {
-    notes.push_back(std::to_string(grid.voids) + " posts of " + name +
-                    " had no height and were filled from their neighbours");
-  }
-  notes.push_back(core::format("the ground is {} triangles for {} posts of {}, off by at most {:.2f} m",
-                               triangulation.surface.mesh().triangles.size(), triangulation.posts, name,
-                               triangulation.largest_error_m));
+  terrain::RasterGround raster = terrain::ground_from_raster(file, frame, min, max, max_error_m, {}, notes, progress);
   Ground ground;
-  ground.surface_ = std::move(triangulation.surface);
-  ground.vertical_ = grid.vertical.empty() ? "as in " + name : grid.vertical;
+  ground.surface_ = std::move(raster.surface);
+  ground.vertical_ = std::move(raster.vertical);
   return ground;
 }
 
