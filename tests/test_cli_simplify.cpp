@@ -47,6 +47,19 @@ TEST_F(CliSimplify, TheFileSaysWhatItIsFor) {
   EXPECT_EQ(result.err, "");  // no warning of another mission, or a mesh that was changed
 }
 
+TEST_F(CliSimplify, APlaceThatIsMissingIsSaidBeforeTheWork) {
+  write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");  // no volume: the work would fail
+  for (const char* output : {"out.kml", "out.tiles"}) {
+    const auto simplified = run({"simplify", "open.obj", "--facets", "4", "-o", output, "--json"});
+    EXPECT_EQ(simplified.exit_code, 2);
+    EXPECT_NE(simplified.err.find(output), std::string::npos) << simplified.err;
+    const auto compared = run({"compare", "open.obj", "open.obj", "--only-b", output});
+    EXPECT_EQ(compared.exit_code, 2);
+    EXPECT_NE(compared.err.find(output), std::string::npos) << compared.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / output));
+  }
+}
+
 TEST_F(CliSimplify, TheErrorHasUnits) {
   const auto size = [&](const std::string& error) {
     const auto json =

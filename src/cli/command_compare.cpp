@@ -60,9 +60,16 @@ SceneReadOptions obj_options(const CompareArguments& options) {
   return result;
 }
 
-void check_compare_outputs(const CompareArguments& options) {
+std::vector<fs::path> asked_outputs(const CompareArguments& options) {
+  std::vector<fs::path> outputs;
   for (const std::string& output : {options.only_a, options.only_b}) {
-    if (output.empty()) continue;
+    if (!output.empty()) outputs.emplace_back(output);
+  }
+  return outputs;
+}
+
+void check_compare_outputs(const CompareArguments& options) {
+  for (const fs::path& output : asked_outputs(options)) {
     check_volume_output(output);
     check_not_an_input(output, {options.file_a, options.file_b});
   }
@@ -138,6 +145,8 @@ int run_compare(const CompareArguments& options) {
   ProgressLine progress(options.common);
   const VolumeFile a = read_volume(options.file_a, obj, {}, progress.callback());
   const VolumeFile b = read_volume(options.file_b, obj, a.volume.georeference, progress.callback());
+  const auto& place = a.volume.georeference ? a.volume.georeference : b.volume.georeference;
+  check_volume_place(asked_outputs(options), place, {});
   if (!options.common.quiet) {
     notes(a.notes);
     notes(b.notes);
@@ -145,8 +154,7 @@ int run_compare(const CompareArguments& options) {
   Comparison comparison =
       compare_volumes(a.volume.mesh, b.volume.mesh, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();
-  const std::vector<std::string> written =
-      write(options, comparison, a.volume.georeference ? a.volume.georeference : b.volume.georeference, obj);
+  const std::vector<std::string> written = write(options, comparison, place, obj);
   const bool is_turn_doubtful =
       (is_obj(options.file_a) || is_obj(options.file_b)) && options.up.empty() &&
       comparison.intersection_m3 < 0.5 * std::min(comparison.volume_a_m3, comparison.volume_b_m3);

@@ -98,12 +98,12 @@ int run_simplify(const SimplifyArguments& options) {
   check_not_an_input(options.output, {options.input});
   ProgressLine progress(options.common);
   VolumeFile read = read_volume(options.input, obj, {}, progress.callback());
+  check_volume_place({options.output}, read.volume.georeference, {});
   if (!options.common.quiet) notes(read.notes);
   SimplifiedVolume simplified = simplify(read.volume.mesh, options, progress.callback());
   stop_if_interrupted();
   Volume volume = with_mesh(std::move(read.volume), simplified);
   volume.read_rounding_m = read.rounding_m;
-  check_volume_place({options.output}, volume.georeference, {});
   std::vector<StagedVolume> staged;
   staged.push_back(stage_volume(volume, options.output, obj.up, obj.scale));
   const WrittenVolume written = staged.front().report;

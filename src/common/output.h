@@ -24,9 +24,9 @@ VANTAGE_API void check_can_write(const std::filesystem::path& file);
 
 /// For a file whose name was not given, but follows from that of an output ("volume.report.json" of "volume.ply"):
 /// check_can_write, and Error(input) where a file of that name is there that vantage did not write. It is known by what
-/// vantage writes first, to the letter and with a version: the first comment of PLY and OBJ, the header of STL, the
-/// generator of GLB, the software of PNG; the columns of a table, the keys of a report and of a place file. Cost: reads
-/// a JSON file of up to 64 MB, and the first 64 KiB of another one.
+/// vantage writes first, to the letter and with a version: the first comment of PLY, OBJ and KML (of KMZ that of the
+/// first file in it), the header of STL, the generator of GLB, the software of PNG; the columns of a table, the keys of
+/// a report and of a place file. Cost: reads a JSON file of up to 64 MB, and the first 64 KiB of another one.
 VANTAGE_API void check_derived_output(const std::filesystem::path& file);
 
 /// What chooses the format: the extension in lower case, ".ply".
