@@ -16,6 +16,7 @@
 #include "support/live_session.h"
 #include "support/map_text.h"
 #include "support/temporary_directory.h"
+#include "support/tile_files.h"
 #include "vantage/camera.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
@@ -472,6 +473,21 @@ TEST(LiveAccessControl, AllowsTheTokenAndTheOwnHostAlone) {
     EXPECT_FALSE(AccessControl::is_own_origin(origin, own)) << origin;
   const std::string other = "evil.example";
   EXPECT_FALSE(AccessControl::is_own_origin("http://" + other, other));
+}
+
+TEST_F(LiveSession, ATilesetAloneTakesTargets) {
+  write("tileset.json", testing::tileset_json(testing::tile_json(0, "a.glb")).dump());
+  write("a.glb", testing::box_glb({{}}));
+  session_ = {};
+  session_.open_tileset(folder_ / "tileset.json");
+  const Json hello = ask({{"call", "hello"}}).header["value"];
+  EXPECT_EQ(hello["mission"], "scene: {tiles: \"tileset.json\"}\n");
+  EXPECT_EQ(hello["scene"]["objects"].size(), 1u);
+  EXPECT_TRUE(hello["volume"].is_null());
+  EXPECT_EQ(code_of({{"call", "prove"}}), name_of(ErrorCode::nothing_given));
+  EXPECT_GT(ask({{"call", "compute"}, {"text", kSquare}}).header["value"]["volume_m3"], 1000);
+  const std::string with_file = std::string(kSquare) + "navigation: {meshes: [volume.ply]}\n";
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", with_file}}), name_of(ErrorCode::not_applicable));
 }
 
 TEST_F(LiveSession, AVolumeThatIsShownMustBeClosed) {

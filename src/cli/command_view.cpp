@@ -19,6 +19,7 @@
 #include "live/page_server.h"
 #include "live/session.h"
 #include "vantage/error.h"
+#include "vantage/scene_source.h"
 
 namespace vantage::cli {
 namespace {
@@ -29,6 +30,7 @@ constexpr const char* kViewExamples =
     "  vantage view mission.yaml --volume volume.ply    # one that is there already; what is dragged is computed\n"
     "  vantage view mission.yaml --flight tour.plan      # flies it in the scene, and shows when what is seen\n"
     "  vantage view mission.yaml --flight track.csv --heights scene --speed 5\n"
+    "  vantage view tokyo/tileset.json                   # a tileset of 3D Tiles, to draw targets in\n"
     "  vantage view mission.yaml --port 8090 --no-browser\n"
     "  ssh -L 8090:127.0.0.1:8090 host vantage view mission.yaml --port 8090 --no-browser\n"
     "\n"
@@ -71,6 +73,17 @@ void show_flight(live::Session& session, const ViewArguments& options, const Pro
   session.show_flight(std::move(given), progress);
 }
 
+/// A tileset alone has no targets: there is nothing to show a volume or a flight of.
+void check_has_mission(const ViewArguments& options) {
+  if (source_kind(options.mission) != SceneSource::Kind::tileset) return;
+  const char* const option = !options.volume.empty()             ? "--volume"
+                             : !options.flight.plan_file.empty() ? "--flight"
+                                                                 : nullptr;
+  if (!option) return;
+  throw Error(ErrorCode::not_applicable, std::string(option) + " is for missions, and a tileset alone is none", option,
+              "write a mission with 'scene: {tiles: tileset.json}' and a target, and give that");
+}
+
 int run_view(const ViewArguments& options) {
   if (options.flight.plan_file == "-") {
     throw Error(ErrorCode::stdin_not_possible, "the plan must be a file", "--flight", "write it to a file first");
@@ -79,12 +92,17 @@ int run_view(const ViewArguments& options) {
     throw Error(ErrorCode::stdin_not_possible, "the mission must be a file: names in it start from its folder",
                 "command line", "write it to a file first");
   }
+  check_has_mission(options);
   std::string page = read_page("index.html", options.page);
   live::PageServer server(options.port);
   live::Session session;
   {
     ProgressLine progress(options.common);
-    session.open_file(options.mission, progress.callback());
+    if (source_kind(options.mission) == SceneSource::Kind::tileset) {
+      session.open_tileset(options.mission, progress.callback());
+    } else {
+      session.open_file(options.mission, progress.callback());
+    }
     if (!options.volume.empty()) session.show_volume(options.volume, progress.callback());
     if (!options.flight.plan_file.empty()) show_flight(session, options, progress.callback());
   }
@@ -102,7 +120,9 @@ void add_view(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("view", "Show a mission in the browser, where the volume follows what is dragged");
   auto options = std::make_shared<ViewArguments>();
-  command->add_option("mission", options->mission, "The mission file")->required()->option_text("MISSION");
+  command->add_option("mission", options->mission, "The mission file, or a tileset.json of 3D Tiles alone")
+      ->required()
+      ->option_text("MISSION");
   command->add_option("--volume", options->volume, "Show this volume of the mission at first, instead of computing it")
       ->option_text("FILE");
   CLI::Option* flight =

@@ -17,6 +17,7 @@
 #include "vantage/ground.h"
 #include "vantage/mission_tour.h"
 #include "vantage/solid.h"
+#include "vantage/tileset.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
 
@@ -240,6 +241,19 @@ void Session::open_file(const std::filesystem::path& mission, const Progress& pr
   take_scene(file, std::move(loaded));
   computed_in_ = scene_of(resolved);
   mission_ = std::make_shared<const Mission>(std::move(resolved));
+}
+
+void Session::open_tileset(const std::filesystem::path& tileset, const Progress& progress) {
+  Stopwatch time;
+  const bool is_web = is_web_address(tileset);
+  const std::string name = is_web ? tileset.string() : tileset.filename().string();
+  file_ = is_web ? "mission.yaml" : std::filesystem::absolute(tileset).parent_path() / "mission.yaml";
+  text_ = "scene: {tiles: " + text_of(Json(name)) + "}\n";
+  const MissionFile file = read_scene_text(text_, file_);
+  auto loaded = std::make_shared<const LoadedScene>(load_scene(file.scene, progress));
+  read_ms_ = time.lap();
+  opened_file_ = file;
+  take_scene(file, std::move(loaded));
 }
 
 RunOptions Session::options(const ReadyScene& scene) const {

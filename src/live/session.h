@@ -42,6 +42,8 @@ class Session {
 
   /// A mission file, of any scene. Later missions in this session may name the files that it names, and no others.
   void open_file(const std::filesystem::path& mission, const Progress& progress = {});
+  /// A tileset without a mission: its tileset.json, or its address on the network. Later missions may name no files.
+  void open_tileset(const std::filesystem::path& tileset, const Progress& progress = {});
   /// After open_file: computes the volume of that mission.
   void run(const Progress& progress = {});
   /// After open_file: a volume of that mission that is there already.
@@ -53,8 +55,8 @@ class Session {
   /// After open_file: a flight to be judged by that mission and all that follow. Throws as judged_flight does.
   void show_flight(GivenFlight given, const Progress& progress = {});
 
-  /// JSON: {about, scene, mission: the text of the file, name: of it, volume: the last one, or null, flight: as
-  /// flight() has it, judged by the mission that was opened, or null}.
+  /// JSON: {about, scene, mission: the text of the file, of a tileset without a mission its scene alone, name: of it,
+  /// volume: the last one, or null, flight: as flight() has it, judged by the mission that was opened, or null}.
   std::string hello() const;
   /// From here on hello() has the mission without the queries of addresses: they hold keys of servers.
   void hide_keys() { hides_keys_ = true; }

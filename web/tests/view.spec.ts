@@ -100,6 +100,31 @@ test.describe("vantage view", () => {
   });
 });
 
+test("a tileset alone takes a target, and is saved with it", async ({ page }) => {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+  execFileSync(program, ["compute", join(root, "examples/town/mission.yaml"), "-q", "-o", join(folder, "town.tiles")]);
+  const tileset = join(folder, "town.tiles/tileset.json");
+  const viewer = spawn(program, ["view", tileset, "--no-browser", "--page", join(root, "web/dist/index.html")]);
+  try {
+    await page.goto(await new Promise<string>((resolve) => viewer.stdout.once("data", (text: Buffer) => resolve(text.toString().trim()))));
+    await expect(page.locator("#hint")).toContainText("Draw a target");
+    await expect(page).toHaveTitle(/^tileset.json/);
+    await page.evaluate(() => (window as any).vantage.edit((m: any) => {
+      m.target = { kind: "polygon", vertices: [[0, 0, 300], [4, 0, 300], [0, 4, 300]] }; // high above it
+      m.maxRange = 50;
+    }, true));
+    await hasVolume(page);
+    const text = await savedMission(page);
+    expect(text).toContain("tiles: tileset.json");
+    expect(text).not.toContain("mesh:");
+    writeFileSync(join(folder, "town.tiles/mission.yaml"), text);
+    const report = execFileSync(program, ["compute", join(folder, "town.tiles/mission.yaml"), "-o", join(folder, "v.ply"), "--json", "-q"]);
+    expect(await volume(page)).toBeCloseTo(JSON.parse(report.toString()).volume_m3, 6);
+  } finally {
+    viewer.kill("SIGINT");
+  }
+});
+
 test("in a map a square is picked, and heights count from the ground", async ({ page }) => {
   const folder = mkdtempSync(join(tmpdir(), "vantage-"));
   const corner = (id: number, east: number, north: number) => `<node id="${id}" version="1" lat="${48 + north / 111000}" lon="${11 + east / 74000}"/>`;

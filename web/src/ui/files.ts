@@ -17,11 +17,12 @@ type Bytes = Record<string, ArrayBuffer>;
 
 const nameOf = (path: unknown) => String(path ?? "").split(/[\\/]/).pop() ?? "";
 const isMission = (file: File) => /\.ya?ml$/i.test(file.name);
-const FILES = ["mesh", "osm", "raster", "terrain"]; // keys of the section `scene` that name one
+const FILES = ["mesh", "osm", "raster", "tiles", "terrain"]; // keys of the section `scene` that name one
 
 /** What a mission file says of the scene. */
 function sectionOf({ name, section }: SceneSource): Record<string, unknown> {
-  return section["mesh"] || section["osm"] || section["raster"] ? section : { mesh: name, ...section };
+  const isNamed = ["mesh", "osm", "raster", "tiles"].some((key) => section[key]);
+  return isNamed ? section : { mesh: name, ...section };
 }
 
 /** Whether two sections say the same, where files may lie in other folders. */
@@ -99,21 +100,23 @@ export class Files {
   private async openServed(hello: Hello, mesh: ViewMesh): Promise<void> {
     const { app } = this;
     const { scene, body } = divided(hello.mission);
-    const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
+    const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"] ?? scene["tiles"]);
+    const isAlone = body.trim() === ""; // a tileset without a mission
     app.source = { name, bytes: new ArrayBuffer(0), section: scene, beside: {} };
     app.showScene(hello.scene, mesh);
     const flight = hello.flight && servedFlight(hello.flight);
     const isFlownThrough = flight?.targets.some(({ isVolume }) => isVolume) ?? false; // then the mission has no volume
     try {
       if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
-      else if (!isFlownThrough) await app.openMission(body);
+      else if (!isFlownThrough && !isAlone) await app.openMission(body);
     } finally {
       if (flight) app.flights.openServed(flight);
     }
+    document.title = `${isAlone ? name : hello.name} · vantage`;
+    if (isAlone) return showMessage("Draw a target, or pick a surface");
     // Of a tour no position need see all targets: that is no news.
     if (flight) showMessage("Play, or the slider below, flies it");
     app.lookAtTarget();
-    document.title = `${hello.name} · vantage`;
   }
 
   private acceptDrops(): void {
