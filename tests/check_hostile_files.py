@@ -70,7 +70,7 @@ def try_reader(program: str, reader: readers.Reader, base: pathlib.Path, argumen
             if not fault and i < len(reader.originals) and run.was_refused:
                 fault = f"refuses what is right: {run.err[:300]!r}"
             if fault:
-                name = f"{re.sub('[^a-z]+', '-', reader.name)}-{arguments.seed}-{i}-{reader.file}"
+                name = f"{re.sub('[^a-z]+', '-', reader.name)}-{arguments.seed}-{i}-{pathlib.PurePath(reader.file).name}"
                 fault = f"{reader.name}, mutant {i}: {fault}{keep(arguments.keep, name, content)}"
             tally.add(run, fault)
     return tally

@@ -13,6 +13,8 @@ import zlib
 from collections.abc import Callable
 from typing import NamedTuple
 
+from hostile import tilesets
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SEEDS = ROOT / "tests" / "fuzz" / "seeds"
 
@@ -240,6 +242,7 @@ def prepare(folder: pathlib.Path, run: Callable[[list[str]], None]) -> None:
                        ("keep_in", "fence.plan")):
         mission = TOWN_MISSION.replace("KEY", key).replace("ZONES", zones)
         (folder / f"{zones}.yaml").write_text(mission, encoding="utf-8")
+    tilesets.prepare(folder)
     run(["compute", "mission.yaml", "-q", *(word for end in ("ply", "obj", "glb", "stl")
                                             for word in ("-o", f"good.{end}"))])
     (folder / "fly.yaml").write_text(FLIGHT_MISSION, encoding="utf-8")
@@ -369,8 +372,13 @@ def tour_readers(folder: pathlib.Path) -> list[Reader]:
     return readers
 
 
+def tile_readers() -> list[Reader]:
+    return [Reader(f"tileset, {kind}", tilesets.file_of(kind), ["inspect", f"tiles_{kind}/tileset.json", "--threads", "1"],
+                   tilesets.originals(kind)) for kind in tilesets.KINDS]
+
+
 def all_readers(folder: pathlib.Path) -> list[Reader]:
-    return (mesh_readers() + map_readers() + raster_readers() + mission_readers() + volume_readers(folder)
+    return (mesh_readers() + tile_readers() + map_readers() + raster_readers() + mission_readers() + volume_readers(folder)
             + certificate_readers(folder) + plan_readers(folder) + tour_readers(folder))
 
 
