@@ -158,6 +158,10 @@ TEST(WriteKml, HoldsTheTarget) {
   EXPECT_NEAR(corner.x(), 2, 1e-6);
   EXPECT_NEAR(corner.y(), 2, 1e-6);
   EXPECT_NEAR(all[0][2].z(), -kSeaLevelZM, 1e-6);
+  Volume raised = volume_in_yard();
+  raised.provenance->target.offset_m = 0.75;
+  const std::string higher = kml_of(raised);
+  EXPECT_NEAR(rings(higher.substr(higher.find("<Folder><name>target</name>")))[0][2].z(), 0.75 - kSeaLevelZM, 1e-6);
   Volume of_point = volume_in_yard();
   of_point.provenance->target.parts = {{{1, 2, 3}}};
   EXPECT_EQ(parts(kml_of(of_point), "<Point>", "</Point>").size(), 1U);

@@ -19,6 +19,7 @@
 #include "io/writers.h"
 #include "io/written_marks.h"
 #include "vantage/error.h"
+#include "vantage/target.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::io {
@@ -138,9 +139,11 @@ class KmlVolume {
 
   std::string target_text(const Target& target) const {
     std::string geometries;
-    for (const std::vector<Vec3>& part : target.parts) {
+    for (std::size_t i = 0; i < target.parts.size(); ++i) {
+      const Vec3 offset =
+          target.offset_m == 0 ? Vec3::Zero() : Vec3(target.offset_m * make_target_frame(target, i).normal);
       std::vector<std::string> corners;
-      for (const Vec3& corner : part) corners.push_back(position(corner));
+      for (const Vec3& corner : target.parts[i]) corners.push_back(position(corner + offset));
       if (corners.size() == 1) {
         geometries +=
             "<Point><altitudeMode>absolute</altitudeMode><coordinates>" + corners[0] + "</coordinates></Point>\n";
@@ -153,7 +156,7 @@ class KmlVolume {
            geometries + "</MultiGeometry></Placemark>\n";
   }
 
-  /// As they were given: before they are raised.
+  /// As they were asked for: moved by their offset, not by a lift.
   std::string targets() const {
     if (!volume_.provenance) return {};
     std::string text = target_text(volume_.provenance->target);
