@@ -115,7 +115,7 @@ test("a tileset alone takes a target, and is saved with it", async ({ page }) =>
     }, true));
     await hasVolume(page);
     const text = await savedMission(page);
-    expect(text).toContain("tiles: tileset.json");
+    expect(text).toContain('tiles: "tileset.json"');
     expect(text).not.toContain("mesh:");
     writeFileSync(join(folder, "town.tiles/mission.yaml"), text);
     const report = execFileSync(program, ["compute", join(folder, "town.tiles/mission.yaml"), "-o", join(folder, "v.ply"), "--json", "-q"]);
