@@ -477,7 +477,7 @@ TEST(LiveAccessControl, AllowsTheTokenAndTheOwnHostAlone) {
 
 TEST_F(LiveSession, ATilesetAloneTakesTargets) {
   write("tileset.json", testing::tileset_json(testing::tile_json(0, "a.glb")).dump());
-  write("a.glb", testing::box_glb({{}}));
+  write("a.glb", testing::box_glb({{{20, 0, 0}}}));
   session_ = {};
   session_.open_tileset(folder_ / "tileset.json");
   const Json hello = ask({{"call", "hello"}}).header["value"];
