@@ -108,3 +108,17 @@ def test_keys_are_not_written_into_results():
     request = _scenes.request_of("https://example.org/a/tileset.json?key=SECRET")
     assert request == {"tiles": "https://example.org/a/tileset.json?key=SECRET"}
     assert _scenes.shown_request(request) == {"tiles": "https://example.org/a/tileset.json"}
+
+
+def test_ground_from_a_raster(tileset, tmp_path):
+    rows = "\n".join(" ".join(["12.5"] * 40) for _ in range(40))
+    (tmp_path / "dem.asc").write_text(f"ncols 40\nnrows 40\nxllcorner 10.99\nyllcorner 47.99\ncellsize 0.0005\n{rows}\n")
+    (tmp_path / "dem.prj").write_text('GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],'
+                                      'PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]]')
+    given = dict(terrain=tmp_path / "dem.asc", crs="+proj=tmerc +lat_0=48 +lon_0=11 +datum=WGS84")
+    assert refused(lambda: vt.Scene.from_tiles(tileset, **given)).code == "height-unknown"
+    assert refused(lambda: vt.Scene.from_tiles(tileset, ground=3, **given)).code == "conflicting-keys"
+    scene = vt.Scene.from_tiles(tileset, sea_level=5, **given)
+    assert scene.objects[-1].kind == "ground"
+    heights = scene.vertices[scene.faces[scene.object_of == 2]][..., 2]
+    assert heights.size > 0 and abs(heights - 17.5).max() < 1e-4
