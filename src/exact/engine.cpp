@@ -11,10 +11,10 @@
 #include "exact/half_space_volume.h"
 #include "exact/limited_visibility.h"
 #include "exact/link_scene.h"
+#include "exact/star_target.h"
 #include "target/lengths.h"
 #include "target/prepared_target_data.h"
 #include "target/range_check.h"
-#include "target/star_target.h"
 #include "vantage/error.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
@@ -149,7 +149,7 @@ std::optional<Volume> compute_star_visibility(const PreparedTarget& target, cons
   const core::Stopwatch stopwatch;
   const core::ProgressReporter progress(callback);
   check_tolerance(options);
-  const std::optional<target::StarTarget> star = target::star_target(target);
+  const std::optional<StarTarget> star = star_target(target);
   if (!star) return std::nullopt;
   const double max_range = range_limit_m(target.sensor());
   const target::RangeRegion range(star->frame.polygon, max_range);
@@ -161,7 +161,7 @@ std::optional<Volume> compute_star_visibility(const PreparedTarget& target, cons
   return volume;
 }
 
-LimitedVisibility compute_visibility_within(const PreparedTarget& target, const target::StarTarget& star,
+LimitedVisibility compute_visibility_within(const PreparedTarget& target, const StarTarget& star,
                                             const ChartLimits& limits, const std::vector<Cause>& causes,
                                             const ExactOptions& options, const Progress& callback) {
   using How = LimitedVisibility::How;

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "exact/chart_limits.h"
-#include "target/star_target.h"
+#include "exact/star_target.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::exact {
 
-/// As compute_visibility, of a target of several parts that are one star-shaped polygon (target/star_target.h). nullopt
+/// As compute_visibility, of a target of several parts that are one star-shaped polygon (exact/star_target.h). nullopt
 /// where they are not, and where the view is blocked at once.
 std::optional<Volume> compute_star_visibility(const PreparedTarget& target, const ExactOptions& options,
                                               const Progress& progress);
@@ -28,7 +28,7 @@ struct LimitedVisibility {
 
 /// As compute_visibility, or compute_star_visibility, but only what keeps the limits. `star`: of the target; the limits
 /// are in its frame. `causes`: by label, for facets that are due to a limit.
-LimitedVisibility compute_visibility_within(const PreparedTarget& target, const target::StarTarget& star,
+LimitedVisibility compute_visibility_within(const PreparedTarget& target, const StarTarget& star,
                                             const ChartLimits& limits, const std::vector<Cause>& causes,
                                             const ExactOptions& options, const Progress& progress);
 

@@ -82,7 +82,7 @@ Volume volume_of_all(const PreparedTarget& target, const ExactOptions& options, 
 std::optional<Volume> volume_in_chart(const PreparedTarget& target, const ExactOptions& options,
                                       const Progress& progress, std::size_t& fallbacks) {
   using How = internal::exact::LimitedVisibility::How;
-  const std::optional<internal::target::StarTarget> star = internal::target::star_target(target);
+  const std::optional<internal::exact::StarTarget> star = internal::exact::star_target(target);
   if (!star) return std::nullopt;
   const internal::solid::LimitsInChart chart = internal::solid::sensor_limits_in_chart(*star, target.sensor());
   auto [how, volume] =
@@ -101,7 +101,7 @@ bool has_limits_in_view(const PreparedTarget& target) {
   each_limit(target.sensor(), [&](auto limit, const auto& /*value*/) {
     found = found || internal::solid::is_cut_in_chart(decltype(limit)::value, target.sensor());
   });
-  return found && (target.part_count() == 1 || internal::target::star_target(target).has_value());
+  return found && (target.part_count() == 1 || internal::exact::star_target(target).has_value());
 }
 
 Volume compute_view(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {

@@ -177,7 +177,7 @@ bool is_cut_in_chart(Limit limit, const Sensor& sensor) {
   }
 }
 
-LimitsInChart sensor_limits_in_chart(const target::StarTarget& target, const Sensor& sensor) {
+LimitsInChart sensor_limits_in_chart(const exact::StarTarget& target, const Sensor& sensor) {
   LimitsInChart chart;
   // What is kept is kept of the convex hull, too: its corners say all. What is taken away is convex for each polygon.
   const sensor::Viewed hull = sensor::viewed_of(target.frame, {&target.frame.polygon, 1});

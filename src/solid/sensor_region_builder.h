@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "exact/chart_limits.h"
+#include "exact/star_target.h"
 #include "sensor/viewed.h"
 #include "solid/kernel_point.h"
 #include "solid/regions.h"
-#include "target/star_target.h"
 #include "vantage/each_limit.h"
 
 namespace vantage::internal::solid {
@@ -84,6 +84,6 @@ void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std:
 bool is_cut_in_chart(Limit limit, const Sensor& sensor);
 
 /// Those limits of the sensor, in the frame of the target.
-LimitsInChart sensor_limits_in_chart(const target::StarTarget& target, const Sensor& sensor);
+LimitsInChart sensor_limits_in_chart(const exact::StarTarget& target, const Sensor& sensor);
 
 }  // namespace vantage::internal::solid

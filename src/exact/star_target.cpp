@@ -1,4 +1,4 @@
-#include "target/star_target.h"
+#include "exact/star_target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "target/range_check.h"
 #include "target/star_cover.h"
 
-namespace vantage::internal::target {
+namespace vantage::internal::exact {
 namespace {
 
 using Eigen::Vector2d;
@@ -19,13 +19,13 @@ using Polygon = std::vector<Vector2d>;
 
 /// The parts in the frame of the first one. Nothing where one lies in another plane: the volume is in front of all of
 /// them, as far as it reaches.
-std::vector<Polygon> parts_in_one_plane(const PreparedTarget& target) {
-  const TargetFrame& frame = target.frame();
-  const double range = range_limit_m(target.sensor());
-  const double slack = lengths_of(target.scene().data(), frame, range).slack;
+std::vector<Polygon> parts_in_one_plane(const PreparedTarget& prepared) {
+  const TargetFrame& frame = prepared.frame();
+  const double range = range_limit_m(prepared.sensor());
+  const double slack = target::lengths_of(prepared.scene().data(), frame, range).slack;
   std::vector<Polygon> parts;
-  for (std::size_t i = 0; i < target.part_count(); ++i) {
-    const TargetFrame& own = target.frame(i);
+  for (std::size_t i = 0; i < prepared.part_count(); ++i) {
+    const TargetFrame& own = prepared.frame(i);
     if (!((own.normal - frame.normal).norm() * range <= slack)) return {};
     Polygon& part = parts.emplace_back();
     for (const Vector2d& corner : own.polygon) {
@@ -39,21 +39,21 @@ std::vector<Polygon> parts_in_one_plane(const PreparedTarget& target) {
 
 }  // namespace
 
-std::optional<StarTarget> star_target(const PreparedTarget& target) {
-  if (target.target().is_point()) return std::nullopt;
-  if (target.part_count() == 1) {
-    if (!can_reach(target.frame(), target.sensor())) return std::nullopt;
-    return StarTarget{target.frame(), {target.frame().polygon}};
+std::optional<StarTarget> star_target(const PreparedTarget& prepared) {
+  if (prepared.target().is_point()) return std::nullopt;
+  if (prepared.part_count() == 1) {
+    if (!target::can_reach(prepared.frame(), prepared.sensor())) return std::nullopt;
+    return StarTarget{prepared.frame(), {prepared.frame().polygon}};
   }
-  const std::vector<Polygon> parts = parts_in_one_plane(target);
+  const std::vector<Polygon> parts = parts_in_one_plane(prepared);
   if (parts.empty()) return std::nullopt;
-  std::optional<StarCover> cover = star_cover(parts);
+  std::optional<target::StarCover> cover = target::star_cover(parts);
   if (!cover) return std::nullopt;
 
-  StarTarget star{target.frame(), std::move(cover->polygons)};
-  star.frame.origin = target.frame().to_scene({cover->centre.x(), cover->centre.y(), 0});
+  StarTarget star{prepared.frame(), std::move(cover->polygons)};
+  star.frame.origin = prepared.frame().to_scene({cover->centre.x(), cover->centre.y(), 0});
   // What rounding does to its place in the scene is taken out of the coordinates.
-  const Vector2d moved = target.frame().to_local(star.frame.origin).head<2>();
+  const Vector2d moved = prepared.frame().to_local(star.frame.origin).head<2>();
   star.frame.polygon = std::move(cover->hull);
   for (Vector2d& corner : star.frame.polygon) corner -= moved;
   for (Polygon& polygon : star.cover) {
@@ -63,9 +63,9 @@ std::optional<StarTarget> star_target(const PreparedTarget& target) {
   double farthest = 0;
   for (const Vector2d& corner : star.frame.polygon) farthest = std::max(farthest, corner.norm());
   // As far as origins of other targets may be: move_into_range.
-  const double allowed = 0.5 * (star.frame.enclosing_radius_m + range_limit_m(target.sensor()));
-  if (!can_reach(star.frame, target.sensor()) || farthest > allowed) return std::nullopt;
+  const double allowed = 0.5 * (star.frame.enclosing_radius_m + range_limit_m(prepared.sensor()));
+  if (!target::can_reach(star.frame, prepared.sensor()) || farthest > allowed) return std::nullopt;
   return star;
 }
 
-}  // namespace vantage::internal::target
+}  // namespace vantage::internal::exact
