@@ -129,7 +129,8 @@ void LimitsInChart::compare(std::uint64_t seed, double scale, const Vec3& offset
     EXPECT_LE((one.volume_m3 - other.volume_m3) / other.area_m2, 0.1 * options.tolerance_m) << where;
     EXPECT_GE((one.volume_m3 - other.volume_m3) / other.area_m2, -3e-6 * scale) << where;
     EXPECT_EQ(found.cause_of.size(), found.mesh.triangles.size()) << where;
-    if (shape == Shape::convex) continue;
+    // What booleans leave of small parts at map coordinates may lie nanometres behind the plane of one of them.
+    if (shape == Shape::convex || found.kept_limits.empty()) continue;
     const PreparedTarget& target = drawn.target;
     ProveOptions prove;
     prove.lift_m = found.lift_m;

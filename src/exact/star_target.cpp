@@ -17,20 +17,23 @@ namespace {
 using Eigen::Vector2d;
 using Polygon = std::vector<Vector2d>;
 
+/// Of Lengths::slack: the volume's own corners in the plane are rounded, too.
+constexpr double kOfSlack = 0.25;
+
 /// The parts in the frame of the first one. Nothing where one lies in another plane: the volume is in front of all of
 /// them, as far as it reaches.
 std::vector<Polygon> parts_in_one_plane(const PreparedTarget& prepared) {
   const TargetFrame& frame = prepared.frame();
   const double range = range_limit_m(prepared.sensor());
-  const double slack = target::lengths_of(prepared.scene().data(), frame, range).slack;
+  const double near = kOfSlack * target::lengths_of(prepared.scene().data(), frame, range).slack;
   std::vector<Polygon> parts;
   for (std::size_t i = 0; i < prepared.part_count(); ++i) {
     const TargetFrame& own = prepared.frame(i);
-    if (!((own.normal - frame.normal).norm() * range <= slack)) return {};
+    if (!((own.normal - frame.normal).norm() * range <= near)) return {};
     Polygon& part = parts.emplace_back();
     for (const Vector2d& corner : own.polygon) {
       const Vec3 at = frame.to_local(own.to_scene({corner.x(), corner.y(), 0}));
-      if (std::abs(at.z()) > slack) return {};
+      if (std::abs(at.z()) > near) return {};
       part.emplace_back(at.x(), at.y());
     }
   }

@@ -19,9 +19,9 @@ struct StarTarget {
 /// first one's.
 ///
 /// nullopt for a point, and for one part that is out of range. For several where they do not lie in one plane, all with
-/// their fronts to the same side, within Lengths::slack also at the end of the range; where no point in them sees all
-/// of them, or one only that is too near to their outline (star_cover.h); and where that point is not well within range
-/// of all corners.
+/// their fronts to the same side, within a quarter of Lengths::slack also at the end of the range; where no point in
+/// them sees all of them, or one only that is too near to their outline (star_cover.h); and where that point is not
+/// well within range of all corners.
 std::optional<StarTarget> star_target(const PreparedTarget& target);
 
 }  // namespace vantage::internal::exact
