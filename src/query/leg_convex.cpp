@@ -8,7 +8,7 @@
 namespace vantage::internal::query {
 namespace {
 
-constexpr double kRounding = std::numeric_limits<double>::epsilon();
+constexpr double kLegRounding = std::numeric_limits<double>::epsilon();
 constexpr double kMet = 1e-12;  // of the distance: nearer to the border than this is on it
 
 /// Keeps what of the interval has a linear function >= 0. False where that is nothing.
@@ -17,9 +17,9 @@ bool keep_part(LegInterval& part, double at_begin, double at_end) {
   if (at_begin >= 0 && at_end >= 0) return true;
   const double crossing = at_begin / (at_begin - at_end);
   if (at_begin < 0) {
-    part.begin = std::max(part.begin, crossing - 2 * kRounding);
+    part.begin = std::max(part.begin, crossing - 2 * kLegRounding);
   } else {
-    part.end = std::min(part.end, crossing + 2 * kRounding);
+    part.end = std::min(part.end, crossing + 2 * kLegRounding);
   }
   return part.begin <= part.end;
 }
@@ -56,7 +56,7 @@ class Projection {
       size += weight_[i] * (std::abs(side.height) + point_.norm() + way_.norm());
     }
     const double length = normal.norm();
-    return {normal / length, height / length, 8 * kRounding * size / length};
+    return {normal / length, height / length, 8 * kLegRounding * size / length};
   }
 
  private:
