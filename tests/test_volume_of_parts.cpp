@@ -23,7 +23,6 @@ namespace {
 using testing::first_open_edge;
 using testing::MeshProbe;
 using testing::Random;
-using testing::SceneBuilder;
 using testing::SweepOracle;
 using Parts = std::vector<std::vector<Vec3>>;
 

@@ -25,10 +25,10 @@ bool ContactTest::hidden(std::uint32_t blocker, std::uint32_t index) {
     }
   }
   if (touched_.empty() || middle.z() <= 0) return false;
-  for (std::uint32_t competitor : tree_.leaf_at(to_octahedral(middle)).blockers)
-    if (competitor != blocker && blockers_.cover[competitor] == blockers_.cover[blocker] &&
-        hides(competitor, plane, competitor < blocker))
-      return true;
+  for (const std::uint32_t competitor : tree_.leaf_at(to_octahedral(middle)).blockers) {
+    const bool is_of_same = blockers_.cover[competitor] == blockers_.cover[blocker];
+    if (competitor != blocker && is_of_same && hides(competitor, plane, competitor < blocker)) return true;
+  }
   return false;
 }
 
