@@ -83,7 +83,7 @@ FETCHED = {"Manifold": "manifold3d", "HiGHS": "highspy", "CDT": "pythoncdt"}
 def of_index(name: str, licence: str, release: str, file: str = "scripts/sources.txt") -> Library:
     version, sha256 = pin(release, file)
     return Library(name, version, licence, f"pkg:pypi/{release}@{version}#{name.replace(' ', '%20').replace('+', '%2B').replace(',', '')}",
-                   f"https://pypi.org/project/{release}/{version}/", sha256)
+                   f"pkg:pypi/{release}@{version}", sha256)
 
 
 def from_list(line: str, libraries: dict[str, list[dict]]) -> Library:
@@ -99,7 +99,7 @@ def from_list(line: str, libraries: dict[str, list[dict]]) -> Library:
         if "source" in entry and origin.endswith(pathlib.PurePosixPath(entry["source"]).name):
             package = pathlib.PurePosixPath(entry["source"]).name.split("_")[0]
             return Library(name, entry["version"], licence, f"pkg:generic/{package}@{entry['version']}",
-                           f"https://deb.debian.org/debian/{entry['source']}", entry["sha256"])
+                           entry["source"], entry["sha256"])
     found = re.fullmatch(r"Debian source package: (\S+) (\S+)", origin)
     if found is None:
         raise Failure(f"where {name} is from is not understood: {origin}")
@@ -130,7 +130,7 @@ def engine_libraries(libraries: dict[str, list[dict]]) -> list[Library]:
     for name, path, sha256 in fetch_web_sources.SOURCES:
         version = re.sub(r"\.orig\..*", "", path.rpartition("_")[2])
         found.append(Library(name, version, libraries[name][0]["licence"], f"pkg:generic/{name}@{version.replace('+', '%2B')}",
-                             f"https://deb.debian.org/debian/{path}", sha256))
+                             path, sha256))
     _, version = installed_version("emscripten")
     found += [Library(f"{name} of Emscripten", version, licence, f"pkg:deb/debian/emscripten@{version}?arch=source#{name.replace('+', '%2B')}",
                       f"Debian source package: emscripten {version}") for name, licence in EMSCRIPTEN_LIBRARIES.items()]
@@ -147,7 +147,7 @@ def page_libraries(libraries: dict[str, list[dict]]) -> list[Library]:
         name = path.rpartition("node_modules/")[2]
         digest = base64.b64decode(package["integrity"].removeprefix("sha512-")).hex()
         found.append(Library(name, package["version"], package["license"], f"pkg:npm/{name}@{package['version']}",
-                             f"https://www.npmjs.com/package/{name}/v/{package['version']}", sha512=digest))
+                             f"pkg:npm/{name}@{package['version']}", sha512=digest))
     return found + engine_libraries(libraries)
 
 
