@@ -6,6 +6,7 @@
 #include "core/facet_polygon.h"
 #include "core/parallel.h"
 #include "core/triangle_distance.h"
+#include "exact/quadrant_parts.h"
 #include "target/numerics.h"
 
 namespace vantage::internal::exact {
@@ -50,7 +51,7 @@ bool BeyondFloor::holds(const Mesh& mesh, const std::function<bool(std::size_t)>
       const auto& [a, b, c] = mesh.triangles[i];
       bool is_apart_from_all = state[a] == kBeyond && state[b] == kBeyond && state[c] == kBeyond;
       for (std::uint32_t body = 0; body < reach_.size() && is_apart_from_all; ++body) {
-        if (floor_.bodies()[body].is_kept) continue;
+        if (floor_.bodies()[body].kind == Floor::Kind::kept) continue;
         is_apart_from_all = is_apart(body, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
       }
       if (!is_apart_from_all) all_do = false;
@@ -61,7 +62,7 @@ bool BeyondFloor::holds(const Mesh& mesh, const std::function<bool(std::size_t)>
 
 bool BeyondFloor::is_beyond_kept(const Vec3& point) const {
   for (std::uint32_t body = 0; body < reach_.size(); ++body) {
-    if (!floor_.bodies()[body].is_kept) continue;
+    if (floor_.bodies()[body].kind != Floor::Kind::kept) continue;
     for (const std::uint32_t plane : floor_.planes_at(to_octahedral(point), body)) {
       if (!(floor_.planes()[plane].dot(point) >= kAt)) return false;
     }
@@ -74,6 +75,7 @@ bool BeyondFloor::is_beyond_kept(const Vec3& point) const {
 bool BeyondFloor::is_apart(std::uint32_t body, const std::array<Vec3, 3>& corners) const {
   const double nearest = core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]);
   if (nearest >= reach_[body] * reach_[body]) return true;
+  if (floor_.bodies()[body].kind == Floor::Kind::star) return is_apart_from_star(body, corners);
   const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
   for (const Vec3& at : {middle, corners[0], corners[1], corners[2]}) {
     for (const std::uint32_t plane : floor_.planes_at(to_octahedral(at), body)) {
@@ -86,6 +88,47 @@ bool BeyondFloor::is_apart(std::uint32_t body, const std::array<Vec3, 3>& corner
     if (polygon.empty()) return true;
   }
   return false;
+}
+
+/// What of the triangle is in the cone of a facet must be beyond its plane.
+bool BeyondFloor::is_apart_from_star(std::uint32_t body, const std::array<Vec3, 3>& corners) const {
+  const Floor::Body& star = floor_.bodies()[body];
+  // A triangle that is all in one cone, but for so much, is as much before the planes beside it as these differ. About
+  // a corner no more facets than kMostBeside are passed.
+  constexpr double kBeside = 1e-13;
+  constexpr int kMostBeside = 16;
+  const double most_before = kMostBeside * floor_.steepness() * kBeside;
+  const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+  for (const std::uint32_t plane : floor_.planes_at(to_octahedral(middle), body)) {
+    const Floor::Cone& cone = floor_.cone_of(star, plane);
+    const bool is_in_cone = std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+      return std::min({cone[0].dot(corner), cone[1].dot(corner), cone[2].dot(corner)}) >= -kBeside;
+    });
+    if (!is_in_cone) continue;
+    if (std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+          return floor_.planes()[plane].dot(corner) - most_before >= kAt;
+        })) {
+      return true;
+    }
+  }
+  const FacetPolygon polygon{{corners.begin(), corners.end()}, {0, 0, 0}};
+  FacetPolygon part, cut, scratch;
+  std::vector<std::uint32_t> found;
+  for_each_quadrant(polygon, part, scratch, [&](int quadrant, const FacetPolygon& in_quadrant) {
+    floor_.planes_over(body, quadrant, in_quadrant.corners, found);
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return std::all_of(found.begin(), found.end(), [&](std::uint32_t plane) {
+    if (is_beyond(floor_.planes()[plane], corners)) return true;
+    cut = polygon;
+    for (const Vec3& side : floor_.cone_of(star, plane)) {
+      core::clip_facet(cut, side, 0, 0, 0, scratch);
+      if (cut.empty()) return true;
+    }
+    return std::all_of(cut.corners.begin(), cut.corners.end(),
+                       [&](const Vec3& corner) { return floor_.planes()[plane].dot(corner) >= kAt; });
+  });
 }
 
 }  // namespace vantage::internal::exact

@@ -23,10 +23,17 @@ struct ChartLimits {
     Mesh mesh;
     std::uint32_t label;
   };
+  /// Takes away what is in a closed mesh with its facets outwards that is star-shaped about the centre, and holds all
+  /// that is near to it.
+  struct Star {
+    Mesh mesh;
+    std::vector<std::uint32_t> labels;  ///< per triangle
+  };
   std::vector<Side> kept;
   std::vector<Body> removed;
+  std::vector<Star> stars;
 
-  bool empty() const { return kept.empty() && removed.empty(); }
+  bool empty() const { return kept.empty() && removed.empty() && stars.empty(); }
 };
 
 }  // namespace vantage::internal::exact

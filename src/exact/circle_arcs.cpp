@@ -66,9 +66,15 @@ void CircleArcs::subtract_blocker(std::span<const Plane> planes, bool owns_ties)
   for (const Interval& part : hidden_.parts()) parts_.subtract(part.begin, part.end);
 }
 
-void CircleArcs::subtract_body(std::span<const Plane> planes) {
+void CircleArcs::subtract_body(std::span<const Plane> planes, std::span<const Vec3> cone) {
   const double size = circle_.centre.norm() + circle_.radius;
   hidden_ = parts_;
+  for (const Vec3& side : cone) {
+    const Wave wave = wave_of(side, 0);
+    const Cut found = cut(wave, 0);
+    if (found == Cut::some) subtract_below(wave, hidden_);
+    if (found == Cut::none || hidden_.empty()) return;
+  }
   for (const Plane& plane : planes) {
     const Wave wave = wave_of(-plane, -1);
     const Cut found = cut(wave, tie_margin(plane, size));

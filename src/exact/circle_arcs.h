@@ -34,8 +34,9 @@ class CircleArcs {
   /// tie), the blocker hides it only if `owns_ties`.
   void subtract_blocker(std::span<const Plane> planes, bool owns_ties);
 
-  /// Takes away what lies inside a body of planes: all of them less than 1.
-  void subtract_body(std::span<const Plane> planes);
+  /// Takes away what lies inside a body of planes: all of them less than 1, and in a cone: e . x > 0 for each of
+  /// `cone`.
+  void subtract_body(std::span<const Plane> planes, std::span<const Vec3> cone = {});
 
   /// Takes the angles between `begin` and `end` away.
   void drop(double begin, double end) { parts_.subtract(begin, end); }

@@ -30,7 +30,7 @@ DirectionTree::DirectionTree(const BlockerSet& blockers, const target::RangeRegi
 void DirectionTree::add_node(const OctahedralCell& cell, double bound, std::uint32_t depth) {
   const QuadrantLinear below_range = on_quadrant(range_.supporting_plane(cell.centre_direction()), cell.quadrant);
   Node& node = nodes_.emplace_back();
-  node.cell = cell;
+  node.cell = node.leaf.cell = cell;
   node.range = cell.at_corners(below_range);
   node.bound = std::max(bound, *std::min_element(node.range.begin(), node.range.end()));
   node.depth = depth;

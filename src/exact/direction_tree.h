@@ -38,6 +38,7 @@ class DirectionTree {
   /// What may be seen in a cell. Blocker i of the list keeps the planes [first_plane[i], first_plane[i + 1]) of
   /// `planes` (indices into BlockerSet::planes), with their values at the cell's corners.
   struct Leaf {
+    OctahedralCell cell;
     std::vector<std::uint32_t> blockers;
     std::vector<std::uint32_t> first_plane{0};
     std::vector<std::uint32_t> planes;
@@ -68,7 +69,7 @@ class DirectionTree {
     Corners least{};
   };
   struct Node {
-    OctahedralCell cell;
+    OctahedralCell cell{};
     double bound = 0;                       // constant lower bound on the envelope
     Corners range{};                        // linear lower bound on the range region's gauge
     std::array<CellBlocker, 2> dominators;  // of greatest least value; greatest at the middle

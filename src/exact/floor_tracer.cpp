@@ -18,10 +18,23 @@ namespace {
 
 using core::FacetPolygon;
 
-/// The part of from -> to in which every plane stays below 1: what lies inside a body of planes. Empty intervals have
-/// begin >= end.
-Interval inner_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes) {
+/// The part of from -> to in which every plane stays below 1, and which is in a cone of half-spaces e . x > 0: what lies
+/// inside a body of planes. Empty intervals have begin >= end.
+Interval inner_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes,
+                    std::span<const Vec3> cone) {
   Interval inner{0, 1};
+  for (const Vec3& side : cone) {
+    const double a = side.dot(from), b = side.dot(to);
+    if (a <= 0 && b <= 0) return {1, 0};
+    if (a >= 0 && b >= 0) continue;
+    const double crossing = a / (a - b);
+    if (a < b) {
+      inner.begin = std::max(inner.begin, crossing);
+    } else {
+      inner.end = std::min(inner.end, crossing);
+    }
+    if (inner.begin >= inner.end) return {1, 0};
+  }
   for (const Plane& plane : planes) {
     const double margin = tie_margin(plane, reach), a = plane.dot(from) - 1, b = plane.dot(to) - 1;
     if (a >= -margin && b >= -margin) return {1, 0};
@@ -57,6 +70,7 @@ class Tracer {
   /// begins behind.
   struct Hider {
     std::span<const Plane> planes;
+    std::span<const Vec3> cone;  // of a star's facet; else empty
     bool is_body;
     std::uint32_t first_plane;  // of the planes, among the blockers' or the floor's
     FacetPolygon cut;
@@ -67,7 +81,9 @@ class Tracer {
   double reach() const { return range_.radius(); }
   bool clip_to_kept();
   void gather_blockers();
-  bool add_hider(std::span<const Plane> planes, bool is_body, std::uint32_t first_plane, bool owns_ties);
+  bool add_star(std::uint32_t body);
+  bool add_hider(std::span<const Plane> planes, std::span<const Vec3> cone, bool is_body, std::uint32_t first_plane,
+                 bool owns_ties);
   void trace_own_edges(FloorSkeleton& result);
   void trace_crossings(FloorSkeleton& result);
   void trace_edge(const Vec3& from, const Vec3& to, std::size_t other, std::vector<Skeleton::Edge>& out);
@@ -95,17 +111,22 @@ FloorSkeleton Tracer::trace(std::uint32_t number) {
   FloorSkeleton result;
   number_ = number;
   facet_ = &floor_.facets()[number];
+  // All that is in range lies within its radius about the centre.
+  if (floor_.planes()[facet_->plane].norm() * reach() <= 1) return result;
   polygon_ = facet_->polygon;
   hider_count_ = 0;
   if (!clip_to_kept()) return result;
   for (std::uint32_t b = 0; b < floor_.bodies().size(); ++b) {
     const Floor::Body& body = floor_.bodies()[b];
-    if (b == facet_->body || body.is_kept) continue;
-    if (!add_hider(floor_.planes_of(body), true, body.first, b < facet_->body)) return result;
+    if (b == facet_->body || body.kind == Floor::Kind::kept) continue;
+    const bool is_left = body.kind == Floor::Kind::star
+                             ? add_star(b)
+                             : add_hider(floor_.planes_of(body), {}, true, body.first, b < facet_->body);
+    if (!is_left) return result;
   }
   gather_blockers();
   for (const std::uint32_t blocker : found_) {
-    if (!add_hider(blockers_.planes_of(blocker), false, blockers_.first[blocker], true)) return result;
+    if (!add_hider(blockers_.planes_of(blocker), {}, false, blockers_.first[blocker], true)) return result;
   }
   trace_own_edges(result);
   trace_crossings(result);
@@ -117,7 +138,7 @@ FloorSkeleton Tracer::trace(std::uint32_t number) {
 bool Tracer::clip_to_kept() {
   for (std::uint32_t b = 0; b < floor_.bodies().size(); ++b) {
     const Floor::Body& body = floor_.bodies()[b];
-    if (b == facet_->body || !body.is_kept) continue;
+    if (b == facet_->body || body.kind != Floor::Kind::kept) continue;
     for (std::uint32_t k = body.first; k < body.end; ++k) {
       core::clip_facet(polygon_, floor_.planes()[k], 1, tie_margin(floor_.planes()[k], reach()), k, scratch_);
       if (polygon_.empty()) return false;
@@ -136,9 +157,15 @@ void Tracer::gather_blockers() {
           {to_octahedral(part.corners[0]), to_octahedral(part.corners[i]), to_octahedral(part.corners[i + 1])},
           leaves_);
     }
+    const QuadrantLinear plane = on_quadrant(floor_.planes()[facet_->plane], quadrant);
     for (const DirectionTree::Leaf* leaf : leaves_) {
-      for (const std::uint32_t blocker : leaf->blockers) {
+      const CellCorners own = leaf->cell.at_corners(plane);
+      for (std::size_t i = 0; i < leaf->count(); ++i) {
+        const std::uint32_t blocker = leaf->blockers[i];
         if (seen_[blocker] == number_) continue;
+        const auto values = leaf->values_of(i);
+        // Nowhere in the cell before the facet.
+        if (std::ranges::any_of(values, [&](const CellCorners& value) { return below(value, own); })) continue;
         seen_[blocker] = number_;
         found_.push_back(blocker);
       }
@@ -147,11 +174,39 @@ void Tracer::gather_blockers() {
   std::sort(found_.begin(), found_.end());
 }
 
+// Facet by facet of the star. False where one of them hides all of the facet.
+bool Tracer::add_star(std::uint32_t body) {
+  found_.clear();
+  for_each_quadrant(polygon_, part_, scratch_, [&](int quadrant, const FacetPolygon& part) {
+    floor_.planes_over(body, quadrant, part.corners, found_);
+  });
+  std::sort(found_.begin(), found_.end());
+  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+  const Floor::Body& star = floor_.bodies()[body];
+  return std::all_of(found_.begin(), found_.end(), [&](std::uint32_t plane) {
+    return add_hider({&floor_.planes()[plane], 1}, floor_.cone_of(star, plane), true, plane, body < facet_->body);
+  });
+}
+
 // False where it hides all of the facet.
-bool Tracer::add_hider(std::span<const Plane> planes, bool is_body, std::uint32_t first_plane, bool owns_ties) {
+bool Tracer::add_hider(std::span<const Plane> planes, std::span<const Vec3> cone, bool is_body,
+                       std::uint32_t first_plane, bool owns_ties) {
   if (hiders_.size() == hider_count_) hiders_.emplace_back();
   Hider& hider = hiders_[hider_count_];
   bool is_copied = false;
+  for (const Vec3& side : cone) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& corner : polygon_.corners) {
+      low = std::min(low, side.dot(corner));
+      high = std::max(high, side.dot(corner));
+    }
+    if (high <= 0) return true;
+    if (low >= 0) continue;
+    if (!is_copied) hider.cut = polygon_;
+    is_copied = true;
+    core::clip_facet(hider.cut, side, 0, 0, FacetPolygon::kHorizon, scratch_);
+    if (hider.cut.empty()) return true;
+  }
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const double margin = tie_margin(planes[k], reach());
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -173,6 +228,7 @@ bool Tracer::add_hider(std::span<const Plane> planes, bool is_body, std::uint32_
   }
   if (!is_copied) return false;
   hider.planes = planes;
+  hider.cone = cone;
   hider.is_body = is_body;
   hider.first_plane = first_plane;
   hider.bounds = Box();
@@ -224,7 +280,8 @@ void Tracer::trace_edge(const Vec3& from, const Vec3& to, std::size_t other, std
         (hider.bounds.min.array() > high.array()).any() || (hider.bounds.max.array() < low.array()).any();
     if (apart || h == other) continue;
     const Interval hidden =
-        hider.is_body ? inner_part(from, to, reach(), hider.planes) : hidden_part(from, to, reach(), hider.planes);
+        hider.is_body ? inner_part(from, to, reach(), hider.planes, hider.cone)
+                      : hidden_part(from, to, reach(), hider.planes);
     shown_.subtract(hidden.begin, hidden.end);
   }
   shown_.drop_shorter_than(shortest_ / length);
@@ -259,7 +316,7 @@ void Tracer::trace_range(FloorSkeleton& result) {
     keep_in_balls(range_, ball, ball, arcs);
     for (std::size_t h = 0; h < hider_count_ && !arcs.empty(); ++h) {
       if (hiders_[h].is_body) {
-        arcs.subtract_body(hiders_[h].planes);
+        arcs.subtract_body(hiders_[h].planes, hiders_[h].cone);
       } else {
         arcs.subtract_blocker(hiders_[h].planes, true);
       }

@@ -104,12 +104,12 @@ void AimFinder::nearness_planes(const Aim& aim, const Vec3& direction, std::vect
 }
 
 /// Goes to the top of the planes that touch the nearness, not farther than they were found good for, again and again.
-Aim AimFinder::climbed(Aim aim, const Vec3& direction) const {
-  constexpr double kFirst = 0.3, kFarthest = 0.5, kLast = 1e-3;  // radians
-  constexpr double kLeastGain = 1e-4;
+Aim AimFinder::climbed(Aim aim, const Vec3& direction, double first_turn) const {
+  constexpr double kFarthest = 0.5, kLast = 1e-3;  // radians
+  constexpr double kLeastGain = 5e-4;
   constexpr int kMostSteps = 40;
   std::vector<Plane2> planes;
-  double best = nearness(aim, direction), reach = kFirst;
+  double best = nearness(aim, direction), reach = first_turn;
   bool is_new = true;
   for (int i = 0; i < kMostSteps && reach > kLast; ++i) {
     if (is_new) nearness_planes(aim, direction, planes);
@@ -137,7 +137,8 @@ Aim AimFinder::climbed(Aim aim, const Vec3& direction) const {
 AimedView AimFinder::next_to(const Aim& aim) const { return view(allowed(aim)); }
 
 AimedView AimFinder::best(const Vec3& direction, const std::optional<Aim>& near) const {
-  if (near) return view(climbed(*near, direction));
+  constexpr double kFirst = 0.3, kFirstNear = 0.05;  // radians
+  if (near) return view(climbed(*near, direction, kFirstNear));
   const Aim at_centre = allowed(aim_along(-direction));
   Aim start = at_centre;
   // Next to the vertical another yaw may be much better, and no small turn leads there.
@@ -149,7 +150,7 @@ AimedView AimFinder::best(const Vec3& direction, const std::optional<Aim>& near)
       if (nearness(turned, direction) > nearness(start, direction)) start = turned;
     }
   }
-  return view(climbed(start, direction));
+  return view(climbed(start, direction, kFirst));
 }
 
 }  // namespace vantage::internal::sensor

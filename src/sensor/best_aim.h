@@ -45,7 +45,7 @@ class AimFinder {
   PerEdge across_edges(const PictureAxes& axes, const Vec3& place) const;
   double nearness(const Aim& aim, const Vec3& direction) const;
   void nearness_planes(const Aim& aim, const Vec3& direction, std::vector<Plane2>& planes) const;
-  Aim climbed(Aim aim, const Vec3& direction) const;
+  Aim climbed(Aim aim, const Vec3& direction, double first_turn) const;
 
   const std::vector<Vec3>& corners_;
   Pinhole camera_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
 
 namespace vantage::internal::sensor {
 namespace {
@@ -64,10 +65,23 @@ class LeastPlanes {
   std::size_t count_ = 0;
 };
 
+/// Those that can be the least somewhere within reach.
+std::vector<Plane2> low_planes(std::span<const Plane2> planes, double reach) {
+  double most = std::numeric_limits<double>::infinity();  // that the least of them can be
+  for (const Plane2& plane : planes) most = std::min(most, plane.value + reach * plane.slope.lpNorm<1>());
+  std::vector<Plane2> low;
+  low.reserve(planes.size());
+  for (const Plane2& plane : planes) {
+    if (plane.value - reach * plane.slope.lpNorm<1>() <= most) low.push_back(plane);
+  }
+  return low;
+}
+
 }  // namespace
 
-Vector2d rise(std::span<const Plane2> planes, const Room& room) {
+Vector2d rise(std::span<const Plane2> all, const Room& room) {
   constexpr int kMostRidges = 12;
+  const std::vector<Plane2> planes = low_planes(all, room.reach);
   const Vector2d min = room.min.cwiseMax(-room.reach), max = room.max.cwiseMin(room.reach);
   Vector2d place = Vector2d::Zero();
   for (int ridge = 0; ridge < kMostRidges; ++ridge) {

@@ -99,7 +99,7 @@ bool has_limits_in_view(const PreparedTarget& target) {
   if (target.target().is_point() || internal::solid::has_share(target)) return false;
   bool found = false;
   each_limit(target.sensor(), [&](auto limit, const auto& /*value*/) {
-    found = found || internal::solid::is_cut_in_chart(decltype(limit)::value, target.sensor());
+    found = found || internal::solid::is_cut_in_chart(decltype(limit)::value);
   });
   return found && (target.part_count() == 1 || internal::exact::star_target(target).has_value());
 }

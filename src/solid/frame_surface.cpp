@@ -17,22 +17,27 @@
 namespace vantage::internal::solid {
 namespace {
 
+using sensor::Aim;
 using sensor::AimedView;
 using sensor::AimFinder;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr int kFirstParts = 6;         // of the icosahedron's sides: 720 facets
 constexpr double kNarrowest = 4e-3;    // radians: shorter edges are not halved
-constexpr double kRaise = 1 + 1e-9;    // what is raised is raised beyond rounding
+constexpr double kRaise = 1 + 1e-4;    // what is raised once need not be raised again for a neighbour's sake
 constexpr int kOwnRaises = 10;         // of a facet, before it gives up its corners' own aims
 constexpr double kWorthHalving = 0.5;  // facets that take away so many times the mean of all too much
+constexpr double kSmallTurn = 0.3;     // radians: aims between two that differ by less are tried for their middle
 constexpr int kVerticalAims = 12;      // in half a turn, after which the picture is the same
 constexpr double kSteep = 1.1;         // radians above or below level
 
 double cube(double x) { return x * x * x; }
 
 /// The smallest turn from one yaw to another.
-double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
+double turn(double from, double to) {
+  const double difference = to - from;
+  return std::abs(difference) <= std::numbers::pi ? difference : std::remainder(difference, 2 * std::numbers::pi);
+}
 
 class FrameSurfaceBuilder {
  public:
@@ -61,16 +66,24 @@ class FrameSurfaceBuilder {
     explicit Node(const Vec3& unit) : direction(unit) {}
 
     Vec3 direction;
+    std::optional<Aim> start;  ///< between those of its neighbours, if they are near to each other
     bool is_known = false;
+    bool is_new = false;  ///< its view has changed since facets were asked
     AimedView view;   ///< of the best aim found,
     double best = 0;  ///< and how near it lets the viewpoint come
     double distance = 0;
   };
   /// Distances that its corners need for a facet to be safe.
   using Needs = std::array<double, 3>;
+  struct Estimate {
+    bool is_known = false;
+    Needs needs;
+  };
 
   bool matters(const Triangle& facet) const;
+  void estimate();
   void settle();
+  Needs cheaper(const Triangle& facet) const;
   bool holds(const Triangle& facet, const Needs& needs) const;
   Needs own_needs(const Triangle& facet) const;
   Needs shared_needs(const Triangle& facet) const;
@@ -85,13 +98,15 @@ class FrameSurfaceBuilder {
   std::vector<AimedView> vertical_;
   std::vector<Node> nodes_;
   std::vector<Triangle> facets_;
+  std::vector<Estimate> estimates_;  // per facet
 };
 
-/// Whether some of a facet's directions are to the front.
+/// Whether some of a facet's directions are to the front, or rounding may take them to be.
 bool FrameSurfaceBuilder::matters(const Triangle& facet) const {
+  constexpr double kBehind = -1e-6;
   if (!view_.front) return true;
   return std::any_of(facet.begin(), facet.end(),
-                     [&](std::uint32_t i) { return view_.front->dot(nodes_[i].direction) > 0; });
+                     [&](std::uint32_t i) { return view_.front->dot(nodes_[i].direction) > kBehind; });
 }
 
 /// What the corners need where each has its own aim. Between them the camera is aimed at the mean of the three, by the
@@ -133,22 +148,15 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet)
     const Vec3& n = edges[k];
     const Vec3 n_yaw = by_yaw(n), n_pitch = level.cross(n);
     const Vec3 n_yaw_yaw = by_yaw(n_yaw), n_yaw_pitch = 2 * by_yaw(n_pitch), n_pitch_pitch = level.cross(n_pitch);
-    std::array<double, 3> second{-kNever, -kNever, -kNever};
-    for (const Vec3& corner : view_.corners) {
-      const Vec3 from_middle = corner - middle;
-      const double yaw_yaw = n_yaw_yaw.dot(from_middle), yaw_pitch = n_yaw_pitch.dot(from_middle),
-                   pitch_pitch = n_pitch_pitch.dot(from_middle);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Side& side = sides[i];
-        const double of_corner =
-            side.yaw * (side.yaw * yaw_yaw + side.pitch * yaw_pitch) + side.pitch * side.pitch * pitch_pitch;
-        second[i] = std::max(second[i], of_corner);
-      }
-    }
     double most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 first = sides[i].yaw * n_yaw + sides[i].pitch * n_pitch;
-      most = std::max(most, second[i] - 2 * first.dot(sides[i].way));
+      const Side& side = sides[i];
+      const Vec3 first = side.yaw * n_yaw + side.pitch * n_pitch;
+      const Vec3 second =
+          side.yaw * (side.yaw * n_yaw_yaw + side.pitch * n_yaw_pitch) + side.pitch * side.pitch * n_pitch_pitch;
+      double farthest_corner = -kNever;
+      for (const Vec3& corner : view_.corners) farthest_corner = std::max(farthest_corner, second.dot(corner));
+      most = std::max(most, farthest_corner - second.dot(middle) - 2 * first.dot(side.way));
     }
     slack[k] = most / 6 + normal_length_[k / 2] * rest;
   }
@@ -185,12 +193,48 @@ bool FrameSurfaceBuilder::holds(const Triangle& facet, const Needs& needs) const
   return true;
 }
 
+/// What is needed where the corners are as near as each of them may be.
+FrameSurfaceBuilder::Needs FrameSurfaceBuilder::cheaper(const Triangle& facet) const {
+  const auto cost = [&](const Needs& needs) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
+    return sum;
+  };
+  const Needs own = own_needs(facet);
+  if (cost(own) <= (1 + view_.share) * cost({})) return own;
+  const Needs shared = shared_needs(facet);
+  Needs needs = cost(own) <= cost(shared) ? own : shared;
+  if (!(*std::max_element(needs.begin(), needs.end()) < cap_)) needs.fill(cap_);
+  return needs;
+}
+
+/// About how far out corners will have to be. A facet is asked again where the aims of its corners have changed.
+void FrameSurfaceBuilder::estimate() {
+  for (Node& node : nodes_) node.distance = std::min(node.best, cap_);
+  estimates_.resize(facets_.size());
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    const Triangle& facet = facets_[f];
+    if (!matters(facet)) continue;
+    Estimate& of = estimates_[f];
+    const bool is_new = std::any_of(facet.begin(), facet.end(), [&](std::uint32_t i) { return nodes_[i].is_new; });
+    if (!of.is_known || is_new) of = {true, cheaper(facet)};
+  }
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    if (!estimates_[f].is_known) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      double& distance = nodes_[facets_[f][i]].distance;
+      distance = std::min(std::max(distance, estimates_[f].needs[i]), cap_);
+    }
+  }
+  for (Node& node : nodes_) node.is_new = false;
+}
+
 /// Raises corners until every facet is safe. A facet that one aim makes safe stays so when corners are raised, others
 /// are asked again. A facet that does not settle early gives up its own aims, as what they need grows with the
 /// distances; so this ends.
 void FrameSurfaceBuilder::settle() {
   std::vector<int> raised(nodes_.size(), 0);  // in which pass
-  for (Node& node : nodes_) node.distance = std::min(node.best * kRaise, cap_);
+  for (Node& node : nodes_) node.distance = std::min(node.distance * kRaise, cap_);
   const auto cost = [&](const Triangle& facet, const Needs& needs) {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
@@ -254,11 +298,24 @@ bool FrameSurfaceBuilder::refine() {
            std::max({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])}) > kNarrowest;
   };
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    nodes_.push_back(Node((nodes_[a].direction + nodes_[b].direction).normalized()));
+    Node node((nodes_[a].direction + nodes_[b].direction).normalized());
+    if (nodes_[a].is_known && nodes_[b].is_known) {
+      const Aim from = nodes_[a].view.aim, to = nodes_[b].view.aim;
+      const double yaw = turn(from.yaw, to.yaw), pitch = to.pitch - from.pitch;
+      if (std::abs(yaw) + std::abs(pitch) < kSmallTurn) node.start = Aim{from.yaw + yaw / 2, from.pitch + pitch / 2};
+    }
+    nodes_.push_back(node);
     return static_cast<std::uint32_t>(nodes_.size() - 1);
   };
+  const std::vector<Triangle> before = facets_;
   std::vector<std::uint32_t> of_facet;
-  return halve_sides(facets_, wants, length, middle, of_facet);
+  if (!halve_sides(facets_, wants, length, middle, of_facet)) return false;
+  std::vector<Estimate> estimates(facets_.size());
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    if (facets_[i] == before[of_facet[i]]) estimates[i] = estimates_[of_facet[i]];
+  }
+  estimates_ = std::move(estimates);
+  return true;
 }
 
 /// The best aim may be one of several that no small turn leads to: what a neighbour has found is tried too.
@@ -274,27 +331,37 @@ void FrameSurfaceBuilder::aim_nodes() {
   parallel::for_ranges(unknown.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Node& node = nodes_[unknown[i]];
-      node.view = finder_.best(node.direction);
+      node.view = finder_.best(node.direction, node.start);
       node.best = std::max(node.view.distance(node.direction), view_.least);
+      node.is_new = true;
     }
   });
-  const auto learn = [&](Node& node, const Node& neighbour) {
+  std::vector<int> changed(nodes_.size(), -1);  // in which pass
+  for (const std::uint32_t i : unknown) changed[i] = 0;
+  int pass = 0;
+  const auto learn = [&](std::uint32_t i, const Node& neighbour) {
+    Node& node = nodes_[i];
     const double its_distance = neighbour.view.distance(node.direction);
     if (!(std::max(its_distance, view_.least) < kBetter * node.best)) return false;
     // The search from there may end at a worse one: then the same would be learnt again and again.
     const AimedView found = finder_.best(node.direction, neighbour.view.aim);
     node.view = found.distance(node.direction) <= its_distance ? found : neighbour.view;
     node.best = std::max(node.view.distance(node.direction), view_.least);
+    node.is_new = true;
+    changed[i] = pass;
     return true;
   };
   for (bool is_better = true; is_better;) {
     is_better = false;
+    ++pass;
     for (const Triangle& facet : facets_) {
-      if (!matters(facet)) continue;
+      const bool is_new = changed[facet[0]] >= pass - 1 || changed[facet[1]] >= pass - 1 || changed[facet[2]] >= pass - 1;
+      if (!is_new || !matters(facet)) continue;
       for (std::size_t i = 0; i < 3; ++i) {
-        Node &a = nodes_[facet[i]], &b = nodes_[facet[(i + 1) % 3]];
-        if (learn(a, b)) is_better = true;
-        if (learn(b, a)) is_better = true;
+        const std::uint32_t a = facet[i], b = facet[(i + 1) % 3];
+        if (a > b) continue;  // the facet on the other side asks them
+        if (learn(a, nodes_[b])) is_better = true;
+        if (learn(b, nodes_[a])) is_better = true;
       }
     }
   }
@@ -306,8 +373,9 @@ FrameSurface FrameSurfaceBuilder::build() {
   facets_ = std::move(sphere.mesh.triangles);
   do {
     aim_nodes();
-    settle();
+    estimate();
   } while (facets_.size() < view_.most_facets && refine());
+  settle();
 
   FrameSurface surface;
   surface.least_distance = kNever;

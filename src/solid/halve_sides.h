@@ -31,13 +31,22 @@ bool halve_sides(std::vector<Triangle>& triangles, const Wants& wants, const Len
     }
     return best;
   };
+  // Most triangles are told by their vertices, which costs less than looking up their sides.
+  std::vector<char> is_end;
+  for (const Triangle& t : triangles) {
+    const std::size_t most = std::max({t[0], t[1], t[2]});
+    if (most >= is_end.size()) is_end.resize(most + 1, 0);
+  }
   const auto halve = [&](const Triangle& t) {
     const auto key = side(t, longest(t));
-    if (halves.contains(key)) return false;
-    halves[key] = middle(static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key));
+    const auto low = static_cast<std::uint32_t>(key >> 32), high = static_cast<std::uint32_t>(key);
+    if (!halves.try_emplace(key, 0).second) return false;
+    halves[key] = middle(low, high);
+    is_end[low] = is_end[high] = 1;
     return true;
   };
   const auto is_touched = [&](const Triangle& t) {
+    if (is_end[t[0]] + is_end[t[1]] + is_end[t[2]] < 2) return false;
     return halves.contains(side(t, 0)) || halves.contains(side(t, 1)) || halves.contains(side(t, 2));
   };
   for (const Triangle& t : triangles) {

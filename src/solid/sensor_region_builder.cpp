@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -99,6 +100,21 @@ void SensorRegionBuilder::forbid(const std::string& name, const Mesh& convex) {
   chart_->limits.removed.push_back(std::move(body));
 }
 
+void SensorRegionBuilder::forbid_star(const std::string& name, const Mesh& mesh, const std::vector<std::string>& names,
+                                      const std::string& explanation) {
+  std::map<std::string, std::uint32_t> label;
+  std::vector<std::uint32_t> labels;
+  for (const std::string& of_triangle : names) {
+    const auto [at, is_new] = label.try_emplace(of_triangle, 0);
+    if (is_new) at->second = chart_ ? label_in_chart(of_triangle) : label_of(of_triangle);
+    labels.push_back(at->second);
+  }
+  if (!chart_) return forbid(name, solid_of(mesh, std::move(labels)), explanation);
+  exact::ChartLimits::Star star{mesh, std::move(labels)};
+  for (Vec3& vertex : star.mesh.vertices) vertex = frame_->to_local(vertex + viewed_.origin);
+  chart_->limits.stars.push_back(std::move(star));
+}
+
 void SensorRegionBuilder::keep(const std::string& name, std::vector<HalfSpace> half_spaces,
                                const std::string& explanation) {
   if (chart_) {
@@ -164,14 +180,13 @@ void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std:
   if (sensor.camera && !is_done(Limit::frame)) add_frame_region(*sensor.camera, builder);
 }
 
-bool is_cut_in_chart(Limit limit, const Sensor& sensor) {
+bool is_cut_in_chart(Limit limit) {
   switch (limit) {
     case Limit::min_range:
     case Limit::incidence:
     case Limit::sun:
-      return true;
     case Limit::frame:
-      return sensor.mount.is_fixed();
+      return true;
     default:
       return false;
   }
@@ -185,7 +200,7 @@ LimitsInChart sensor_limits_in_chart(const exact::StarTarget& target, const Sens
   SensorRegionBuilder builder(hull, sensor, target.frame, chart);
   each_limit(sensor, [&](auto limit, const auto& value) {
     constexpr Limit kLimit = decltype(limit)::value;
-    if (!is_cut_in_chart(kLimit, sensor)) return;
+    if (!is_cut_in_chart(kLimit)) return;
     chart.done.push_back(kLimit);
     if constexpr (kLimit == Limit::frame) {
       add_frame_region(*sensor.camera, builder);

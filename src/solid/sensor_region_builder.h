@@ -27,7 +27,8 @@ class SensorRegionBuilder {
  public:
   /// Keeps references. `bounds`: of the volume, scene frame. Regions are added to `regions`.
   SensorRegionBuilder(const sensor::Viewed& viewed, const Sensor& sensor, const Box& bounds, Regions& regions);
-  /// Half-spaces and convex meshes are added to `chart`, in `frame`; there may be no others.
+  /// Half-spaces, convex meshes and those that are star-shaped about the frame's origin are added to `chart`, in
+  /// `frame`; there may be no others.
   SensorRegionBuilder(const sensor::Viewed& viewed, const Sensor& sensor, const TargetFrame& frame,
                       LimitsInChart& chart);
 
@@ -49,6 +50,9 @@ class SensorRegionBuilder {
   void keep(const std::string& name, std::vector<HalfSpace> half_spaces, const std::string& explanation = {});
   /// What is in a convex mesh.
   void forbid(const std::string& name, const Mesh& convex);
+  /// What is in a closed mesh that is star-shaped about the origin. `names`: of the cause, per triangle.
+  void forbid_star(const std::string& name, const Mesh& mesh, const std::vector<std::string>& names,
+                   const std::string& explanation);
 
  private:
   const sensor::Viewed& viewed_;
@@ -80,8 +84,8 @@ void add_frame_region(const Pinhole& camera, SensorRegionBuilder& builder);
 void add_sensor_regions(const sensor::Viewed& viewed, const Sensor& sensor, std::span<const Limit> done,
                         const Box& bounds, Regions& regions);
 
-/// Whether a limit of the sensor is convex, so that it can be cut in the chart.
-bool is_cut_in_chart(Limit limit, const Sensor& sensor);
+/// Whether a limit of the sensor is convex, or star-shaped, so that it can be cut in the chart.
+bool is_cut_in_chart(Limit limit);
 
 /// Those limits of the sensor, in the frame of the target.
 LimitsInChart sensor_limits_in_chart(const exact::StarTarget& target, const Sensor& sensor);

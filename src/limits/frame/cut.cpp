@@ -46,11 +46,9 @@ void add_frame_region(const Pinhole& camera, SensorRegionBuilder& builder) {
                                                    .mount = builder.sensor().mount,
                                                    .reach = builder.reach(),
                                                    .least = numerics::kLeastDistance * builder.reach()});
-  const std::uint32_t frame = builder.label_of("frame"), gimbal = builder.label_of("gimbal");
-  std::vector<std::uint32_t> labels;
-  for (const bool by_mount : surface.by_mount) labels.push_back(by_mount ? gimbal : frame);
-  builder.forbid("frame", builder.solid_of(surface.mesh, std::move(labels)),
-                 explanation(builder.sensor(), surface.least_distance));
+  std::vector<std::string> names;
+  for (const bool by_mount : surface.by_mount) names.emplace_back(by_mount ? "gimbal" : "frame");
+  builder.forbid_star("frame", surface.mesh, names, explanation(builder.sensor(), surface.least_distance));
 }
 
 }  // namespace vantage::internal::solid
