@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sensor/find_aim.h"
 #include "support/mesh_probe.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -164,6 +165,60 @@ TEST_F(LimitsInChart, OfStarShapedTargets) {
   EXPECT_GT(in_chart_, 20);
   // Compilers draw in different orders, so missions differ: booleans stood in for 0 of 44 with GCC, for 4 with clang.
   EXPECT_LE(fallbacks_, 6U);
+}
+
+// The surface of a camera that turns is star-shaped, not convex: alone, and with convex limits that pass through it.
+TEST_F(LimitsInChart, OfCamerasThatTurn) {
+  Random random(4113);
+  struct Place {
+    double scale;
+    Vec3 offset;
+  };
+  const std::array<Place, 3> places{{{1, Vec3::Zero()}, {100, Vec3::Zero()}, {1, Vec3(4.5e5, 5.6e6, 300)}}};
+  int inside = 0;
+  for (int round = 0; round < 24; ++round) {
+    const auto& [scale, offset] = places[static_cast<std::size_t>(round) % places.size()];
+    const Shape shape = round % 4 == 3 ? Shape::star : Shape::convex;
+    const PreparedTarget any = draw(random, scale, offset, shape).target;
+    Sensor sensor = any.sensor();
+    sensor.camera = pinhole_of_fov(random.uniform(40, 100), random.uniform(30, 80), 4000, 3000);
+    sensor.mount = {};
+    if (random.integer(0, 1) == 1) {
+      sensor.mount.min_pitch_deg = random.uniform(-90, -30);
+      sensor.mount.max_pitch_deg = random.uniform(-10, 60);
+    }
+    if (round % 2 == 0) sensor.min_range_m = sensor.incidence_deg.has_value() ? 0 : 0.3 * sensor.max_range_m;
+    const PreparedTarget target(any.scene(), any.target(), sensor);
+    ExactOptions options;
+    options.tolerance_m = 0.01 * scale;
+    const Volume volume = compute_volume(target, {}, options), wanted = by_booleans(target, options);
+    ASSERT_EQ(volume.outcome, wanted.outcome) << round;
+    if (volume.outcome != Outcome::computed) {
+      ++empty_;
+      continue;
+    }
+    fallbacks_ += volume.counts.boolean_fallbacks;
+    const bool is_in_chart = !volume.kept_limits.empty();
+    if (is_in_chart) ++in_chart_;
+    const MeshMeasures one = measure(volume.mesh), other = measure(wanted.mesh);
+    EXPECT_TRUE(one.closed && one.oriented) << round;
+    // Both surfaces have facets of their own.
+    EXPECT_NEAR(one.volume_m3, other.volume_m3, 0.05 * other.volume_m3) << round;
+    std::vector<Vec3> corners;
+    for (const auto& part : target.target().parts) corners.insert(corners.end(), part.begin(), part.end());
+    const testing::MeshProbe probe(volume);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 point = probe.draw(random);
+      std::vector<Vec3> seen;
+      for (const Vec3& corner : corners) seen.push_back(corner - point);
+      EXPECT_TRUE(internal::sensor::find_aim(*sensor.camera, sensor.mount, seen, 1e-9, {.outside = 1e-7}).aim)
+          << round << " at " << point.transpose();
+      ++inside;
+    }
+  }
+  EXPECT_GT(in_chart_, 12);
+  EXPECT_GT(inside, 2000);
+  EXPECT_LE(fallbacks_, 1U);
 }
 
 // Between the range and a least range there is a thin shell. What a facet claims between its corners may be before it.

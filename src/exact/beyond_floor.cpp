@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "core/facet_polygon.h"
 #include "core/parallel.h"
@@ -75,7 +76,7 @@ bool BeyondFloor::is_beyond_kept(const Vec3& point) const {
 bool BeyondFloor::is_apart(std::uint32_t body, const std::array<Vec3, 3>& corners) const {
   const double nearest = core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]);
   if (nearest >= reach_[body] * reach_[body]) return true;
-  if (floor_.bodies()[body].kind == Floor::Kind::star) return is_apart_from_star(body, corners);
+  if (floor_.bodies()[body].kind == Floor::Kind::star) return is_apart_from_star(body, corners, std::sqrt(nearest));
   const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
   for (const Vec3& at : {middle, corners[0], corners[1], corners[2]}) {
     for (const std::uint32_t plane : floor_.planes_at(to_octahedral(at), body)) {
@@ -90,8 +91,8 @@ bool BeyondFloor::is_apart(std::uint32_t body, const std::array<Vec3, 3>& corner
   return false;
 }
 
-/// What of the triangle is in the cone of a facet must be beyond its plane.
-bool BeyondFloor::is_apart_from_star(std::uint32_t body, const std::array<Vec3, 3>& corners) const {
+/// What of the triangle is in the cone of a facet must be beyond its plane. `nearest`: of its points to the centre.
+bool BeyondFloor::is_apart_from_star(std::uint32_t body, const std::array<Vec3, 3>& corners, double nearest) const {
   const Floor::Body& star = floor_.bodies()[body];
   // A triangle that is all in one cone, but for so much, is as much before the planes beside it as these differ. About
   // a corner no more facets than kMostBeside are passed.
@@ -105,9 +106,8 @@ bool BeyondFloor::is_apart_from_star(std::uint32_t body, const std::array<Vec3, 
       return std::min({cone[0].dot(corner), cone[1].dot(corner), cone[2].dot(corner)}) >= -kBeside;
     });
     if (!is_in_cone) continue;
-    if (std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
-          return floor_.planes()[plane].dot(corner) - most_before >= kAt;
-        })) {
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](const Vec3& corner) { return floor_.planes()[plane].dot(corner) - most_before >= kAt; })) {
       return true;
     }
   }
@@ -115,7 +115,7 @@ bool BeyondFloor::is_apart_from_star(std::uint32_t body, const std::array<Vec3, 
   FacetPolygon part, cut, scratch;
   std::vector<std::uint32_t> found;
   for_each_quadrant(polygon, part, scratch, [&](int quadrant, const FacetPolygon& in_quadrant) {
-    floor_.planes_over(body, quadrant, in_quadrant.corners, found);
+    floor_.planes_over(body, quadrant, in_quadrant.corners, nearest, found);
   });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

@@ -26,7 +26,7 @@ class BeyondFloor {
  private:
   bool is_beyond_kept(const Vec3& point) const;
   bool is_apart(std::uint32_t body, const std::array<Vec3, 3>& corners) const;
-  bool is_apart_from_star(std::uint32_t body, const std::array<Vec3, 3>& corners) const;
+  bool is_apart_from_star(std::uint32_t body, const std::array<Vec3, 3>& corners, double nearest) const;
 
   const Floor& floor_;
   std::vector<double> reach_;  ///< of each body that is taken away: how far from the centre it is, where in front

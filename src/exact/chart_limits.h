@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "vantage/geometry.h"
@@ -29,9 +30,14 @@ struct ChartLimits {
     Mesh mesh;
     std::vector<std::uint32_t> labels;  ///< per triangle
   };
+  /// Metres: how far the view reaches along a direction of unit length, and where `angle` (radians) is wide, along some
+  /// that differ from it by that.
+  using Reach = std::function<double(const Vec3& direction, double angle)>;
+  /// Made when it is known what hides the view, so that it is fine where that is of use.
+  using StarMaker = std::function<Star(const Reach&)>;
   std::vector<Side> kept;
   std::vector<Body> removed;
-  std::vector<Star> stars;
+  std::vector<StarMaker> stars;
 
   bool empty() const { return kept.empty() && removed.empty() && stars.empty(); }
 };

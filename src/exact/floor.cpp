@@ -66,7 +66,13 @@ std::optional<Floor> Floor::of(const ChartLimits& limits, double reach, std::vec
   for (const ChartLimits::Body& body : limits.removed) {
     if (!floor.add_removed(body)) return std::nullopt;
   }
-  for (const ChartLimits::Star& star : limits.stars) {
+  floor.list_planes();
+  return floor;
+}
+
+std::optional<Floor> Floor::with(const std::vector<ChartLimits::Star>& stars) const {
+  Floor floor = *this;
+  for (const ChartLimits::Star& star : stars) {
     if (!floor.add_star(star)) return std::nullopt;
   }
   floor.list_planes();
@@ -158,7 +164,9 @@ bool Floor::add_star(const ChartLimits::Star& star) {
   std::vector<std::uint32_t> plane_of(mesh.triangles.size(), Value::kNone);
   const auto beside = neighbours_in(mesh);
   if (!beside) return false;
-  const auto corner = [&](std::uint32_t t, std::size_t i) -> Vec3 { return mesh.vertices[mesh.triangles[t][i]] * away; };
+  const auto corner = [&](std::uint32_t t, std::size_t i) -> Vec3 {
+    return mesh.vertices[mesh.triangles[t][i]] * away;
+  };
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
     if (std::max({a.z(), b.z(), c.z()}) <= 0) continue;
@@ -255,19 +263,25 @@ void Floor::for_each_cell(int quadrant, std::span<const Vec3> part, const Visit&
 }
 
 // Where the facet is: another plane of its body is nowhere greater there.
-void Floor::list_facet(const Facet& facet, Found& found) const {
+void Floor::list_facet(const Facet& facet, Found& found) {
   FacetPolygon scratch_part, scratch;
   for_each_quadrant(facet.polygon, scratch_part, scratch, [&](int quadrant, const FacetPolygon& part) {
-    for_each_cell(quadrant, part.corners,
-                  [&](std::size_t cell) { found[cell].emplace_back(facet.body, facet.plane); });
+    double farthest = 0;
+    for (const Vec3& corner : facet.polygon.corners) farthest = std::max(farthest, corner.norm());
+    for_each_cell(quadrant, part.corners, [&](std::size_t cell) {
+      found[cell].emplace_back(facet.body, facet.plane);
+      cells_[cell].farthest = std::max(cells_[cell].farthest, farthest);
+    });
   });
 }
 
-void Floor::planes_over(std::uint32_t body, int quadrant, std::span<const Vec3> part,
+void Floor::planes_over(std::uint32_t body, int quadrant, std::span<const Vec3> part, double beyond,
                         std::vector<std::uint32_t>& found) const {
   for_each_cell(quadrant, part, [&](std::size_t cell) {
     const Listed& listed = cells_[cell];
-    found.insert(found.end(), listed.planes.begin() + listed.first[body], listed.planes.begin() + listed.first[body + 1]);
+    if (listed.farthest <= beyond) return;
+    found.insert(found.end(), listed.planes.begin() + listed.first[body],
+                 listed.planes.begin() + listed.first[body + 1]);
   });
 }
 
@@ -278,7 +292,7 @@ const Floor::Listed& Floor::listed_at(const OctahedralPoint& point) const {
   return cells_[cell_index(quadrant_of(point.x(), point.y()), i, j)];
 }
 
-// The facet that the direction is deepest in; deeper than 0 but for rounding.
+// The facet that the direction is in, or outside of by rounding alone.
 Floor::Value Floor::value_in_star(const Body& body, std::span<const std::uint32_t> planes,
                                   const Vec3& direction) const {
   Value found{0, body.first};
@@ -291,6 +305,7 @@ Floor::Value Floor::value_in_star(const Body& body, std::span<const std::uint32_
     if (!(gauge > 0) || !(depth > deepest)) continue;
     deepest = depth;
     found = {gauge, plane};
+    if (depth >= 0) break;
   }
   return found;
 }

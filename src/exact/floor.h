@@ -17,10 +17,10 @@ namespace vantage::internal::exact {
 
 using core::Plane;
 
-/// Made of bodies. Beyond a body of sides that are kept is what is beyond all of its planes, beyond a convex one that is
-/// taken away what is beyond any of them: there the inverse depth is at most the least, or the greatest, of the planes'.
-/// Of a star-shaped body each plane counts in the cone of its facet, from the centre. The floor is the farthest of the
-/// bodies.
+/// Made of bodies. Beyond a body of sides that are kept is what is beyond all of its planes, beyond a convex one that
+/// is taken away what is beyond any of them: there the inverse depth is at most the least, or the greatest, of the
+/// planes'. Of a star-shaped body each plane counts in the cone of its facet, from the centre. The floor is the
+/// farthest of the bodies.
 class Floor {
  public:
   /// So many times numerics::kShrink, in parts of the distance, limits are moved away from what they keep out.
@@ -50,6 +50,8 @@ class Floor {
   /// kShrinks, so that the finished mesh keeps the limits. nullopt where a plane passes so near to the centre that this
   /// cannot be told.
   static std::optional<Floor> of(const ChartLimits& limits, double reach, std::vector<ChartLimits::Side>& ceilings);
+  /// With these, too; nullopt as above.
+  std::optional<Floor> with(const std::vector<ChartLimits::Star>& stars) const;
 
   bool empty() const { return bodies_.empty(); }
   const std::vector<Plane>& planes() const { return planes_; }
@@ -63,7 +65,8 @@ class Floor {
   const Cone& cone_of(const Body& body, std::uint32_t plane) const {
     return cones_[body.first_cone + plane - body.first];
   }
-  /// By how much a star's planes differ at most, in parts, in the corner of a facet across from an edge where they meet.
+  /// By how much a star's planes differ at most, in parts, in the corner of a facet across from an edge where they
+  /// meet.
   double steepness() const { return steepness_; }
   Value at(const OctahedralPoint& point) const;
   /// Of a body those that may be the greatest, or the least, or whose cones may hold it, near a point.
@@ -71,14 +74,16 @@ class Floor {
     const Listed& listed = listed_at(point);
     return {listed.planes.data() + listed.first[body], listed.first[body + 1] - listed.first[body]};
   }
-  /// Appends a body's planes that are listed in the cells round a part of a quadrant of the map; some of them twice.
-  void planes_over(std::uint32_t body, int quadrant, std::span<const Vec3> part,
+  /// Appends a body's planes that are listed in the cells round a part of a quadrant of the map, where something that
+  /// is taken away reaches beyond this distance; some of them twice.
+  void planes_over(std::uint32_t body, int quadrant, std::span<const Vec3> part, double beyond,
                    std::vector<std::uint32_t>& found) const;
 
  private:
   /// Planes that may be a body's least, or greatest, in a cell of the map.
   struct Listed {
     std::vector<std::uint32_t> planes, first;  // first: per body
+    double farthest = 0;                       // corner of a facet of what is taken away
   };
 
   void add_kept(const std::vector<ChartLimits::Side>& sides, double reach);
@@ -88,7 +93,7 @@ class Floor {
   using Found = std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>>;
   void list_planes();
   void list_kept(std::uint32_t body, Found& found) const;
-  void list_facet(const Facet& facet, Found& found) const;
+  void list_facet(const Facet& facet, Found& found);
   const Listed& listed_at(const OctahedralPoint& point) const;
   std::size_t cell_index(int quadrant, int i, int j) const {
     return (static_cast<std::size_t>(quadrant * side_ + j)) * static_cast<std::size_t>(side_) +

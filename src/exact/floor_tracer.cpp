@@ -18,8 +18,8 @@ namespace {
 
 using core::FacetPolygon;
 
-/// The part of from -> to in which every plane stays below 1, and which is in a cone of half-spaces e . x > 0: what lies
-/// inside a body of planes. Empty intervals have begin >= end.
+/// The part of from -> to in which every plane stays below 1, and which is in a cone of half-spaces e . x > 0: what
+/// lies inside a body of planes. Empty intervals have begin >= end.
 Interval inner_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes,
                     std::span<const Vec3> cone) {
   Interval inner{0, 1};
@@ -178,7 +178,7 @@ void Tracer::gather_blockers() {
 bool Tracer::add_star(std::uint32_t body) {
   found_.clear();
   for_each_quadrant(polygon_, part_, scratch_, [&](int quadrant, const FacetPolygon& part) {
-    floor_.planes_over(body, quadrant, part.corners, found_);
+    floor_.planes_over(body, quadrant, part.corners, 0, found_);
   });
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
@@ -279,9 +279,8 @@ void Tracer::trace_edge(const Vec3& from, const Vec3& to, std::size_t other, std
     const bool apart =
         (hider.bounds.min.array() > high.array()).any() || (hider.bounds.max.array() < low.array()).any();
     if (apart || h == other) continue;
-    const Interval hidden =
-        hider.is_body ? inner_part(from, to, reach(), hider.planes, hider.cone)
-                      : hidden_part(from, to, reach(), hider.planes);
+    const Interval hidden = hider.is_body ? inner_part(from, to, reach(), hider.planes, hider.cone)
+                                          : hidden_part(from, to, reach(), hider.planes);
     shown_.subtract(hidden.begin, hidden.end);
   }
   shown_.drop_shorter_than(shortest_ / length);

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/causes.h"
+#include "core/portable_math.h"
 #include "exact/collect.h"
+#include "exact/gauge.h"
 #include "exact/triangulation.h"
 #include "target/lengths.h"
 
@@ -24,10 +26,12 @@ constexpr std::uint32_t kCeiling = 1u << 31;
 
 class Causes {
  public:
-  Causes(const PreparedScene& scene, const BlockerSet& blockers, const LimitsOfView* limits, HalfSpaceVolume& side)
+  Causes(const PreparedScene& scene, const BlockerSet& blockers, const LimitsOfView* limits, const Floor* floor,
+         HalfSpaceVolume& side)
       : scene_(scene),
         blockers_(blockers),
         limits_(limits),
+        floor_(floor),
         side_(side),
         of_object_(scene.objects().size(), kNone),
         of_limit_(limits ? limits->causes.size() : 0, kNone) {}
@@ -68,7 +72,7 @@ class Causes {
     if (blocker == Boundary::kTargetPlane) {
       return number(plane_, [] { return Cause{CauseKind::target_plane, "target plane"}; });
     }
-    if (blocker >= Boundary::kFloor) return of_limit(limits_->floor.label(blocker - Boundary::kFloor));
+    if (blocker >= Boundary::kFloor) return of_limit(floor_->label(blocker - Boundary::kFloor));
     const std::uint32_t of_blocker = blockers_.polygon[blocker];
     if (of_blocker >= kCeiling) return of_limit(of_blocker - kCeiling);
     polygon = of_blocker;
@@ -79,6 +83,7 @@ class Causes {
   const PreparedScene& scene_;
   const BlockerSet& blockers_;
   const LimitsOfView* limits_;
+  const Floor* floor_;
   HalfSpaceVolume& side_;
   std::uint32_t range_ = kNone, plane_ = kNone;
   std::vector<std::uint32_t> of_object_, of_limit_;
@@ -123,6 +128,31 @@ void collect_for_all(const PreparedScene::Data& scene, const TargetFrame& frame,
   }
 }
 
+/// How far the view reaches before the limits on how near it begins.
+std::optional<Floor> with_stars(const LimitsOfView& limits, const BlockerSet& blockers, const DirectionTree& tree,
+                                const target::RangeRegion& range) {
+  const auto reach_at = [&](const Vec3& direction) {
+    const Vec3 up(direction.x(), direction.y(), std::max(direction.z(), 0.0));
+    const OctahedralPoint at = to_octahedral(up);
+    return to_direction(at).norm() / evaluate_gauge(blockers, tree, range, at).value;
+  };
+  const auto reach = [&](const Vec3& direction, double angle) {
+    constexpr double kWide = 0.03;
+    constexpr int kRound = 6;
+    double farthest = reach_at(direction);
+    if (angle < kWide) return farthest;
+    const Vec3 aside = std::tan(angle) * direction.unitOrthogonal(), across = direction.cross(aside);
+    for (int i = 0; i < kRound; ++i) {
+      const portable::SineCosine turn = portable::sine_cosine(2 * std::numbers::pi * i / kRound);
+      farthest = std::max(farthest, reach_at((direction + turn.cosine * aside + turn.sine * across).normalized()));
+    }
+    return farthest;
+  };
+  std::vector<ChartLimits::Star> stars;
+  for (const ChartLimits::StarMaker& make : limits.stars) stars.push_back(make(reach));
+  return limits.floor.with(stars);
+}
+
 /// `limits`: null where there are none.
 std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetFrame& frame, Cover cover,
                                        const target::RangeRegion& range, const LimitsOfView* limits,
@@ -133,6 +163,10 @@ std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetF
   DirectionTree tree(blockers, range);
   if (limits) add_ceilings(*limits, blockers, tree);
   collect_for_all(scene.data(), frame, cover, range, blockers, tree, progress);
+  std::optional<Floor> all_limits;
+  if (limits) all_limits = with_stars(*limits, blockers, tree, range);
+  if (limits && !all_limits) return std::nullopt;
+  const Floor* const floor = all_limits && !all_limits->empty() ? &*all_limits : nullptr;
   progress.begin("tracing the envelope");
   // Seen from the centre a chord must also stay well within a cell of the grid: a region may be no wider than the
   // tolerance.
@@ -140,7 +174,6 @@ std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetF
   const CurveSampling sampling{std::min(options.tolerance_m * 0.5, widest),
                                std::sqrt(8 * range.radius() * options.tolerance_m)};
   Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, grid, progress);
-  const Floor* const floor = limits && !limits->floor.empty() ? &limits->floor : nullptr;
   FloorSkeleton floor_skeleton;
   if (floor) {
     floor_skeleton = trace_floor(*floor, blockers, tree, range, sampling, progress);
@@ -156,7 +189,7 @@ std::optional<HalfSpaceVolume> compute(const PreparedScene& scene, const TargetF
   HalfSpaceVolume side;
   side.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,
                  boundary->constraint_edges};
-  Causes(scene, blockers, limits, side).add(*boundary);
+  Causes(scene, blockers, limits, floor, side).add(*boundary);
   side.range_height = 1 / range.gauge(Vec3::UnitZ());
   side.mesh = std::move(boundary->mesh);
   for (const Vec3& v : side.mesh.vertices) side.height = std::max(side.height, v.z());
@@ -180,7 +213,7 @@ HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame
 
 std::optional<LimitsOfView> limits_of_view(const ChartLimits& limits, std::vector<Cause> causes,
                                            const TargetFrame& frame, const target::RangeRegion& range) {
-  LimitsOfView all{{}, {}, std::move(causes)};
+  LimitsOfView all{{}, {}, limits.stars, std::move(causes)};
   std::optional<Floor> floor = Floor::of(limits, range.radius(), all.ceilings);
   if (!floor || !holds_target(all.ceilings, frame)) return std::nullopt;
   all.floor = std::move(*floor);

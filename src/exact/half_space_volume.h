@@ -45,7 +45,8 @@ HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame
 /// Limits, ready to be cut in the chart.
 struct LimitsOfView {
   std::vector<ChartLimits::Side> ceilings;
-  Floor floor;
+  Floor floor;  ///< of all but `stars`
+  std::vector<ChartLimits::StarMaker> stars;
   std::vector<Cause> causes;  ///< by label
 };
 

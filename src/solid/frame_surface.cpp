@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -22,14 +23,16 @@ using sensor::AimedView;
 using sensor::AimFinder;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr int kFirstParts = 6;         // of the icosahedron's sides: 720 facets
-constexpr double kNarrowest = 4e-3;    // radians: shorter edges are not halved
-constexpr double kRaise = 1 + 1e-4;    // what is raised once need not be raised again for a neighbour's sake
-constexpr int kOwnRaises = 10;         // of a facet, before it gives up its corners' own aims
-constexpr double kWorthHalving = 0.5;  // facets that take away so many times the mean of all too much
-constexpr double kSmallTurn = 0.3;     // radians: aims between two that differ by less are tried for their middle
-constexpr int kVerticalAims = 12;      // in half a turn, after which the picture is the same
-constexpr double kSteep = 1.1;         // radians above or below level
+constexpr int kFirstParts = 6;       // of the icosahedron's sides: 720 facets
+constexpr double kFirstSide = 0.2;   // radians: these are no longer
+constexpr double kNarrowest = 4e-3;  // radians: shorter edges are not halved
+constexpr double kRaise = 1 + 1e-4;  // what is raised once need not be raised again for a neighbour's sake
+constexpr int kOwnRaises = 10;       // of a facet, before it gives up its corners' own aims
+constexpr double kEnough = 0.9;      // of the most facets
+constexpr double kMuch = 2.0;        // times the distance that a corner's own aim allows
+constexpr double kSmallTurn = 0.3;   // radians: aims between two that differ by less are tried for their middle
+constexpr int kVerticalAims = 12;    // in half a turn, after which the picture is the same
+constexpr double kSteep = 1.1;       // radians above or below level
 
 double cube(double x) { return x * x * x; }
 
@@ -37,6 +40,14 @@ double cube(double x) { return x * x * x; }
 double turn(double from, double to) {
   const double difference = to - from;
   return std::abs(difference) <= std::numbers::pi ? difference : std::remainder(difference, 2 * std::numbers::pi);
+}
+
+/// The most that a l_0 l_1 + b l_1 l_2 + c l_2 l_0 can be for weights l >= 0 that add up to 1, with a, b, c >= 0: as
+/// the square of the radius of the smallest circle round a triangle with sides of these squares.
+double most_of_products(double a, double b, double c) {
+  const double largest = std::max({a, b, c});
+  if (largest >= a + b + c - largest) return largest / 4;
+  return a * b * c / (2 * (a * b + b * c + c * a) - a * a - b * b - c * c);
 }
 
 class FrameSurfaceBuilder {
@@ -63,14 +74,15 @@ class FrameSurfaceBuilder {
 
  private:
   struct Node {
-    explicit Node(const Vec3& unit) : direction(unit) {}
+    Node(const Vec3& unit, double reach_m) : direction(unit), reach(reach_m) {}
 
     Vec3 direction;
+    double reach = 0;
     std::optional<Aim> start;  ///< between those of its neighbours, if they are near to each other
     bool is_known = false;
     bool is_new = false;  ///< its view has changed since facets were asked
-    AimedView view;   ///< of the best aim found,
-    double best = 0;  ///< and how near it lets the viewpoint come
+    AimedView view;       ///< of the best aim found,
+    double best = 0;      ///< and how near it lets the viewpoint come
     double distance = 0;
   };
   /// Distances that its corners need for a facet to be safe.
@@ -80,13 +92,24 @@ class FrameSurfaceBuilder {
     Needs needs;
   };
 
+  Node node_at(const Vec3& direction, double side) const {
+    constexpr double kAbout = 0.6;  // of a side: what is so near to a corner may be in a facet
+    if (!view_.reach_along) return {direction, view_.reach};
+    return {direction, std::min(view_.reach_along(direction, kAbout * side), view_.reach)};
+  }
   bool matters(const Triangle& facet) const;
   void estimate();
-  void settle();
+  /// Those beside corners that are far out take others with them: facets that no aim does for.
+  enum class Asked { all, beside_raised };
+  void settle(Asked asked);
   Needs cheaper(const Triangle& facet) const;
   bool holds(const Triangle& facet, const Needs& needs) const;
   Needs own_needs(const Triangle& facet) const;
   Needs shared_needs(const Triangle& facet) const;
+  double length(std::uint32_t a, std::uint32_t b) const;
+  double space(const Triangle& facet) const;
+  double least_space() const;
+  std::uint32_t add_middle(std::uint32_t a, std::uint32_t b);
   bool refine();
   void aim_nodes();
 
@@ -103,17 +126,17 @@ class FrameSurfaceBuilder {
 
 /// Whether some of a facet's directions are to the front, or rounding may take them to be.
 bool FrameSurfaceBuilder::matters(const Triangle& facet) const {
-  constexpr double kBehind = -1e-6;
+  constexpr double kMostBehind = 1e-6;
   if (!view_.front) return true;
   return std::any_of(facet.begin(), facet.end(),
-                     [&](std::uint32_t i) { return view_.front->dot(nodes_[i].direction) > kBehind; });
+                     [&](std::uint32_t i) { return view_.front->dot(nodes_[i].direction) > -kMostBehind; });
 }
 
 /// What the corners need where each has its own aim. Between them the camera is aimed at the mean of the three, by the
 /// weights l of the place p = sum l_i p_i. How far a corner v of the target is inside of an edge's plane with the
 /// normal n, f = n . (v - p), is at the least sum l_i f_i - sum over pairs of l_i l_j f''_ij / 2 less a rest, with
 /// f''_ij the second derivative from one corner to the other, n'' . (v - p) - 2 n' . (p_i - p_j), at the facet's
-/// middle. The products l_i l_j add up to 1/3 at most. docs/theory.md has the rest, and why it is the rest.
+/// middle. docs/theory.md has the rest, and why it is the rest.
 FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet) const {
   struct Side {
     double yaw, pitch;
@@ -148,7 +171,7 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet)
     const Vec3& n = edges[k];
     const Vec3 n_yaw = by_yaw(n), n_pitch = level.cross(n);
     const Vec3 n_yaw_yaw = by_yaw(n_yaw), n_yaw_pitch = 2 * by_yaw(n_pitch), n_pitch_pitch = level.cross(n_pitch);
-    double most = 0;
+    std::array<double, 3> most;
     for (std::size_t i = 0; i < 3; ++i) {
       const Side& side = sides[i];
       const Vec3 first = side.yaw * n_yaw + side.pitch * n_pitch;
@@ -156,9 +179,9 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet)
           side.yaw * (side.yaw * n_yaw_yaw + side.pitch * n_yaw_pitch) + side.pitch * side.pitch * n_pitch_pitch;
       double farthest_corner = -kNever;
       for (const Vec3& corner : view_.corners) farthest_corner = std::max(farthest_corner, second.dot(corner));
-      most = std::max(most, farthest_corner - second.dot(middle) - 2 * first.dot(side.way));
+      most[i] = std::max(0.0, farthest_corner - second.dot(middle) - 2 * first.dot(side.way));
     }
-    slack[k] = most / 6 + normal_length_[k / 2] * rest;
+    slack[k] = most_of_products(most[0], most[1], most[2]) / 2 + normal_length_[k / 2] * rest;
   }
   Needs needs;
   for (std::size_t i = 0; i < 3; ++i) needs[i] = nodes_[facet[i]].view.distance(nodes_[facet[i]].direction, slack);
@@ -227,14 +250,20 @@ void FrameSurfaceBuilder::estimate() {
     }
   }
   for (Node& node : nodes_) node.is_new = false;
+  settle(Asked::beside_raised);
 }
 
 /// Raises corners until every facet is safe. A facet that one aim makes safe stays so when corners are raised, others
 /// are asked again. A facet that does not settle early gives up its own aims, as what they need grows with the
 /// distances; so this ends.
-void FrameSurfaceBuilder::settle() {
-  std::vector<int> raised(nodes_.size(), 0);  // in which pass
-  for (Node& node : nodes_) node.distance = std::min(node.distance * kRaise, cap_);
+void FrameSurfaceBuilder::settle(Asked asked) {
+  constexpr int kBefore = -2;
+  std::vector<int> raised(nodes_.size(), asked == Asked::all ? 0 : kBefore);  // in which pass
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    if (node.distance > kMuch * node.best) raised[i] = 0;
+    node.distance = std::min(node.distance * kRaise, cap_);
+  }
   const auto cost = [&](const Triangle& facet, const Needs& needs) {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
@@ -269,47 +298,67 @@ void FrameSurfaceBuilder::settle() {
   }
 }
 
+double FrameSurfaceBuilder::length(std::uint32_t a, std::uint32_t b) const {
+  return (nodes_[a].direction - nodes_[b].direction).norm();
+}
+
+/// What a facet takes away too much of what can be seen, times 18.
+double FrameSurfaceBuilder::space(const Triangle& facet) const {
+  double sum = 0;
+  for (const std::uint32_t i : facet) {
+    const Node& node = nodes_[i];
+    sum += std::max(cube(std::min(node.distance, node.reach)) - cube(node.best), 0.0);
+  }
+  const Vec3& from = nodes_[facet[0]].direction;
+  return sum * (nodes_[facet[1]].direction - from).cross(nodes_[facet[2]].direction - from).norm();
+}
+
+/// Facets with more space are halved: more than the mean, and no more of them than there may be.
+double FrameSurfaceBuilder::least_space() const {
+  std::vector<double> spaces;
+  double all = 0;
+  for (const Triangle& facet : facets_) {
+    if (!matters(facet)) continue;
+    spaces.push_back(space(facet));
+    all += spaces.back();
+  }
+  const double mean = all / static_cast<double>(facets_.size());
+  // A facet that is halved halves another one beside it.
+  const std::size_t most = std::max<std::size_t>((view_.most_facets - facets_.size()) / 2, 1);
+  if (spaces.size() <= most) return mean;
+  std::ranges::nth_element(spaces, spaces.begin() + static_cast<std::ptrdiff_t>(most), std::greater());
+  return std::max(mean, spaces[most]);
+}
+
+std::uint32_t FrameSurfaceBuilder::add_middle(std::uint32_t a, std::uint32_t b) {
+  Node node = node_at((nodes_[a].direction + nodes_[b].direction).normalized(), length(a, b) / 2);
+  if (nodes_[a].is_known && nodes_[b].is_known) {
+    const Aim from = nodes_[a].view.aim, to = nodes_[b].view.aim;
+    const double yaw = turn(from.yaw, to.yaw), pitch = to.pitch - from.pitch;
+    if (std::abs(yaw) + std::abs(pitch) < kSmallTurn) node.start = Aim{from.yaw + yaw / 2, from.pitch + pitch / 2};
+  }
+  nodes_.push_back(node);
+  return static_cast<std::uint32_t>(nodes_.size() - 1);
+}
+
 /// Halves facets that lie farther out than they have to, of these the ones with the most space between the two. False
-/// where none does.
+/// where none does, or there are enough.
 bool FrameSurfaceBuilder::refine() {
-  const auto length = [&](std::uint32_t a, std::uint32_t b) {
-    return (nodes_[a].direction - nodes_[b].direction).norm();
-  };
+  if (static_cast<double>(facets_.size()) > kEnough * static_cast<double>(view_.most_facets)) return false;
   const auto is_far_out = [&](std::uint32_t i) {
     const Node& node = nodes_[i];
-    return node.best < view_.reach && node.distance > node.best * (1 + view_.share);
+    return node.best < node.reach && node.distance > node.best * (1 + view_.share);
   };
-  const auto space = [&](const Triangle& t) {
-    const Vec3& from = nodes_[t[0]].direction;
-    double sum = 0;
-    for (const std::uint32_t i : t) {
-      const Node& node = nodes_[i];
-      sum += std::max(cube(std::min(node.distance, view_.reach)) - cube(node.best), 0.0);
-    }
-    return sum * (nodes_[t[1]].direction - from).cross(nodes_[t[2]].direction - from).norm();
-  };
-  double all = 0;
-  for (const Triangle& t : facets_) {
-    if (matters(t)) all += space(t);
-  }
-  const double least = kWorthHalving * all / static_cast<double>(facets_.size());
+  const double least = least_space();
   const auto wants = [&](const Triangle& t) {
     return matters(t) && std::any_of(t.begin(), t.end(), is_far_out) && space(t) > least &&
            std::max({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])}) > kNarrowest;
   };
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    Node node((nodes_[a].direction + nodes_[b].direction).normalized());
-    if (nodes_[a].is_known && nodes_[b].is_known) {
-      const Aim from = nodes_[a].view.aim, to = nodes_[b].view.aim;
-      const double yaw = turn(from.yaw, to.yaw), pitch = to.pitch - from.pitch;
-      if (std::abs(yaw) + std::abs(pitch) < kSmallTurn) node.start = Aim{from.yaw + yaw / 2, from.pitch + pitch / 2};
-    }
-    nodes_.push_back(node);
-    return static_cast<std::uint32_t>(nodes_.size() - 1);
-  };
   const std::vector<Triangle> before = facets_;
   std::vector<std::uint32_t> of_facet;
-  if (!halve_sides(facets_, wants, length, middle, of_facet)) return false;
+  const auto side_length = [&](std::uint32_t a, std::uint32_t b) { return length(a, b); };
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) { return add_middle(a, b); };
+  if (!halve_sides(facets_, wants, side_length, middle, of_facet)) return false;
   std::vector<Estimate> estimates(facets_.size());
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     if (facets_[i] == before[of_facet[i]]) estimates[i] = estimates_[of_facet[i]];
@@ -355,7 +404,8 @@ void FrameSurfaceBuilder::aim_nodes() {
     is_better = false;
     ++pass;
     for (const Triangle& facet : facets_) {
-      const bool is_new = changed[facet[0]] >= pass - 1 || changed[facet[1]] >= pass - 1 || changed[facet[2]] >= pass - 1;
+      const bool is_new =
+          changed[facet[0]] >= pass - 1 || changed[facet[1]] >= pass - 1 || changed[facet[2]] >= pass - 1;
       if (!is_new || !matters(facet)) continue;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t a = facet[i], b = facet[(i + 1) % 3];
@@ -369,13 +419,13 @@ void FrameSurfaceBuilder::aim_nodes() {
 
 FrameSurface FrameSurfaceBuilder::build() {
   SphereMesh sphere = make_sphere(kFirstParts);
-  for (const Vec3& direction : sphere.mesh.vertices) nodes_.push_back(Node(direction));
+  for (const Vec3& direction : sphere.mesh.vertices) nodes_.push_back(node_at(direction, kFirstSide));
   facets_ = std::move(sphere.mesh.triangles);
   do {
     aim_nodes();
     estimate();
-  } while (facets_.size() < view_.most_facets && refine());
-  settle();
+  } while (refine());
+  settle(Asked::all);
 
   FrameSurface surface;
   surface.least_distance = kNever;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,10 +16,13 @@ struct FrameView {
   std::optional<Vec3> front;  ///< viewpoints lie on this side of the plane through c; none: all round
   Pinhole camera;
   Mount mount;
-  double reach = 0;     ///< metres: no viewpoint farther from c matters
+  double reach = 0;  ///< metres: no viewpoint farther from c matters
+  /// The same along a direction of unit length and some that differ from it by an angle, radians; metres, 0 for none.
+  /// It is not needed to be safe: it tells where a surface that lies farther out takes nothing away. None: `reach`.
+  std::function<double(const Vec3& direction, double angle)> reach_along = {};
   double least = 0;     ///< metres: nor one nearer than this
   double share = 5e-3;  ///< the surface may lie so much farther out than it has to, of the distance, but where ..
-  std::size_t most_facets = 6000;  ///< .. that takes more facets than these; the last halving may go beyond
+  std::size_t most_facets = 7500;  ///< .. that takes more facets than about these
 };
 
 /// A closed mesh, star-shaped about c: no viewpoint outside of it, on the front and within reach, has the target only

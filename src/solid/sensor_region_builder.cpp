@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -100,19 +99,28 @@ void SensorRegionBuilder::forbid(const std::string& name, const Mesh& convex) {
   chart_->limits.removed.push_back(std::move(body));
 }
 
-void SensorRegionBuilder::forbid_star(const std::string& name, const Mesh& mesh, const std::vector<std::string>& names,
-                                      const std::string& explanation) {
-  std::map<std::string, std::uint32_t> label;
-  std::vector<std::uint32_t> labels;
-  for (const std::string& of_triangle : names) {
-    const auto [at, is_new] = label.try_emplace(of_triangle, 0);
-    if (is_new) at->second = chart_ ? label_in_chart(of_triangle) : label_of(of_triangle);
-    labels.push_back(at->second);
+void SensorRegionBuilder::forbid_star(const std::string& name, const std::vector<std::string>& names,
+                                      const std::function<Star(const exact::ChartLimits::Reach&)>& make) {
+  std::vector<std::uint32_t> label;
+  for (const std::string& of : names) label.push_back(chart_ ? label_in_chart(of) : label_of(of));
+  const auto labels_of = [label](const Star& star) {
+    std::vector<std::uint32_t> labels;
+    for (const std::size_t of : star.name_of) labels.push_back(label[of]);
+    return labels;
+  };
+  if (!chart_) {
+    const Star star = make({});
+    return forbid(name, solid_of(star.mesh, labels_of(star)), star.explanation);
   }
-  if (!chart_) return forbid(name, solid_of(mesh, std::move(labels)), explanation);
-  exact::ChartLimits::Star star{mesh, std::move(labels)};
-  for (Vec3& vertex : star.mesh.vertices) vertex = frame_->to_local(vertex + viewed_.origin);
-  chart_->limits.stars.push_back(std::move(star));
+  chart_->limits.stars.push_back(
+      [make, labels_of, frame = *frame_, origin = viewed_.origin](const exact::ChartLimits::Reach& reach) {
+        const Star star = make([&](const Vec3& direction, double angle) {
+          return reach({frame.axis_u.dot(direction), frame.axis_v.dot(direction), frame.normal.dot(direction)}, angle);
+        });
+        exact::ChartLimits::Star local{star.mesh, labels_of(star)};
+        for (Vec3& vertex : local.mesh.vertices) vertex = frame.to_local(vertex + origin);
+        return local;
+      });
 }
 
 void SensorRegionBuilder::keep(const std::string& name, std::vector<HalfSpace> half_spaces,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,9 +51,15 @@ class SensorRegionBuilder {
   void keep(const std::string& name, std::vector<HalfSpace> half_spaces, const std::string& explanation = {});
   /// What is in a convex mesh.
   void forbid(const std::string& name, const Mesh& convex);
-  /// What is in a closed mesh that is star-shaped about the origin. `names`: of the cause, per triangle.
-  void forbid_star(const std::string& name, const Mesh& mesh, const std::vector<std::string>& names,
-                   const std::string& explanation);
+  /// What is in a closed mesh that is star-shaped about the origin.
+  struct Star {
+    Mesh mesh;
+    std::vector<std::size_t> name_of;  ///< per triangle: of the cause, among `names`
+    std::string explanation;
+  };
+  /// `make` is called now or later: it refers to nothing. It is told how far the view reaches, if that is known.
+  void forbid_star(const std::string& name, const std::vector<std::string>& names,
+                   const std::function<Star(const exact::ChartLimits::Reach&)>& make);
 
  private:
   const sensor::Viewed& viewed_;
