@@ -147,6 +147,30 @@ class Picture {
     return out <= allowed;
   }
 
+  /// The same by one search within another, for each pitch the best yaw: slower, but it ends nowhere on a slanted
+  /// ridge, where all the neighbours are worse.
+  template <typename Positions>
+  bool refine(CameraAim& aim, const Positions& positions, double allowed) const {
+    constexpr double kAround = 0.1;  // radians
+    CameraAim best = aim;
+    double least = out_by(aim, positions);
+    const auto out_at = [&](const CameraAim& at) {
+      const double out = out_by(at, positions);
+      if (out < least) {
+        least = out;
+        best = at;
+      }
+      return out;
+    };
+    const auto out_at_pitch = [&](double pitch) {
+      if (mount_.yaw_deg) return out_at({aim.yaw, pitch});
+      return least_between(aim.yaw - kAround, aim.yaw + kAround, [&](double yaw) { return out_at({yaw, pitch}); });
+    };
+    least_between(clamped(aim.pitch - kAround), clamped(aim.pitch + kAround), out_at_pitch);
+    aim = best;
+    return least <= allowed;
+  }
+
   /// Whether an orientation that changes linearly, from that of one corner of a facet to that of the next, serves all
   /// of it. Of the planes through an edge of the picture the normals would change linearly but for half of the square
   /// of the turn; then what is out is a polynomial of the second degree, and is no more than the most of its six
@@ -187,6 +211,30 @@ class Picture {
   }
 
  private:
+  /// The least of a function that falls and then rises (Kiefer 1953).
+  template <typename Function>
+  static double least_between(double begin, double end, const Function& value) {
+    constexpr double kPart = 0.6180339887498949, kLast = 2e-6;  // radians
+    double left = end - kPart * (end - begin), right = begin + kPart * (end - begin);
+    double at_left = value(left), at_right = value(right);
+    while (end - begin > kLast) {
+      if (at_left < at_right) {
+        end = right;
+        right = left;
+        at_right = at_left;
+        left = end - kPart * (end - begin);
+        at_left = value(left);
+      } else {
+        begin = left;
+        left = right;
+        at_left = at_right;
+        right = begin + kPart * (end - begin);
+        at_right = value(right);
+      }
+    }
+    return std::min(at_left, at_right);
+  }
+
   double clamped(double pitch) const {
     return std::clamp(pitch, mount_.min_pitch_deg * kDegrees, mount_.max_pitch_deg * kDegrees);
   }
@@ -208,7 +256,12 @@ class FacetServer {
     std::array<CameraAim, 3> aims = {aim, aim, aim};
     if (!serves_corners(facet, aims)) return false;
     if (picture_.serve(aims, facet, allowed_) || picture_.find(aim, facet, allowed_)) return true;
+    if (picture_.refine(aim, facet, allowed_)) return true;
     aims = {aim, aim, aim};  // orientations of the corners that are alike
+    if (serves_corners(facet, aims) && serves_in_parts(facet, aims)) return true;
+    is_fine_ = true;
+    left_ = kMostCuts;
+    aims = {aim, aim, aim};
     return serves_corners(facet, aims) && serves_in_parts(facet, aims);
   }
 
@@ -216,7 +269,9 @@ class FacetServer {
   bool serves_corner(const Vec3& corner, CameraAim& aim) const {
     const std::array<Vec3, 1> only = {corner};
     picture_.improve(aim, only, -std::numeric_limits<double>::infinity());
-    return picture_.out_by(aim, only) <= allowed_ || picture_.find(aim, {corner, corner, corner}, allowed_);
+    if (is_fine_) return picture_.refine(aim, only, allowed_);
+    return picture_.out_by(aim, only) <= allowed_ || picture_.refine(aim, only, allowed_) ||
+           picture_.find(aim, {corner, corner, corner}, allowed_);
   }
 
   bool serves_corners(const LimitedVolume::Corners& facet, std::array<CameraAim, 3>& aims) const {
@@ -249,7 +304,9 @@ class FacetServer {
 
   const Picture& picture_;
   double allowed_;
-  int left_ = 100;  ///< of the times that it may be cut, or a part of it
+  static constexpr int kMostCuts = 100;  // of a facet and its parts
+  int left_ = kMostCuts;
+  bool is_fine_ = false;  // whether each corner gets the best orientation
 };
 
 }  // namespace
