@@ -141,7 +141,8 @@ std::optional<Floor> with_stars(const LimitsOfView& limits, const BlockerSet& bl
     constexpr int kRound = 6;
     double farthest = reach_at(direction);
     if (angle < kWide) return farthest;
-    const Vec3 aside = std::tan(angle) * direction.unitOrthogonal(), across = direction.cross(aside);
+    const portable::SineCosine off = portable::sine_cosine(angle);
+    const Vec3 aside = off.sine / off.cosine * direction.unitOrthogonal(), across = direction.cross(aside);
     for (int i = 0; i < kRound; ++i) {
       const portable::SineCosine turn = portable::sine_cosine(2 * std::numbers::pi * i / kRound);
       farthest = std::max(farthest, reach_at((direction + turn.cosine * aside + turn.sine * across).normalized()));
