@@ -2,6 +2,14 @@
 # and how much of the first. docs/libraries.md lists them. Shared or static as BUILD_SHARED_LIBS says.
 set(source ${PROJECT_SOURCE_DIR}/src)
 
+# Sources of src/core that are for another system than this one: those in windows/ stand for others.
+if(WIN32)
+  set(VANTAGE_OTHER_SYSTEM
+      "/src/core/(file_locks|replace_folder|system_files|system_limits|temporary_(file|folder|mark))\\.cpp$")
+else()
+  set(VANTAGE_OTHER_SYSTEM "/src/core/windows/")
+endif()
+
 # vantage_part(NAME  MODULES folders of src/...  [HOT more folders: without the standard library's checks, see
 # cmake/Options.cmake]  [OF_LIMITS prove ...: src/limits/*/prove*.cpp]  [SOURCES more files]  [LINK targets that an installed static library needs as well]  [BUILD
 # targets that only the build needs]): a part of a library. Compiled once: for the library, and for the tests, which see
@@ -17,6 +25,7 @@ function(vantage_part name)
     endforeach()
     # Of these there is one for each choice: SOURCES names the one that is taken.
     list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/io/(draco|meshopt)_|/src/app/kml_zones_|/tour/linear_program_")
+    list(FILTER sources EXCLUDE REGEX ${VANTAGE_OTHER_SYSTEM})
     if(kind STREQUAL "MODULES")
       list(APPEND sources ${part_SOURCES})
       foreach(layer IN LISTS part_OF_LIMITS)

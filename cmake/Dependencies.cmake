@@ -62,13 +62,17 @@ if(VANTAGE_WITH_PICTURE)
   pkg_check_modules(VANTAGE_CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16 cairo-ft freetype2)
 endif()
 
-# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time, or linked. In a browser there is
-# none: what includes vantage says in VANTAGE_PROJ_INCLUDE_DIRS where its headers are.
-if(NOT EMSCRIPTEN)
+# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time, or linked. Where there is
+# none, as in a browser, VANTAGE_PROJ_INCLUDE_DIRS says where its headers are.
+option(VANTAGE_WITH_PROJ "Take coordinate reference systems, with PROJ" ON)
+if(EMSCRIPTEN)
+  set(VANTAGE_WITH_PROJ OFF)
+endif()
+if(VANTAGE_WITH_PROJ)
   pkg_check_modules(VANTAGE_PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
 endif()
 option(VANTAGE_LINK_PROJ "Link PROJ, instead of loading it for the first scene that has a place on the earth" OFF)
-if(EMSCRIPTEN)
+if(NOT VANTAGE_WITH_PROJ)
   set(VANTAGE_PROJ_DEFINITIONS VANTAGE_PROJ_ABSENT)
 elseif(VANTAGE_LINK_PROJ)
   set(VANTAGE_PROJ_TARGET PkgConfig::VANTAGE_PROJ)

@@ -1,7 +1,5 @@
 #include "common/atomic_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/system_files.h"
 #include "core/temporary_file.h"
 #include "vantage/error.h"
 
@@ -21,7 +20,9 @@ constexpr std::size_t kBufferBytes = 1 << 20;
 std::string advice_for(int error_number) {
   switch (error_number) {
     case ENOSPC:
+#ifdef EDQUOT  // Windows has neither this one nor ESTALE
     case EDQUOT:
+#endif
       return "free some space or write elsewhere; the old file, if any, is as it was";
     case EFBIG:
       return "raise the limit on file sizes or write elsewhere; the old file, if any, is as it was";
@@ -32,8 +33,10 @@ std::string advice_for(int error_number) {
     case EPERM:
     case EROFS:
       return "write to a directory that you may write to";
+#ifdef ESTALE
     case ESTALE:
       return "another program took the name of the temporary file; write again, into a folder of your own";
+#endif
     default:
       return "write elsewhere; the old file, if any, is as it was";
   }
@@ -55,15 +58,6 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-/// A rename must reach the disk too. Not every file system lets a folder be synchronised; by then the file is whole
-/// either way.
-void synchronise(const std::filesystem::path& folder) {
-  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (handle < 0) return;
-  (void)::fsync(handle);
-  ::close(handle);
-}
-
 }  // namespace
 
 struct AtomicFile::Temporary : internal::core::TemporaryFile {
@@ -73,18 +67,21 @@ struct AtomicFile::Temporary : internal::core::TemporaryFile {
 AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), target_(resolved(target)) {
   if (target.empty())
     throw Error(ErrorCode::output_name_missing, "no output file was named", "", "give the name of a file");
-  struct stat old {};
-  const bool exists = ::stat(target_.c_str(), &old) == 0;
-  if (!exists && errno == ELOOP) fail("cannot create the file", ELOOP);
-  if ((exists && S_ISDIR(old.st_mode)) || target_.filename().empty()) {
+  std::error_code unknown;
+  const std::filesystem::file_status old = std::filesystem::status(target_, unknown);
+  const bool exists = !unknown && std::filesystem::exists(old);
+  if (unknown == std::errc::too_many_symbolic_link_levels) fail("cannot create the file", ELOOP);
+  if ((exists && std::filesystem::is_directory(old)) || target_.filename().empty()) {
     throw Error(ErrorCode::output_not_a_file, "the output is a directory", asked_.string(), "give the name of a file");
   }
-  if (exists && !S_ISREG(old.st_mode)) {
+  if (exists && !std::filesystem::is_regular_file(old)) {
     throw Error(ErrorCode::output_not_a_file, "the output is a device, a pipe or a socket, not a file", asked_.string(),
                 "give the name of a file");
   }
   // A rename would replace a file that its owner has protected.
-  if (exists && ::access(target_.c_str(), W_OK) != 0) fail("cannot write the file", errno);
+  using internal::core::Access;
+  const int denied = exists ? internal::core::access_error(target_, Access::write) : 0;
+  if (denied) fail("cannot write the file", denied);
   buffer_.reserve(kBufferBytes);
   try {
     temporary_ = std::make_unique<Temporary>(target_);
@@ -92,7 +89,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), ta
     fail("cannot create the file", error.code().value());
   }
   replaces_ = exists;
-  if (exists) (void)::fchmod(temporary_->descriptor(), old.st_mode & 07777);
+  if (exists) internal::core::copy_permissions(target_, temporary_->descriptor());
 }
 
 AtomicFile::~AtomicFile() = default;
@@ -127,7 +124,7 @@ void AtomicFile::seal() {
   if (is_sealed_) return;
   flush();
   // Some file systems report a full disk only here. It stays open: with it goes the lock that says whose it is.
-  if (::fsync(temporary_->descriptor()) != 0) fail("cannot write the file", errno);
+  if (const int error = internal::core::synchronise(temporary_->descriptor())) fail("cannot write the file", error);
   is_sealed_ = true;
 }
 
@@ -142,7 +139,7 @@ void AtomicFile::put_in_place() {
 void AtomicFile::commit() {
   seal();
   put_in_place();
-  synchronise(folder_of(target_));
+  internal::core::synchronise_folder(folder_of(target_));
 }
 
 void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
@@ -157,18 +154,20 @@ void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
     for (; done < files.size(); ++done) files[done]->put_in_place();
   } catch (const Error& error) {
     std::string lost;
+    std::error_code ignored;
     while (done-- > 0) {
       const AtomicFile& file = *files[done];
-      const bool is_as_before = file.replaces_ ? file.temporary_->give_back() : ::unlink(file.target_.c_str()) == 0;
+      const bool is_as_before =
+          file.replaces_ ? file.temporary_->give_back() : std::filesystem::remove(file.target_, ignored);
       if (!is_as_before) lost += (lost.empty() ? "" : ", ") + file.asked_.string();
-      synchronise(folder_of(file.target_));
+      internal::core::synchronise_folder(folder_of(file.target_));
     }
     if (lost.empty()) throw;
     throw error.with_fix("write elsewhere; already replaced: " + lost);
   }
   std::set<std::filesystem::path> folders;
   for (const auto& file : files) folders.insert(folder_of(file->target_));
-  for (const auto& folder : folders) synchronise(folder);
+  for (const auto& folder : folders) internal::core::synchronise_folder(folder);
 }
 
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {

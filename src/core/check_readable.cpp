@@ -1,11 +1,9 @@
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <system_error>
 
 #include "common/input.h"
+#include "core/system_files.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -34,8 +32,8 @@ void check_readable(const fs::path& file, const std::string& what, const std::st
     throw Error(ErrorCode::not_a_file, what + " is not a regular file", place,
                 "name a file on disk, not a pipe or a device");
   }
-  if (::access(file.c_str(), R_OK) != 0) {
-    throw Error(ErrorCode::file_unreadable, what + " cannot be read: " + std::strerror(errno), place,
+  if (const int denied = internal::core::access_error(file, internal::core::Access::read)) {
+    throw Error(ErrorCode::file_unreadable, what + " cannot be read: " + std::strerror(denied), place,
                 "change its permissions, or name another file");
   }
 }

@@ -6,11 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <functional>
 #include <system_error>
 
 #include "core/file_locks.h"
-#include "core/format.h"
 #include "core/temporary_mark.h"
 
 namespace vantage::internal::core {
@@ -67,15 +65,6 @@ bool replace_folder(const fs::path& folder, const fs::path& place, bool try_in_o
   if (old >= 0) ::close(old);
   errno = reason;
   return is_done;
-}
-
-fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
-
-std::string temporary_prefix(const fs::path& folder, const std::string& purpose) {
-  constexpr std::size_t kMostBytes = 180;
-  const std::string name = folder.filename().string();
-  if (name.size() <= kMostBytes) return "." + name + ".vantage-" + purpose + "-";
-  return fmt::format(".{}-{:016x}.vantage-{}-", name.substr(0, kMostBytes), std::hash<std::string>()(name), purpose);
 }
 
 }  // namespace vantage::internal::core

@@ -118,15 +118,16 @@ fs::path TemporaryFile::numbered(int number, const char* ending) const {
 /// False where the file system, or a system without /proc, cannot do it: the other way says what is wrong, if anything.
 bool TemporaryFile::open_without_name() {
   const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-#ifdef __EMSCRIPTEN__
+#if defined(__EMSCRIPTEN__) || !defined(O_TMPFILE)
   return false;
-#endif
+#else
   descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
   if (descriptor_ < 0) return false;
   if (::access(name_in_proc(descriptor_).c_str(), F_OK) == 0 && lock_with_others(descriptor_)) return true;
   ::close(descriptor_);
   descriptor_ = -1;
   return false;
+#endif
 }
 
 void TemporaryFile::open_with_name() {

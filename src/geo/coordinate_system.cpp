@@ -62,8 +62,10 @@ void set_search_paths(PJ_CONTEXT* context) {
   std::vector<std::filesystem::path> paths = folders_of_user();
   paths.insert(paths.begin(), folder);
   paths.insert(paths.end(), {"/usr/local/share/proj", "/usr/share/proj"});
+  std::vector<std::string> names;
+  for (const std::filesystem::path& path : paths) names.push_back(path.string());
   std::vector<const char*> pointers;
-  for (const std::filesystem::path& path : paths) pointers.push_back(path.c_str());
+  for (const std::string& name : names) pointers.push_back(name.c_str());
   proj().proj_context_set_search_paths(context, static_cast<int>(pointers.size()), pointers.data());
 }
 

@@ -1,7 +1,9 @@
 #include "geo/proj_library.h"
 
 #ifndef VANTAGE_PROJ_LINKED
+#ifndef VANTAGE_PROJ_ABSENT
 #include <dlfcn.h>
+#endif
 
 #include <string>
 

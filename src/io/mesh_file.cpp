@@ -81,7 +81,7 @@ RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progres
 
 RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const core::ReadLimits& limits,
                        const std::string& lod) {
-  core::ProgressReporter progress(callback, file);
+  core::ProgressReporter progress(callback, file.string());
   try {
     const MeshSource source = load_mesh_source(file, progress, limits);
     RawMesh mesh = read_any(source, progress, limits, lod);

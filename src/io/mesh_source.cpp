@@ -1,6 +1,5 @@
 #include "io/mesh_source.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -9,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "core/system_files.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::io {
@@ -80,8 +80,7 @@ void MeshSource::fail_at_byte(ErrorCode code, std::uint64_t byte, std::string pr
 }
 
 std::string read_file_bytes(const std::filesystem::path& file, const core::ProgressReporter& progress) {
-  // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
-  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const Descriptor descriptor(core::open_to_read(file));
   if (descriptor.get() < 0) {
     if (errno == ENOENT) fail(ErrorCode::file_not_found, file, "the file does not exist", "correct the path");
     fail(ErrorCode::file_unreadable, file, std::string("the file cannot be opened: ") + std::strerror(errno),

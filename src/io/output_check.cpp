@@ -1,13 +1,10 @@
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <system_error>
 
 #include "common/input.h"
 #include "common/output.h"
+#include "core/system_files.h"
 #include "core/temporary_file.h"
 #include "io/output_formats.h"
 #include "io/sidecar.h"
@@ -20,31 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While one lives, signals that ask to end wait: for a step too short to be stopped. Where another thread takes them,
-/// as Python's may, it changes nothing.
-class HeldSignals {
- public:
-  HeldSignals() {
-    sigset_t held;
-    ::sigemptyset(&held);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held, signal);
-    ::pthread_sigmask(SIG_BLOCK, &held, &old_);
-  }
-  ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &old_, nullptr); }
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
-
- private:
-  sigset_t old_{};
-};
-
 /// Asks the file system itself: permissions alone do not tell of a read-only disk, a quota or a network share. By a
 /// file with a name, as the output will have one: some folders take files without a name, and no others.
 void try_to_make_a_file_beside(const fs::path& file) {
   using internal::core::TemporaryFile;
-  const HeldSignals held;  // whoever is ended here leaves no trial behind
   try {
-    const TemporaryFile trial(file, TemporaryFile::Names::from_the_start);
+    // Whoever is ended here leaves no trial behind.
+    internal::core::with_signals_held([&] { const TemporaryFile trial(file, TemporaryFile::Names::from_the_start); });
   } catch (const std::system_error& error) {
     throw Error(ErrorCode::output_unwritable, "no file can be made in the output folder: " + error.code().message(),
                 file.string(), "make the folder writable, or write elsewhere");
@@ -90,9 +69,11 @@ void check_can_write(const fs::path& file) {
     throw Error(ErrorCode::output_folder_missing, "the output folder does not exist", file.string(),
                 "make it first: mkdir -p " + folder.string());
   }
-  if (fs::exists(status) && ::access(file.c_str(), W_OK) != 0) {
+  using internal::core::Access;
+  const int denied = fs::exists(status) ? internal::core::access_error(file, Access::write) : 0;
+  if (denied) {
     throw Error(ErrorCode::output_unwritable,
-                std::string("the output file is write-protected: ") + std::strerror(errno), file.string(),
+                std::string("the output file is write-protected: ") + std::strerror(denied), file.string(),
                 "change its permissions, or name another file");
   }
   try_to_make_a_file_beside(file);

@@ -66,7 +66,7 @@ std::optional<VolumeStatement> read_causes(const std::filesystem::path& file, Vo
   volume.cause_of.clear();
   volume.causes.clear();
   const Progress nobody;
-  core::ProgressReporter progress(nobody, file);
+  core::ProgressReporter progress(nobody, file.string());
   const io::MeshSource source = io::load_mesh_source(file, progress);
   std::optional<VolumeStatement> statement = read_statement(source, progress);
   const std::string_view bytes = source.bytes();

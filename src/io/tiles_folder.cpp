@@ -1,7 +1,5 @@
 #include "io/tiles_folder.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,6 +8,7 @@
 
 #include "common/input.h"
 #include "core/replace_folder.h"
+#include "core/system_files.h"
 #include "core/temporary_mark.h"
 #include "core/version_text.h"
 #include "io/written_marks.h"
@@ -87,8 +86,8 @@ void check_tiles_place(const fs::path& asked) {
     throw Error(ErrorCode::output_folder_missing, "the output folder does not exist", asked.string(),
                 "make it first: mkdir -p " + parent_of(folder).string());
   }
-  if (::access(parent_of(folder).c_str(), W_OK | X_OK) != 0) {
-    fail_tiles("the folder of the tileset cannot be made", asked, errno);
+  if (const int denied = core::access_error(parent_of(folder), core::Access::make_files_in)) {
+    fail_tiles("the folder of the tileset cannot be made", asked, denied);
   }
   if (fs::exists(status)) check_tiles_replaceable(folder, asked);
 }

@@ -1,12 +1,10 @@
 #include "options/spheres_options.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 
+#include "core/system_files.h"
 #include "request/checker.h"
 #include "request/describe_spheres.h"
 #include "vantage/error.h"
@@ -31,19 +29,10 @@ void check_grid(const std::array<int, 2>& grid) {
          "give at most [12800, 6400]");
 }
 
-/// The memory of the machine, or as much of it as the control group (a container, a batch job) may use; version 2,
-/// "max" for all.
-double memory_bytes() {
-  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  double group = 0;
-  std::ifstream limit("/sys/fs/cgroup/memory.max");
-  return limit >> group ? std::min(machine, group) : machine;
-}
-
 void check_memory(const SpheresOptions& options) {
   const double texels = 6 * std::pow(static_cast<double>(face_size(options)), 2);
   const double needed = kBytesPerFacet * static_cast<double>(facet_count(options)) + 4 * texels;
-  const double there = memory_bytes();
+  const double there = core::memory_bytes();
   if (needed <= there) return;
   const auto gigabytes = [](double bytes) { return std::to_string(std::lround(std::ceil(bytes / 1e9))) + " GB"; };
   refuse(ErrorCode::out_of_memory,

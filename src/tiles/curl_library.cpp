@@ -7,13 +7,15 @@
 #include "vantage/error.h"
 #include "vantage/version.h"
 
-#ifndef __EMSCRIPTEN__
+#if defined(__EMSCRIPTEN__) || defined(_WIN32)
+#define VANTAGE_CURL_ABSENT
+#else
 #include <dlfcn.h>
 #endif
 
 namespace vantage::internal::tiles {
 
-#ifdef __EMSCRIPTEN__
+#ifdef VANTAGE_CURL_ABSENT
 
 HttpClient::HttpClient(const std::string& where) {
   throw Error(ErrorCode::library_missing, "this build cannot read tilesets over the network", where,
