@@ -1,9 +1,5 @@
 #include "interpreter.h"
 
-#include <dlfcn.h>
-#include <pthread.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -24,8 +20,8 @@ bool is_finalizing() {
   // In the stable ABI since Python 3.13; Python 3.12 has it under the other name.
   using Asked = int (*)();
   static const auto asked = [] {
-    void* found = dlsym(RTLD_DEFAULT, "Py_IsFinalizing");
-    if (found == nullptr) found = dlsym(RTLD_DEFAULT, "_Py_IsFinalizing");
+    void* found = function_of_python("Py_IsFinalizing");
+    if (found == nullptr) found = function_of_python("_Py_IsFinalizing");
     return reinterpret_cast<Asked>(found);
   }();
   return asked != nullptr && asked() != 0;
@@ -57,7 +53,7 @@ bool is_first_interpreter() { return PyInterpreterState_GetID(PyInterpreterState
 
 void watch_interpreter() {
   main_thread = nb::cast<unsigned long>(nb::module_::import_("threading").attr("main_thread")().attr("ident"));
-  pthread_atfork(nullptr, nullptr, begin_anew);
+  at_fork(begin_anew);
   Py_AtExit(stop_computations);
 }
 
@@ -66,21 +62,12 @@ bool is_given_up() { return is_finalizing() && PyThread_get_thread_ident() != ma
 bool is_ending() { return ends; }
 
 void wait_for_end() noexcept {
-  while (true) pause();
+  while (true) wait_for_long();
 }
 
-HeldSignals::HeldSignals() {
-  sigset_t held;
-  sigemptyset(&held);
-  // Those of what the thread itself does are never held.
-  if (PyThread_get_thread_ident() != main_thread) {
-    sigfillset(&held);
-    for (const int own : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&held, own);
-  }
-  pthread_sigmask(SIG_BLOCK, &held, &before_);
-}
+HeldSignals::HeldSignals() : before_(hold_signals(PyThread_get_thread_ident() != main_thread)) {}
 
-HeldSignals::~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+HeldSignals::~HeldSignals() { restore_signals(before_); }
 
 Computing::Computing() { ++computing; }
 Computing::~Computing() { --computing; }

@@ -6,7 +6,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include <csignal>
+#include "system.h"
 
 namespace vantage::python {
 
@@ -38,7 +38,7 @@ class HeldSignals {
   HeldSignals& operator=(const HeldSignals&) = delete;
 
  private:
-  sigset_t before_ = {};
+  SignalSet before_;
 };
 
 /// While it lives, someone computes: the end of the interpreter waits for it, for a while.

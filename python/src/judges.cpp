@@ -1,4 +1,4 @@
-// Volumes judged: the proof, and the check by rays.
+// The proof of volumes.
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -10,7 +10,6 @@
 #include "mission.h"
 #include "vantage/prove.h"
 #include "vantage/result.h"
-#include "vantage/verify.h"
 #include "volume.h"
 
 namespace vantage::python {
@@ -80,22 +79,6 @@ std::string certify(const PyMission& mission, const std::filesystem::path& volum
   });
 }
 
-std::string verify(const PyMission& mission, const PyVolume& volume, std::size_t points, std::uint64_t seed,
-                   int threads, nb::object progress) {
-  VerifyOptions options;
-  options.points = points;
-  options.seed = seed;
-  options.tolerance_m = mission->as_written.exact.tolerance_m;
-  options.lift_m = volume->lift_m;
-  options.rounding_m = volume.rounding_m;
-  return computed(std::move(progress), threads, [&](const Progress& told) {
-    const Mission& m = *mission;
-    return json_text(m.views.empty()
-                         ? verify_volume(m.scene(), m.target, m.sensor, m.navigation, volume->mesh, options, told)
-                         : verify_volume(m.scene(), m.views, m.sensor, m.navigation, volume->mesh, options, told));
-  });
-}
-
 }  // namespace
 
 void bind_judges(nb::module_& module) {
@@ -105,8 +88,6 @@ void bind_judges(nb::module_& module) {
              "threads"_a = 0, "progress"_a = nb::none());
   module.def("certify", &certify, "mission"_a, "volume_file"_a, "certificate"_a, "shrink"_a, "maximal"_a,
              "threads"_a = 0, "progress"_a = nb::none());
-  module.def("verify", &verify, "mission"_a, "volume"_a, "points"_a, "seed"_a, "threads"_a = 0,
-             "progress"_a = nb::none());
 }
 
 }  // namespace vantage::python

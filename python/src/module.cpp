@@ -5,8 +5,6 @@
 #include "bindings.h"
 #include "common/resources.h"
 #include "interpreter.h"
-#include "vantage/city.h"
-#include "vantage/spheres.h"
 #include "vantage/version.h"
 
 NB_MODULE(_core, module) {
@@ -24,24 +22,14 @@ NB_MODULE(_core, module) {
       "warn_of_leaks", [](bool on) { nanobind::set_leak_warnings(on); }, nanobind::arg("on"));
   module.attr("version") = VANTAGE_VERSION;
   module.def("set_resource_folder", &vantage::set_resource_folder, nanobind::arg("folder"));
-  vantage::enable_maps();
-  vantage::enable_spheres();
   bind_errors(module);
   bind_scene(module);
   bind_volume(module);
   bind_mission(module);
   bind_points(module);
   bind_judges(module);
-  bind_spheres(module);
-  bind_fields(module);
-  bind_picture(module);
-  bind_viewer(module);
+  bind_cameras(module);
   bind_outer(module);
-  bind_areas(module);
   bind_sections(module);
-  bind_tiles(module);
-  bind_flights(module);
-  bind_views(module);
-  bind_tours(module);
-  bind_program(module);
+  bind_libraries(module);
 }

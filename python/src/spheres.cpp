@@ -9,7 +9,6 @@
 #include "calls.h"
 #include "common/json.h"
 #include "scene.h"
-#include "vantage/camera.h"
 #include "volume.h"
 
 namespace vantage::python {
@@ -40,19 +39,12 @@ std::string devices(const std::string& choice) {
   return json_text(found, chosen, chosen.note);
 }
 
-std::string cameras() {
-  std::vector<ListedCamera> listed;
-  for (const Camera& camera : known_cameras()) listed.push_back({camera, ""});
-  return json_text(listed);
-}
-
 }  // namespace
 
 void bind_spheres(nb::module_& module) {
   module.def("visibility_sphere", &sphere, "scene"_a, "viewpoint"_a, "radius_m"_a, "cubemap"_a, "conservative"_a,
              "merge"_a, "device"_a, "threads"_a = 0, "progress"_a = nb::none());
   module.def("devices", &devices, "choice"_a, nb::call_guard<Released, Computing>());
-  module.def("cameras", &cameras);
 }
 
 }  // namespace vantage::python

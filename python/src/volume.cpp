@@ -88,8 +88,8 @@ nb::dict seconds_of(const Seconds& s) {
                   {"total", nb::cast(s.total)}});
 }
 
-PyVolume read(const std::filesystem::path& file, const std::string& up, double scale, const PyScene* scene,
-              nb::object progress) {
+PyVolume read_file(const std::filesystem::path& file, const std::string& up, double scale, const PyScene* scene,
+                   nb::object progress) {
   return computed(std::move(progress), 0, [&](const Progress& told) {
     SceneReadOptions options;
     options.up = up == "y" ? UpAxis::y : UpAxis::z;
@@ -100,13 +100,13 @@ PyVolume read(const std::filesystem::path& file, const std::string& up, double s
   });
 }
 
-PyVolume from_arrays(const PointArray& vertices, const FaceArray& faces, const std::string& cause) {
+PyVolume volume_from_arrays(const PointArray& vertices, const FaceArray& faces, const std::string& cause) {
   return PyVolume(volume_of_mesh(mesh_of(vertices, faces), cause));
 }
 
 /// How far rounding to the file's numbers moved the surface, and how many facets the file holds.
-std::pair<double, std::size_t> save(const PyVolume& volume, const std::filesystem::path& file, const std::string& up,
-                                    double scale, std::optional<double> sea_level_m) {
+std::pair<double, std::size_t> save_file(const PyVolume& volume, const std::filesystem::path& file,
+                                         const std::string& up, double scale, std::optional<double> sea_level_m) {
   const Released released;
   std::vector<StagedVolume> staged;
   staged.push_back(stage_volume(*volume, file, up == "y" ? UpAxis::y : UpAxis::z, scale, sea_level_m));
@@ -168,7 +168,7 @@ void bind_volume(nb::module_& module) {
           "hash", [](const PyVolume& v) { return volume_hash(v->mesh); }, nb::call_guard<Released, Computing>())
       .def("measures", [](const PyVolume& v) { return measures_of(measure(v->mesh)); })
       .def("report", [](const PyVolume& v) { return report_json(*v, measure(v->mesh)); })
-      .def("save", &save, "file"_a, "up"_a = "z", "scale"_a = 1.0, "sea_level_m"_a = nb::none())
+      .def("save", &save_file, "file"_a, "up"_a = "z", "scale"_a = 1.0, "sea_level_m"_a = nb::none())
       .def("compare", &compare_two, "other"_a, "name"_a, "other_name"_a, "progress"_a = nb::none())
       .def(
           "simplify_to",
@@ -187,8 +187,8 @@ void bind_volume(nb::module_& module) {
           },
           "error_m"_a, "progress"_a = nb::none());
 
-  module.def("read_volume", &read, "file"_a, "up"_a, "scale"_a, "scene"_a.none(), "progress"_a = nb::none());
-  module.def("volume_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(), "cause"_a);
+  module.def("read_volume", &read_file, "file"_a, "up"_a, "scale"_a, "scene"_a.none(), "progress"_a = nb::none());
+  module.def("volume_from_arrays", &volume_from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(), "cause"_a);
   module.def(
       "empty_volume",
       [](const std::string& outcome, const std::string& reason) {

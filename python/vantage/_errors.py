@@ -36,7 +36,7 @@ class InputError(Error, ValueError):
 
 
 class NotInBuildError(InputError):
-    """Something that this build of vantage lacks: the package for WebAssembly has no maps, say. The native package never raises it."""
+    """Something that this build of vantage lacks: packages for WebAssembly, Windows and macOS have no maps, say. Those for Linux never raise it."""
 
 
 class OutputError(Error):

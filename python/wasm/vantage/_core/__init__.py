@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .. import _missing
 from .._errors import Error, NotInBuildError
 from .._progress import Progress
-from . import _missing
 from ._engine import Held, engine, error_of
 from ._system import to_engine, to_host
 

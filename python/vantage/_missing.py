@@ -1,6 +1,12 @@
-"""What the native package has and the engine in WebAssembly has not: names of python/vantage/_core.pyi, and what they are."""
+"""What packages of the engine alone lack: that in WebAssembly, and native ones for Windows and macOS. Names of
+python/vantage/_core.pyi, and what they are. A native one has some of them.
+"""
 
 from __future__ import annotations
+
+from typing import Any
+
+from ._errors import NotInBuildError
 
 _FLIGHTS = "flights and tours"
 _FIELDS = "fields of the share that is seen"
@@ -41,3 +47,12 @@ NAMES: dict[str, str] = {
     "set_resource_folder": "files of PROJ and fonts",
     "warn_of_leaks": "extension module",
 }
+
+
+def missing(name: str) -> Any:
+    """`__getattr__` of a native `vantage._core` of the engine alone (python/src/libraries_none.cpp)."""
+    what = NAMES.get(name)
+    if what is None:
+        raise AttributeError(f"module 'vantage._core' has no attribute {name!r}")
+    raise NotInBuildError("input", "component-missing", f"this package of vantage has no {what}", name,
+                          "the package for Linux has it")
