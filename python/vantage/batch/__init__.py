@@ -9,6 +9,12 @@ From the shell: python -m vantage batch targets.parquet --scene city.osm.pbf --m
 
 from __future__ import annotations
 
+import sys
+
+if sys.platform == "win32":
+    raise ImportError("vantage.batch needs Linux or macOS: it locks files and ends processes as these do. On Windows, call "
+                      "vantage.compute_many")
+
 from ._run import Report, WorkerReport, results, run
 
 __all__ = ["Report", "WorkerReport", "results", "run"]
