@@ -23,7 +23,9 @@ import sys
 import tomllib
 import zipfile
 
+import python_for_windows
 import read_elf
+import wheel_targets
 from build_wheel_libraries import Failure, run, zig_tools
 from debian_archive import fetch
 
@@ -71,7 +73,18 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
     zig = zig_tools(target, folder / "prefix")
     portable = libraries["portable"]
     flags = f"{portable['vantage']} {portable[zig.processor]} -ffile-prefix-map={PROJECT}=."
-    headers = python_headers(python, zig.processor, folder, libraries)
+    chosen = wheel_targets.settings(target)
+    options = portable["vantage_options"]
+    if chosen:
+        options = [*options, f"-DVANTAGE_COMPONENTS={chosen['components']}",
+                   f"-DVANTAGE_PROJ_INCLUDE_DIRS={folder / 'prefix' / 'include'}", *chosen["vantage_options"]]
+    if chosen and chosen["system"] == "Windows":
+        include, library = python_for_windows.prepare(libraries["python"][python], folder / "downloads", folder / "python",
+                                                      DEPS / "zig" / "python" / "ziglang" / "zig")
+        headers = [include]
+        options = [*options, f"-DVANTAGE_PYTHON_LIBRARY={library}"]
+    else:
+        headers = python_headers(python, zig.processor, folder, libraries)
     soabi = "abi3" if python == "abi3" else f"cpython-311-{zig.processor}-linux-gnu"
     log = build / "log"
     out = build / python
@@ -93,7 +106,7 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
          "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
          f"-Dfmt_DIR={folder / 'prefix' / 'lib' / 'any' / 'cmake' / 'fmt'}", f"-DPython_EXECUTABLE={tools}",
          f"-DVANTAGE_PYTHON_HEADERS={';'.join(map(str, headers))}", f"-DVANTAGE_PYTHON_SOABI={soabi}",
-         f"-DSKBUILD_METADATA_DIR={info}", *portable["vantage_options"]], build, log, **environment)
+         f"-DSKBUILD_METADATA_DIR={info}", *options], build, log, **environment)
     run(["cmake", "--build", str(build / "cmake"), "--parallel", str(jobs), "--target", "vantage_python"], build, log)
     run(["cmake", "--install", str(build / "cmake"), "--prefix", str(out), "--component", "python"], build, log)
     for file in (PROJECT / "python" / "vantage").iterdir():
@@ -136,10 +149,13 @@ def check_glibc(glibc: str, target: str) -> None:
 
 def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pathlib.Path:
     """The wheel of what lies in a folder."""
-    module = next((folder / "vantage").glob("_core.*.so"))
-    glibc, processor = lowest_glibc(module), target.partition("-")[0]
-    check_glibc(glibc, target)
-    platforms = platform_tags(glibc, processor)
+    chosen, processor = wheel_targets.settings(target), target.partition("-")[0]
+    if chosen:
+        platforms = [chosen["tag"]]
+    else:
+        glibc = lowest_glibc(next((folder / "vantage").glob("_core.*.so")))
+        check_glibc(glibc, target)
+        platforms = platform_tags(glibc, processor)
     info = next(folder.glob("*.dist-info"))
     lines = ["Wheel-Version: 1.0", "Generator: vantage", "Root-Is-Purelib: false", *(f"Tag: {tag}-{name}" for name in platforms)]
     (info / "WHEEL").write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -152,7 +168,7 @@ def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pat
             record.writerow([file.relative_to(folder).as_posix(), f"sha256={digest}", file.stat().st_size])
         record.writerow([f"{info.name}/RECORD", "", ""])
     name = info.name.removesuffix(".dist-info")
-    for old in dist.glob(f"{name}-{tag}-*_{processor}.whl"):
+    for old in dist.glob(f"{name}-{tag}-{platforms[0] if chosen else f'*linux*_{processor}'}.whl"):
         old.unlink()
     wheel = dist / f"{name}-{tag}-{'.'.join(platforms)}.whl"
     half = wheel.with_suffix(".new")
@@ -188,13 +204,15 @@ def main() -> int:
             subprocess.run([str(HERE / "build_wheel_libraries.py"), "--target", target, "--jobs", str(arguments.jobs)], check=True)
             build = PROJECT / "build-wheel" / target
             build.mkdir(parents=True, exist_ok=True)
-            for python in arguments.pythons:
+            chosen, part = wheel_targets.settings(target), wheel_targets.part_for(target, libraries)
+            for python in [name for name in arguments.pythons if not chosen or name in chosen["pythons"]]:
                 print(f"building vantage for {target}, {TAGS[python]}", flush=True)
-                folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, libraries)
+                folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, part)
                 wheel = pack(folder, TAGS[python], target, dist)
-                check_tag(wheel, tools)
+                if not chosen:
+                    check_tag(wheel, tools)
                 subprocess.run([sys.executable, str(HERE / "wheel_licences.py"), "check", str(wheel)], check=True)
-                if not (folder / "vantage" / "share" / "web" / "index.html").exists():
+                if not chosen and not (folder / "vantage" / "share" / "web" / "index.html").exists():
                     print("the page of `vantage view` is not in it: run `make web` first")
                 print(f"{wheel.stat().st_size / 1e6:.1f} MB  {wheel}", flush=True)
     except (Failure, OSError, KeyError, subprocess.CalledProcessError) as error:

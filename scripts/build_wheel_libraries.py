@@ -24,6 +24,7 @@ import sysconfig
 import tarfile
 import tomllib
 
+import wheel_targets
 from debian_archive import Failure, fetch
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -104,7 +105,8 @@ def zig_tools(target: str, prefix: pathlib.Path) -> Tools:
     processor = target.partition("-")[0]
     return Tools(*(str(folder / name) for name in ("clang", "clang++", "ar", "ranlib")),
                  [f"-DCMAKE_TOOLCHAIN_FILE={HERE.parent / 'cmake' / 'Zig.cmake'}", f"-DVANTAGE_ZIG={folder}",
-                  f"-DVANTAGE_ZIG_PREFIX={prefix}", f"-DVANTAGE_ZIG_PROCESSOR={processor}"],
+                  f"-DVANTAGE_ZIG_PREFIX={prefix}", f"-DVANTAGE_ZIG_PROCESSOR={processor}",
+                  f"-DVANTAGE_ZIG_SYSTEM={wheel_targets.system(target)}"],
                  [f"--host={target.partition('.')[0]}"], processor)
 
 
@@ -228,6 +230,10 @@ def build_all(libraries: dict, folder: pathlib.Path, target: str, jobs: int) -> 
     builder = Builder(build, prefix, flags, jobs, tools)
     for package in libraries.get("installed", []):
         builder.take_installed(package)
+    for name in libraries.get("linked_headers", []):
+        link = prefix / "include" / name
+        link.unlink(missing_ok=True)
+        link.symlink_to(pathlib.Path("/usr/include") / name)
     built = libraries["built"]
     for number, library in enumerate(built, 1):
         patch = (HERE / library["own_patch"]).read_text(encoding="utf-8") if "own_patch" in library else ""
@@ -250,7 +256,7 @@ def main() -> int:
     arguments = parser.parse_args()
     folder = (arguments.folder or HERE.parent / ".deps" / f"wheel-{arguments.target}").resolve()
     try:
-        libraries = tomllib.loads(arguments.list.read_text(encoding="utf-8"))
+        libraries = wheel_targets.part_for(arguments.target, tomllib.loads(arguments.list.read_text(encoding="utf-8")))
         build_all(libraries, folder, arguments.target, arguments.jobs)
     except (Failure, OSError, KeyError, tomllib.TOMLDecodeError) as error:
         print(f"{error}", file=sys.stderr)

@@ -19,6 +19,8 @@ import tomllib
 import zipfile
 from importlib import metadata, util
 
+import wheel_targets
+
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
 LIST = "LIBRARIES.txt"
@@ -228,6 +230,7 @@ def faults(wheel: zipfile.ZipFile, libraries: dict) -> list[str]:
     for name in names:
         data = wheel.read(name)
         if not data.startswith(b"\x7fELF"):
+            found += wheel_targets.binary_faults(name, data)
             continue
         if not re.fullmatch(r"vantage/_core\.[\w.-]+\.so", name):
             found.append(f"{name} is a binary that is not listed")

@@ -38,12 +38,12 @@ write_command clang cc -target "$target"
 write_command clang++ c++ -target "$target"
 write_command ar ar
 write_command ranlib ranlib
-# What is to be linked before zig's own compiler-rt, on x86-64 alone: elsewhere long double needs more of it.
+# What is to be linked before zig's own compiler-rt, on Linux on x86-64 alone: elsewhere long double needs more of it.
 runtime=$here/../cmake/zig_runtime.c
 archive=$folder/libvantage_zig.a
 if [ "$archive" -ot "$runtime" ]; then
   rm -f "$archive"
-  if [ "${target%%-*}" = x86_64 ]; then
+  if [[ $target == x86_64-linux-* ]]; then
     "$folder/clang" -O2 -g0 -fPIC -fno-builtin -ffp-contract=off -fno-sanitize=all -fcf-protection -c "$runtime" -o "$folder/runtime.o"
     "$folder/ar" rcs "$archive" "$folder/runtime.o"
   else

@@ -2,6 +2,8 @@
 
     python3 python/wheel/same_bytes.py --program build/bin/vantage > native.csv
     python3 python/wheel/same_bytes.py --expected native.csv          # of the package that this Python imports
+    python3 python/wheel/same_bytes.py --expected native.csv --engine # of one without the program: missions that it lacks
+                                                                      # parts for are left out, and told
 
 The missions are those of examples/plaza and examples/town with one limit after the other. With --expected the exit code
 is 1 where a hash differs, and the rows that do are told on standard error.
@@ -53,8 +55,9 @@ TOWN = {
 
 
 def missions() -> dict[str, str]:
-    plaza = f"scene: {{mesh: {EXAMPLES / 'plaza/plaza.obj'}}}\n"
-    town = (f"scene: {{osm: {EXAMPLES / 'town/town.osm'}, center: [48.0, 11.0], radius: 120, defaults: {{level: 3.2}}, "
+    folder = EXAMPLES.as_posix()
+    plaza = f"scene: {{mesh: {folder}/plaza/plaza.obj}}\n"
+    town = (f"scene: {{osm: {folder}/town/town.osm, center: [48.0, 11.0], radius: 120, defaults: {{level: 3.2}}, "
             "without: [walls]}\n")
     found = {}
     for scene, named in ((plaza, PLAZA), (town, TOWN)):
@@ -64,30 +67,57 @@ def missions() -> dict[str, str]:
     return found
 
 
+def run_program(program: list[str], text: str, volume: pathlib.Path) -> str:
+    """Empty, or what went wrong."""
+    done = subprocess.run([*program, "compute", "-", "-o", str(volume), "--quiet"], input=text, capture_output=True, text=True,
+                          check=False)
+    return "" if done.returncode == 0 and volume.exists() else f"exit code {done.returncode}: {done.stderr.strip()}"
+
+
+def run_package(text: str, volume: pathlib.Path) -> bool:
+    """Whether the package that is imported has what the mission needs."""
+    import vantage as vt
+
+    mission = volume.with_name("mission.yaml")
+    mission.write_text(text, encoding="utf-8")
+    try:
+        vt.Mission.read(mission).run().save(volume)
+    except vt.InputError as error:
+        if error.code != "component-missing":
+            raise
+        return False
+    return True
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", help="the program; else `python -m vantage` of this Python")
     parser.add_argument("--run-by", nargs="+", default=[sys.executable], help="the command that starts Python")
+    parser.add_argument("--engine", action="store_true", help="the package without its program, in this process")
     parser.add_argument("--expected", type=pathlib.Path, help="a table that this one must be the same as")
     arguments = parser.parse_args()
     program = [arguments.program] if arguments.program else [*arguments.run_by, "-m", "vantage"]
-    rows = []
+    rows, lacking = [], []
     with tempfile.TemporaryDirectory() as folder:
         for name, text in missions().items():
             volume = pathlib.Path(folder) / "volume.ply"
             volume.unlink(missing_ok=True)
             started = time.perf_counter()
-            done = subprocess.run([*program, "compute", "-", "-o", str(volume), "--quiet"], input=text, capture_output=True,
-                                  text=True, check=False)
+            if arguments.engine and not run_package(text, volume):
+                lacking.append(name)
+                continue
+            problem = "" if arguments.engine else run_program(program, text, volume)
             seconds = time.perf_counter() - started
-            if done.returncode or not volume.exists():
-                print(f"{name}: exit code {done.returncode}: {done.stderr.strip()}", file=sys.stderr)
+            if problem:
+                print(f"{name}: {problem}", file=sys.stderr)
                 return 2
             data = volume.read_bytes()
             rows.append((name, hashlib.sha256(data).hexdigest(), len(data), round(seconds, 2)))
     writer = csv.writer(sys.stdout)
     writer.writerow(("mission", "sha256", "bytes", "seconds"))
     writer.writerows(rows)
+    if lacking:
+        print(f"left out, since the package lacks what they need: {', '.join(lacking)}", file=sys.stderr)
     if not arguments.expected:
         return 0
     with arguments.expected.open(newline="") as file:
