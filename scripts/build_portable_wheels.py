@@ -109,9 +109,8 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
          f"-DSKBUILD_METADATA_DIR={info}", *options], build, log, **environment)
     run(["cmake", "--build", str(build / "cmake"), "--parallel", str(jobs), "--target", "vantage_python"], build, log)
     run(["cmake", "--install", str(build / "cmake"), "--prefix", str(out), "--component", "python"], build, log)
-    for file in (PROJECT / "python" / "vantage").iterdir():
-        if file.is_file():
-            shutil.copy(file, out / "vantage")
+    shutil.copytree(PROJECT / "python" / "vantage", out / "vantage", dirs_exist_ok=True,
+                    ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
     return out
 
 

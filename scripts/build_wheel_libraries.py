@@ -230,10 +230,9 @@ def build_all(libraries: dict, folder: pathlib.Path, target: str, jobs: int) -> 
     builder = Builder(build, prefix, flags, jobs, tools)
     for package in libraries.get("installed", []):
         builder.take_installed(package)
-    for name in libraries.get("linked_headers", []):
-        link = prefix / "include" / name
-        link.unlink(missing_ok=True)
-        link.symlink_to(pathlib.Path("/usr/include") / name)
+    for name in libraries.get("headers_alone", []):
+        (prefix / "include" / name).unlink(missing_ok=True)
+        shutil.copy2(pathlib.Path("/usr/include") / name, prefix / "include")
     built = libraries["built"]
     for number, library in enumerate(built, 1):
         patch = (HERE / library["own_patch"]).read_text(encoding="utf-8") if "own_patch" in library else ""

@@ -98,6 +98,8 @@ KINDS = [
     Kind("wheel for CPython 3.12 and later, x86-64", r"vantage-V-cp312-abi3-[\w.]*manylinux\w+_x86_64\.whl", of_wheel, r".*licenses/LICENSE"),
     Kind("wheel for CPython 3.11, aarch64", r"vantage-V-cp311-cp311-[\w.]*manylinux\w+_aarch64\.whl", of_wheel, r".*licenses/LICENSE"),
     Kind("wheel for CPython 3.12 and later, aarch64", r"vantage-V-cp312-abi3-[\w.]*manylinux\w+_aarch64\.whl", of_wheel, r".*licenses/LICENSE"),
+    Kind("wheel for Windows, x86-64", r"vantage-V-cp312-abi3-win_amd64\.whl", of_wheel, r".*licenses/LICENSE", may_lack=True),
+    Kind("wheel for macOS, arm64", r"vantage-V-cp312-abi3-macosx_11_0_arm64\.whl", of_wheel, r".*licenses/LICENSE", may_lack=True),
     Kind("wheel over WebAssembly", r"vantage-V-py3-none-any\.whl", of_wheel, r".*/LICENSE"),
     Kind("npm package", r"vantage-engine-V\.tgz", of_npm, r"package/LICENSE"),
     Kind("program for glibc", r"vantage-V-linux-x86_64\.tar\.xz", of_program, r".*/share/doc/vantage/LICENSE"),

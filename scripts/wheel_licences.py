@@ -124,6 +124,12 @@ def first_comment(text: str) -> str:
     return re.sub(r"(?m)^ \* ?", "", match[1])
 
 
+def has_files(entry: dict, prefix: pathlib.Path) -> bool:
+    """Whether files of a package, but for headers, were taken for the wheel."""
+    return any((prefix / folder / pathlib.PurePosixPath(name).name).exists()
+               for folder, names in entry.get("files", {}).items() for name in names)
+
+
 def collect(build: pathlib.Path, prefix: pathlib.Path, deps: pathlib.Path, out: pathlib.Path) -> None:
     libraries = read_list()
     spec = util.find_spec("nanobind")
@@ -140,7 +146,7 @@ def collect(build: pathlib.Path, prefix: pathlib.Path, deps: pathlib.Path, out: 
     if strange or strange_headers:
         raise Failure("the wheel would contain what scripts/wheel_libraries.toml does not list: "
                       + ", ".join(strange + strange_headers[:10]))
-    contained = [entry for entry in entries(libraries) if entry["name"] in by_archive | by_header or "files" in entry
+    contained = [entry for entry in entries(libraries) if entry["name"] in by_archive | by_header or has_files(entry, prefix)
                  or entry.get("of_zig")]
     copyleft = [f"{entry['name']} ({entry['licence']})" for entry in contained if is_copyleft(entry["licence"])]
     if copyleft:
@@ -167,7 +173,7 @@ def origin(entry: dict, prefix: pathlib.Path, nanobind: str) -> str:
         return "Debian source package: " + pathlib.PurePosixPath(entry["source"]).name
     if "package" in entry:
         return "Debian source package: " + (prefix / "versions" / entry["package"]).read_text(encoding="utf-8").strip()
-    if entry.get("of_zig"):
+    if entry.get("of_zig") or "libpython3.a" in entry.get("archives", []):
         return f"release of ziglang on PyPI: {(PROJECT / 'python/wheel/zig-requirements.lock').read_text().split()[-2]}"
     if entry["name"] in ("nanobind", "robin-map"):
         return f"release of nanobind {nanobind} on PyPI"

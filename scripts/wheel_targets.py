@@ -38,7 +38,7 @@ def part_for(target: str, libraries: dict) -> dict:
     if unknown:
         raise Failure(f"scripts/wheel_libraries.toml has no {', '.join(unknown)}, which scripts/wheel_targets.toml names")
     portable = {**libraries["portable"], "compiler": chosen["compiler"], target.partition("-")[0]: chosen["processor"]}
-    return {**libraries, "portable": portable, "linked_headers": chosen["headers"],
+    return {**libraries, "portable": portable, "headers_alone": chosen["headers"],
             "built": [entry for entry in libraries["built"] if entry["name"] in chosen["libraries"]],
             "installed": [entry for entry in libraries["installed"] if entry["name"] in chosen["installed"]]}
 

@@ -16,6 +16,7 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tarfile
@@ -306,6 +307,8 @@ class Scripts(unittest.TestCase):
 
     def licences(self):
         """scripts/wheel_licences.py as a module."""
+        sys.path.insert(0, str(self.tree / "scripts"))
+        self.addCleanup(sys.path.remove, str(self.tree / "scripts"))
         spec = importlib.util.spec_from_file_location("wheel_licences", self.tree / "scripts" / "wheel_licences.py")
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
@@ -373,6 +376,33 @@ class Scripts(unittest.TestCase):
             with self.assertRaises(portable.Failure):
                 pack("newer", "2.28", target)
         self.assertEqual([file.name for file in dist.iterdir()], ["vantage-1-cp312-abi3-manylinux_2_28_x86_64.whl"])
+
+    def foreign_binary(self, kind: str, library: str) -> bytes:
+        """What loads one library, and does nothing: of Windows (PE32+) or macOS (Mach-O)."""
+        name = library.encode() + b"\0"
+        if kind == "macos":
+            size = (24 + len(name) + 7) // 8 * 8
+            load = struct.pack("<6I", 0xC, size, 24, 0, 0, 0) + name.ljust(size - 24, b"\0")
+            build = struct.pack("<6I", 0x32, 24, 1, 11 << 16, 11 << 16, 0)
+            return b"\xcf\xfa\xed\xfe" + struct.pack("<7I", 0x100000C, 0, 6, 2, len(load + build), 0, 0) + load + build
+        data = bytearray(0x400)
+        data[:2], data[0x80:0x84] = b"MZ", b"PE\0\0"
+        struct.pack_into("<I", data, 0x3C, 0x80)
+        struct.pack_into("<HH", data, 0x84, 0x8664, 1)
+        struct.pack_into("<H", data, 0x80 + 20, 240)  # the size of the optional header
+        struct.pack_into("<H", data, 0x98, 0x20B)
+        struct.pack_into("<II", data, 0x98 + 120, 0x1000, 40)  # imports
+        struct.pack_into("<4I", data, 0x98 + 240 + 8, 0x200, 0x1000, 0x200, 0x200)  # the only section
+        struct.pack_into("<5I", data, 0x200, 0, 0, 0, 0x1000 + 40, 0)
+        data[0x228:0x228 + len(name)] = name
+        return bytes(data)
+
+    def test_wheel_for_other_systems_loads_only_what_these_have(self):
+        for kind, module, known in (("windows", "_core.pyd", "KERNEL32.dll"), ("macos", "_core.abi3.so", "/usr/lib/libSystem.B.dylib")):
+            name, none = f"vantage/{module}", {"vantage/_core.cpython-311-x86_64-linux-gnu.so": None}
+            self.expect_wheel(0, "all that is in it is listed", {**none, name: self.foreign_binary(kind, known)})
+            self.expect_wheel(1, "loads libstdc++-6.dll", {**none, name: self.foreign_binary(kind, "libstdc++-6.dll")})
+            self.expect_wheel(1, "other.dll is a binary", {**none, "vantage/other.dll": self.foreign_binary(kind, known)})
 
     def test_runtime_of_zig_computes_as_the_compiler_does(self):
         source = self.scratch / "compare.c"

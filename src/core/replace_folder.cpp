@@ -2,7 +2,9 @@
 
 #include <fcntl.h>
 #include <stdio.h>
+#if __has_include(<sys/syscall.h>)
 #include <sys/syscall.h>
+#endif
 #include <unistd.h>
 
 #include <cerrno>
