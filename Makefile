@@ -149,6 +149,12 @@ check_wheels: build
 	  for wheel in $$wheels; do scripts/check_wheel.sh $$wheel || exit 1; done; \
 	done
 
+.PHONY: winecheck
+winecheck: build  ## the wheel for Windows, and try it in wine with a Python for Windows; needs Maven
+	@scripts/install_packages.sh --wine
+	@$(MAKE) --no-print-directory wheels TARGETS=x86_64-windows-gnu
+	@scripts/check_wheel_wine.py dist/vantage-*-cp312-abi3-win_amd64.whl
+
 .PHONY: web
 web:  ## the page, in web/dist/index.html: one file
 	@scripts/install_packages.sh --web

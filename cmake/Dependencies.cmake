@@ -154,6 +154,9 @@ if(VANTAGE_WITH_MISSIONS)
     include(${CMAKE_CURRENT_LIST_DIR}/MendManifold.cmake)
     vantage_mend_manifold(${manifold_source})
     vantage_join_sources(manifold 8)  # names of some of its sources are the same
+    if(APPLE)  # its math.h takes DBL_EPSILON without the header that has it
+      target_compile_definitions(manifold PUBLIC DBL_EPSILON=__DBL_EPSILON__)
+    endif()
     if(NOT TARGET manifold::manifold)
       add_library(manifold::manifold ALIAS manifold)
     endif()

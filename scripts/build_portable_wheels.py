@@ -85,6 +85,8 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
         options = [*options, f"-DVANTAGE_PYTHON_LIBRARY={library}"]
     else:
         headers = python_headers(python, zig.processor, folder, libraries)
+    if chosen and chosen["system"] == "Darwin":
+        headers = [wheel_targets.headers_of_macos(headers, folder / "python")]
     soabi = "abi3" if python == "abi3" else f"cpython-311-{zig.processor}-linux-gnu"
     log = build / "log"
     out = build / python

@@ -5,6 +5,7 @@
 #   scripts/install_packages.sh --python   and what the Python package needs
 #   scripts/install_packages.sh --blender  and Blender, for the add-on's tests
 #   scripts/install_packages.sh --wheels   and what wheels of it need (scripts/build_portable_wheels.py)
+#   scripts/install_packages.sh --wine     and what tries the wheel for Windows (scripts/check_wheel_wine.py)
 #   scripts/install_packages.sh --web      and what the page and its tests need (scripts/build_web.sh)
 #   scripts/install_packages.sh --qgis     and QGIS, for its plugin and the tests of it (integrations/qgis)
 #   scripts/install_packages.sh --release  and what a release needs besides (scripts/build_source.sh, check_dist.py)
@@ -34,6 +35,7 @@ tests=(libgtest-dev osmium-tool locales)  # of locales one with a decimal comma 
 python=(python3-dev python3-venv)
 blender=("${python[@]}" blender python3-numpy xvfb xauth)
 wheels=("${python[@]}" patch xz-utils bzip2 tcl proj-data qemu-user-static)
+wine=(wine64 wine maven)
 web=(emscripten node-acorn chromium python3-venv)  # the last for scripts/check_wasm_wheel.sh
 command -v npm >/dev/null || web+=(nodejs npm)  # there may be a newer one, of another source
 qgis=(qgis python3-qgis qgis-providers python3-numpy xvfb)
@@ -47,12 +49,13 @@ case "${1:-}" in
   --python) packages+=("${python[@]}") ;;
   --blender) packages+=("${blender[@]}") ;;
   --wheels) packages+=("${wheels[@]}") ;;
+  --wine) packages+=("${wheels[@]}" "${wine[@]}") ;;
   --web) packages+=("${web[@]}") ;;
   --qgis) packages+=("${python[@]}" "${qgis[@]}") ;;
   --release) packages+=("${release[@]}") ;;
   --tools) packages+=("${tests[@]}" "${tools[@]}") ;;
   *)
-    echo "usage: $0 [--tests|--python|--wheels|--blender|--web|--qgis|--release|--tools]" >&2
+    echo "usage: $0 [--tests|--python|--wheels|--wine|--blender|--web|--qgis|--release|--tools]" >&2
     exit 2
     ;;
 esac

@@ -3,6 +3,7 @@
 import fnmatch
 import pathlib
 import re
+import shutil
 import tomllib
 
 import read_foreign
@@ -41,6 +42,23 @@ def part_for(target: str, libraries: dict) -> dict:
     return {**libraries, "portable": portable, "headers_alone": chosen["headers"],
             "built": [entry for entry in libraries["built"] if entry["name"] in chosen["libraries"]],
             "installed": [entry for entry in libraries["installed"] if entry["name"] in chosen["installed"]]}
+
+
+def headers_of_macos(linux: list[pathlib.Path], into: pathlib.Path) -> pathlib.Path:
+    """The headers of a Python for Linux on arm64, as macOS can take them for the stable ABI: sizes of types are the same.
+    Debian's pyconfig.h only chooses one for a processor of Linux."""
+    headers, above = linux
+    folder = into / "macos" / headers.name
+    if not folder.exists():
+        half = folder.with_suffix(".new")
+        shutil.rmtree(half, ignore_errors=True)
+        shutil.copytree(headers, half)
+        text = (above / "aarch64-linux-gnu" / headers.name / "pyconfig.h").read_text(encoding="utf-8")
+        # Where these are asked for, macOS hides what its own headers need.
+        text = re.sub(r"(?m)^#define _(POSIX_C|XOPEN|GNU)_SOURCE\b.*\n", "", text)
+        (half / "pyconfig.h").write_text(text, encoding="utf-8")
+        half.rename(folder)
+    return folder
 
 
 def binary_faults(name: str, data: bytes) -> list[str]:

@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <stdio.h>
-#if __has_include(<sys/syscall.h>)
+#if __has_include(<sys/syscall.h>)  // Linux
 #include <sys/syscall.h>
 #endif
 #include <unistd.h>

@@ -17,8 +17,8 @@ class HeldSignals {
  public:
   HeldSignals() {
     sigset_t held;
-    ::sigemptyset(&held);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held, signal);
+    sigemptyset(&held);  // macros on macOS
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
     ::pthread_sigmask(SIG_BLOCK, &held, &old_);
   }
   ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &old_, nullptr); }
