@@ -2,12 +2,11 @@
 """Builds wheels that run on old Linux systems and on other processors, into dist/, with the compiler of zig: for each
 system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI).
 
-    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
+    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
 
 What is in them: wheel_libraries.toml, and the page, where `make web` has built it. The name of a wheel says which glibc it
 needs: the newest version that one of the functions has which it takes from glibc. It may not be newer than that of the
-target. auditwheel must say the same. Not tried to the end: aarch64-linux-gnu.2.17. There zig's compiler-rt takes the place
-of some of glibc's functions (cmake/zig_runtime.c).
+target. auditwheel must say the same.
 """
 
 import argparse
@@ -34,6 +33,7 @@ PROJECT = HERE.parent
 DEPS = PROJECT / ".deps"
 TARGETS = ["x86_64-linux-gnu.2.17"]
 TAGS = {"cp311": "cp311-cp311", "abi3": "cp312-abi3"}
+MATHEMATICS = {"sin", "cos", "exp", "log"}
 FIXED_TIME = (2020, 1, 1, 0, 0, 0)  # of all files: the same wheel from the same sources
 
 
@@ -182,6 +182,15 @@ def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pat
     return wheel
 
 
+def check_mathematics(module: pathlib.Path) -> None:
+    """Fails where zig's own functions took the place of those of glibc, which other builds compute with."""
+    elf = read_elf.read(module)
+    lacking = MATHEMATICS - (elf.imports if elf else set())
+    if lacking:
+        raise Failure(f"{module} does not take {', '.join(sorted(lacking))} from glibc but from zig's compiler-rt: something needs "
+                      "what cmake/zig_runtime.c, or on other processors scripts/zig_compiler.sh, does not give")
+
+
 def check_tag(wheel: pathlib.Path, tools: pathlib.Path) -> None:
     """Fails where auditwheel names another system than the wheel's name does."""
     told = subprocess.run([str(tools), "-m", "auditwheel", "show", str(wheel)], capture_output=True, text=True, check=False)
@@ -209,6 +218,8 @@ def main() -> int:
             for python in [name for name in arguments.pythons if not chosen or name in chosen["pythons"]]:
                 print(f"building vantage for {target}, {TAGS[python]}", flush=True)
                 folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, part)
+                if not chosen:  # those for Linux
+                    check_mathematics(next((folder / "vantage").glob("_core.*.so")))
                 wheel = pack(folder, TAGS[python], target, dist)
                 if not chosen:
                     check_tag(wheel, tools)

@@ -51,6 +51,15 @@ def dutch_cube() -> str:
         "vertices": corners})
 
 
+def tour_by_pairs() -> str:
+    """A mission of few small targets, far apart: the bound of its tour is the one by pairs, which takes HiGHS."""
+    places = ((0, 0), (400, 60), (800, -30), (700, 400), (150, 380))
+    targets = [{"name": f"square {x}", "vertices": [[x, y, 0], [x + 4, y, 0], [x + 4, y + 4, 0], [x, y + 4, 0]]} for x, y in places]
+    return json.dumps({"scene": {"mesh": "lawn.obj"}, "targets": targets, "sensor": {"max_range": 20},
+                       "navigation": {"altitude": [5, 15]},
+                       "tour": {"vehicle": {"kind": "multirotor", "speed": 6}, "view": {"dwell": 1}, "gap": 0.05, "time_limit": 100}})
+
+
 # ---- roots
 
 class Debian:
@@ -112,6 +121,8 @@ def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, 
     shutil.copytree(root / "opt/moved/share/doc/vantage/examples", root / "trial/examples")
     shutil.copy(PROJECT / "examples/town/tour.yaml", root / "trial/examples/town")
     (root / "trial/N48E011.hgt").write_bytes(RASTER)
+    (root / "trial/lawn.obj").write_text("v -99 -99 0\nv 999 -99 0\nv 999 599 0\nv -99 599 0\ng lawn\nf 1 2 3 4\n", encoding="utf-8")
+    (root / "trial/far_apart.yaml").write_text(tour_by_pairs(), encoding="utf-8")
     (root / "trial/cube.city.json").write_text(dutch_cube(), encoding="utf-8")
     return f"{len(names)} packages of Debian" + (f": {' '.join(names)}" if 0 < len(names) < 8 else "")
 
@@ -156,6 +167,9 @@ def check_everywhere(program: Program, version: str) -> None:
     program.run("query", "/trial/examples/plaza/mission.yaml", "/trial/examples/plaza/points.csv")
     program.run("tour", "/trial/examples/town/tour.yaml", "-o", "/trial/tour.plan", "--certificate", "/trial/tour.cert")
     program.run("verify-tour", "/trial/tour.cert")
+    told = json.loads(program.run("tour", "/trial/far_apart.yaml", "-o", "/trial/far_apart.csv", "--json"))
+    if told["bound"]["kind"] != "pairs":
+        raise Fault(f"the bound of a tour is by {told['bound']['kind']} where it should be by pairs (HiGHS)")
     program.run("inspect", "/trial/cube.city.json")
     program.run("report", "/trial/examples/plaza/mission.yaml", "-o", "/trial/report.html")
     subprocess.run([sys.executable, str(PROJECT / "tools" / "check_tour.py"), str(program.root / "trial/tour.cert")],

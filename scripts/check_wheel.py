@@ -21,6 +21,7 @@ import vantage as vt
 
 HERE = pathlib.Path(__file__).resolve().parent
 SQUARE = [[-12, -9, 0], [8, -11, 0], [11, 0, 0], [4, 10, 0], [-13, 8, 0]]
+FAR_APART = [(0, 0), (400, 60), (800, -30), (700, 400), (150, 380)]
 SET_FLAGS, IS_UP = 0x8914, 1  # netdevice(7): SIOCSIFFLAGS, IFF_UP
 STARTED = time.perf_counter()
 PYTHON = [sys.executable]  # the command that starts it again
@@ -75,6 +76,18 @@ def check_volumes(expected: pathlib.Path) -> None:
     expect(result.returncode == 0, result.stderr.strip())
 
 
+def check_tour() -> None:
+    """A tour of few small targets, far apart: its bound is the one by pairs, which takes linear programs (HiGHS)."""
+    ground = vt.Scene.from_arrays([[-99, -99, 0], [999, -99, 0], [999, 599, 0], [-99, 599, 0]], [[0, 1, 2], [0, 2, 3]],
+                                  objects=[vt.SceneObject("lawn", kind="ground")])
+    squares = [[[x, y, 0], [x + 4, y, 0], [x + 4, y + 4, 0], [x, y + 4, 0]] for x, y in FAR_APART]
+    mission = vt.Mission.of(ground, squares, max_range=20, navigation=vt.Navigation(altitude=(5, 15)))
+    tour = vt.tour(mission, {"view": {"dwell": 1}, "gap": 0.05, "time_limit": 300})
+    assert tour.bound is not None
+    expect(tour.bound.kind == "pairs" and 0 <= tour.bound.gap <= 0.05 and not tour.left_out,
+           f"a tour of {tour.length_m:.1f} m, bound by {tour.bound.kind} {tour.bound.length_m:.1f} m (HiGHS)")
+
+
 def check_page() -> None:
     """A report, and what `view` serves, where the wheel was built with the page."""
     mission = str(HERE / "examples/plaza/mission.yaml")
@@ -90,12 +103,12 @@ def check_page() -> None:
     try:
         assert server.stdout is not None
         address = server.stdout.readline().strip()
-        with urllib.request.urlopen(address, timeout=60) as answer:
+        with urllib.request.urlopen(address, timeout=300) as answer:
             page = answer.read().decode()
         expect("vantageLive=" in page, f"view serves the page, {len(page)} bytes")
     finally:
         server.send_signal(signal.SIGINT)
-    expect(server.wait(timeout=60) == 0, "view ends at Ctrl-C")
+    expect(server.wait(timeout=300) == 0, "view ends at Ctrl-C")
 
 
 def check_binaries() -> None:
@@ -146,6 +159,7 @@ def main() -> int:
 
     if arguments.expected:
         check_volumes(arguments.expected)
+    check_tour()
     check_page()
     cube = vt.Scene.from_bytes(dutch_cube().encode(), "json")
     place = cube.georeference

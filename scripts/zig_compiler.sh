@@ -38,16 +38,38 @@ write_command clang cc -target "$target"
 write_command clang++ c++ -target "$target"
 write_command ar ar
 write_command ranlib ranlib
-# What is to be linked before zig's own compiler-rt, on Linux on x86-64 alone: elsewhere long double needs more of it.
+# What is to be linked before zig's own compiler-rt, so that nothing is taken from that: one object, which has sin, cos, exp,
+# log and memcpy of its own beside what is needed, and these would take the place of glibc's.
+# On other systems than Linux nothing is put before it.
 runtime=$here/../cmake/zig_runtime.c
 archive=$folder/libvantage_zig.a
-if [ "$archive" -ot "$runtime" ]; then
+# compile_c_runtime: what x86-64 needs of it
+compile_c_runtime() {
+  "$folder/clang" -O2 -g0 -fPIC -fno-builtin -ffp-contract=off -fno-sanitize=all -fcf-protection -c "$runtime" -o "$folder/runtime.o"
+}
+# compile_zig_runtime: all of it but what glibc has. On aarch64 long double has 128 bits, and needs much of it.
+compile_zig_runtime() {
+  local source=$folder/compiler-rt lines
+  rm -rf "$source"
+  mkdir -p "$source"
+  cp -r "$zig/python/ziglang/lib/compiler_rt.zig" "$zig/python/ziglang/lib/compiler_rt" "$source/"
+  sed -i -E '\|// Math routines|,\|// BigInt|d; \|"compiler_rt/(memcpy\|memmove\|ssp)\.zig"|d; /symbol\(&(memset|memcmp|bcmp|strlen),/d' \
+    "$source/compiler_rt.zig"
+  sed -i '/symbol(&__divxc3,/d' "$source/compiler_rt/divc3.zig"  # of 80 bits, which no function of this processor takes
+  (cd "$source" && ZIG_GLOBAL_CACHE_DIR=$zig/cache ZIG_LOCAL_CACHE_DIR=$zig/cache "$zig/python/ziglang/zig" build-obj \
+    -target "$target" -O ReleaseFast -fPIC -fstrip -ffunction-sections --name runtime -femit-bin=../runtime.o compiler_rt.zig)
+  lines=$(readelf -sW "$folder/runtime.o" | awk '
+    $7 == "UND" && $8 !~ /^(memcpy|memset|fmaxl)?$/ { print $8 " is not defined" }
+    $7 != "UND" && $8 ~ /^(sin|cos|tan|exp|exp2|log|log2|log10|fma|fmod|sqrt|memcpy|memset|strlen)$/ { print $8 " is defined" }')
+  [ -z "$lines" ] || { echo "zig's compiler-rt is another one than expected: $lines" >&2; exit 1; }
+}
+if [ "$archive" -ot "$runtime" ] || [ "$archive" -ot "$0" ]; then
   rm -f "$archive"
-  if [[ $target == x86_64-linux-* ]]; then
-    "$folder/clang" -O2 -g0 -fPIC -fno-builtin -ffp-contract=off -fno-sanitize=all -fcf-protection -c "$runtime" -o "$folder/runtime.o"
-    "$folder/ar" rcs "$archive" "$folder/runtime.o"
-  else
-    "$folder/ar" rcs "$archive"
-  fi
+  case $target in
+    x86_64-linux-*) compile_c_runtime ;;
+    aarch64-linux-*) compile_zig_runtime ;;
+  esac
+  # shellcheck disable=SC2046
+  "$folder/ar" rcs "$archive" $(ls "$folder/runtime.o" 2>/dev/null)
 fi
 echo "$folder"

@@ -404,6 +404,22 @@ class Scripts(unittest.TestCase):
             self.expect_wheel(1, "loads libstdc++-6.dll", {**none, name: self.foreign_binary(kind, "libstdc++-6.dll")})
             self.expect_wheel(1, "other.dll is a binary", {**none, "vantage/other.dll": self.foreign_binary(kind, known)})
 
+    def test_portable_wheel_takes_its_mathematics_from_glibc(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        self.addCleanup(sys.path.remove, str(ROOT / "scripts"))
+        portable = importlib.import_module("build_portable_wheels")
+        module = self.scratch / "_core.abi3.so"
+
+        def link(source: str) -> pathlib.Path:
+            text = f"#include <math.h>\ndouble f(double x) {{ return sin(x) + cos(x) + exp(x) + log(x); }}\n{source}"
+            subprocess.run(["gcc", "-shared", "-fPIC", "-fno-builtin", "-x", "c", "-", "-o", str(module), "-lm"], input=text, text=True,
+                           check=True)
+            return module
+
+        portable.check_mathematics(link(""))
+        with self.assertRaisesRegex(portable.Failure, "cos"):
+            portable.check_mathematics(link('__attribute__((visibility("hidden"))) double cos(double x) { return x; }'))
+
     def test_runtime_of_zig_computes_as_the_compiler_does(self):
         source = self.scratch / "compare.c"
         names = ("__udivti3", "__divti3", "__muldc3", "__divdc3")
