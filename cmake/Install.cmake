@@ -68,7 +68,8 @@ if(VANTAGE_WITH_MISSIONS AND NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linke
   list(APPEND licences "manifold/LICENSE=Manifold")
 endif()
 if(VANTAGE_HAS_HIGHS)
-  list(APPEND licences "highs/LICENSE.txt=HiGHS" "highs/extern/pdqsort/license.txt=pdqsort")
+  list(APPEND licences "highs/LICENSE.txt=HiGHS" "highs/extern/pdqsort/license.txt=pdqsort"
+       "highs/extern/zstr/LICENSE=zstr")
 endif()
 foreach(licence IN LISTS licences)
   string(REPLACE "=" ";" licence ${licence})
