@@ -2,11 +2,11 @@
 """Builds wheels that run on old Linux systems and on other processors, into dist/, with the compiler of zig: for each
 system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI).
 
-    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17 aarch64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
+    build_portable_wheels.py [--targets x86_64-linux-gnu.2.17] [--pythons cp311 abi3] [--jobs N]
 
 What is in them: wheel_libraries.toml, and the page, where `make web` has built it. The name of a wheel says which glibc it
 needs: the newest version that one of the functions has which it takes from glibc. It may not be newer than that of the
-target. auditwheel must say the same.
+target. auditwheel must say the same. Not tried to the end: aarch64-linux-gnu.2.17.
 """
 
 import argparse

@@ -65,11 +65,12 @@ compile_zig_runtime() {
 }
 if [ "$archive" -ot "$runtime" ] || [ "$archive" -ot "$0" ]; then
   rm -f "$archive"
+  objects=("$folder/runtime.o")
   case $target in
     x86_64-linux-*) compile_c_runtime ;;
     aarch64-linux-*) compile_zig_runtime ;;
+    *) objects=() ;;
   esac
-  # shellcheck disable=SC2046
-  "$folder/ar" rcs "$archive" $(ls "$folder/runtime.o" 2>/dev/null)
+  "$folder/ar" rcs "$archive" "${objects[@]}"
 fi
 echo "$folder"
