@@ -1,6 +1,6 @@
 """Reads from a program or a library, as the linker wrote it, where it looks for libraries and how it is hardened.
 
-Used by tests/check_binaries.py and, for a wheel, by check_wheel.py. Of ELF it knows what it needs: 64 bit, little endian.
+Used by tests/check_binaries.py, by check_wheel.py for a wheel, and by build_program.py. Of ELF it knows what it needs: 64 bit, little endian.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import re
 import stat
 import struct
 
-_SHARED = 3  # e_type of libraries and of programs that may lie anywhere
+_FIXED, _SHARED = 2, 3  # e_type: programs with a fixed address; libraries, and programs that may lie anywhere
 _X86_64 = 62  # e_machine
 _LOAD, _DYNAMIC, _INTERPRETER = 1, 2, 3  # p_type
 _STACK, _RELRO, _PROPERTY = 0x6474E551, 0x6474E552, 0x6474E553
@@ -20,10 +20,11 @@ _EXECUTE, _WRITE = 1, 2  # p_flags
 _NEEDED, _STRTAB, _SYMTAB, _RPATH, _RUNPATH, _FLAGS = 1, 5, 6, 15, 29, 30  # d_tag
 _VERSIONS, _VERSION_COUNT = 0x6FFFFFFE, 0x6FFFFFFF
 _FLAGS_1, _GNU_HASH, _HASH = 0x6FFFFFFB, 0x6FFFFEF5, 4
-_BIND_NOW, _NOW = 8, 1  # in DT_FLAGS, in DT_FLAGS_1
+_BIND_NOW, _NOW, _PIE = 8, 1, 0x08000000  # in DT_FLAGS; in DT_FLAGS_1
 _FUNCTION, _LOCAL = 2, 0  # of symbols
 _SYMTAB_SECTION, _DYNAMIC_SYMTAB_SECTION = 2, 11  # sh_type
 _ENDBR64 = b"\xf3\x0f\x1e\xfa"
+_READS_GUARD = re.compile(rb"\x64[\x48\x4c]\x8b[\x04\x0c\x14\x1c\x24\x2c\x34\x3c]\x25\x28\0\0\0")  # mov %fs:0x28,%REGISTER
 _X86_FEATURES, IBT, SHSTK = 0xC0000002, 1, 2
 
 
@@ -46,7 +47,8 @@ class Segment:
     flags: int
     offset: int
     address: int
-    size: int
+    size: int  # in the file
+    size_in_memory: int
 
 
 class Elf:
@@ -62,8 +64,8 @@ class Elf:
         self._sections = [struct.unpack_from("<IIQQQQIIQQ", data, sections + i * section_size) for i in range(section_count)]
         self.segments = []
         for i in range(count):
-            kind, flags, offset, address, _, in_file = struct.unpack_from("<IIQQQQ", data, at + i * size)
-            self.segments.append(Segment(kind, flags, offset, address, in_file))
+            kind, flags, offset, address, _, in_file, in_memory = struct.unpack_from("<IIQQQQQ", data, at + i * size)
+            self.segments.append(Segment(kind, flags, offset, address, in_file, in_memory))
         self._entries = self._dynamic_entries()
 
     def _dynamic_entries(self) -> list[tuple[int, int]]:
@@ -93,8 +95,13 @@ class Elf:
         return [self._text(self._offset(self._values(_STRTAB)[0]) + value) for value in self._values(tag)]
 
     @property
-    def is_program(self) -> bool:
+    def has_loader(self) -> bool:
+        """Whether it names a loader, which a static program does not."""
         return any(segment.kind == _INTERPRETER for segment in self.segments)
+
+    @property
+    def is_program(self) -> bool:
+        return self.has_loader or self.kind == _FIXED or any(value & _PIE for value in self._values(_FLAGS_1))
 
     @property
     def may_lie_anywhere(self) -> bool:
@@ -140,6 +147,11 @@ class Elf:
     def is_stack_executable(self) -> bool:
         flags = self.flags_of(_STACK)
         return flags is None or bool(flags & _EXECUTE)
+
+    @property
+    def stack_bytes(self) -> int:
+        """The stack that musl gives to threads, where it is larger than 128 KiB."""
+        return next((segment.size_in_memory for segment in self.segments if segment.kind == _STACK), 0)
 
     @property
     def has_relro(self) -> bool:
@@ -201,6 +213,18 @@ class Elf:
     def imports(self) -> set[str]:
         return {symbol.name for symbol in self.dynamic_symbols if not symbol.is_defined and symbol.name}
 
+    @property
+    def code(self) -> bytes:
+        return b"".join(self._data[segment.offset:segment.offset + segment.size] for segment in self.segments
+                        if segment.kind == _LOAD and segment.flags & _EXECUTE)
+
+    @property
+    def has_stack_protector(self) -> bool:
+        """Whether it takes the function that reports an overwritten stack from elsewhere; or, since zig brings that along,
+        whether its code reads the guard, where that can be told (x86-64)."""
+        return bool(self.imports & {"__stack_chk_fail", "__stack_chk_guard"}) or \
+            self.machine == _X86_64 and _READS_GUARD.search(self.code) is not None
+
     def begins_with_endbr(self, symbol: Symbol) -> bool:
         offset = self._offset(symbol.address)
         return self._data[offset:offset + 4] == _ENDBR64
@@ -256,8 +280,8 @@ def hardening_faults(elf: Elf, is_fortified: bool) -> list[str]:
     if not elf.binds_at_once:
         found.append("has no BIND_NOW")
     imports = elf.imports
-    if not imports & {"__stack_chk_fail", "__stack_chk_guard"}:  # zig brings the former along, but on x86-64
-        found.append("does not import __stack_chk_fail (-fstack-protector-strong)")
+    if not elf.has_stack_protector:
+        found.append("has no stack protector: no call of __stack_chk_fail (-fstack-protector-strong)")
     if is_fortified and not any(re.fullmatch(r"__\w+_chk", name) for name in imports):
         found.append("imports none of __memcpy_chk and the like (-D_FORTIFY_SOURCE)")
     if elf.machine == _X86_64:
@@ -271,8 +295,8 @@ def functions_without_endbr(elf: Elf) -> list[str]:
     """Those that others call through a pointer: what a library shows, and the main function of a program."""
     shown = [symbol for symbol in elf.dynamic_symbols if symbol.is_defined and symbol.is_function and symbol.address]
     shown += [symbol for symbol in elf.all_symbols if symbol.name == "main" and symbol.is_function and symbol.address]
-    if not shown:
-        return ["none that is shown"]
+    if not shown:  # of a stripped program that shows none it can be told only whether any function begins so
+        return [] if elf.is_program and _ENDBR64 in elf.code else ["none that is shown"]
     # What the C library's own start files bring along is not ours.
     return [symbol.name for symbol in shown if symbol.name not in ("_init", "_fini", "_start")
             and not elf.begins_with_endbr(symbol)]

@@ -193,6 +193,20 @@ class Checks(unittest.TestCase):
                 self.assertIn(fault, self.faults(f"{self.GOOD} {bad} {more}", code), bad)
         self.assertIn("no PIE", self.faults(f"{self.GOOD} -no-pie -fno-pic -fno-pie", program))
 
+    def test_stripped_and_static_programs(self):
+        program = self.CODE + self.MAIN.replace("int main", '__attribute__((visibility("hidden"))) int main')
+        stripped = f"{self.GOOD} -fvisibility=hidden -pie -s"
+        hidden = program.replace('visibility("default")', 'visibility("hidden")')
+        self.assertEqual(self.faults(stripped, hidden), "")
+        self.assertIn("__stack_chk_fail", self.faults(f"{stripped} -fno-stack-protector", hidden))
+        static = read_elf.read(self.make("static", f"{self.GOOD} -static-pie -s -Wl,-z,stack-size=8388608", program))
+        self.assertTrue(static.is_program and static.may_lie_anywhere and static.has_stack_protector)
+        self.assertFalse(static.has_loader or static.needed)
+        self.assertEqual(static.stack_bytes, 8388608)
+        self.assertEqual(read_elf.hardening_faults(static, False), [])
+        fixed = read_elf.read(self.make("fixed", f"{self.GOOD} -static -no-pie -fno-pie", program))
+        self.assertTrue(fixed.is_program and not fixed.has_loader)
+
     def test_the_versions_are_read(self):
         library = self.make("one.so", f"{self.GOOD} -shared")
         told = subprocess.run(["readelf", "--version-info", "--wide", str(library)], capture_output=True, text=True, check=True)
