@@ -11,12 +11,13 @@ from __future__ import annotations
 import base64
 import hashlib
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
 import tomllib
 import zipfile
+
+from vantage_version import version
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build-web"
@@ -43,14 +44,6 @@ def engine() -> bytes:
     subprocess.run(["node", tools / "node_modules/binaryen/bin/wasm-opt", *(f"--enable-{name}" for name in FEATURES),
                     "--strip-debug", "--emit-exnref", source, "-o", made], check=True)
     return made.read_bytes()
-
-
-def version() -> str:
-    text = (ROOT / "include/vantage/version.h").read_text()
-    found = re.search(r'VANTAGE_VERSION "([^"]+)"', text)
-    if found is None:
-        sys.exit("include/vantage/version.h states no version")
-    return found[1]
 
 
 def metadata(number: str) -> str:

@@ -25,7 +25,8 @@ import tarfile
 import zipfile
 from collections.abc import Callable
 
-from write_sbom import NO_LIST, PROJECT, Failure, version
+from vantage_version import version
+from write_sbom import NO_LIST, PROJECT, Failure
 
 SUMS = "SHA256SUMS"
 

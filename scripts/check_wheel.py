@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import fcntl
-import json
 import pathlib
 import signal
 import socket
@@ -42,18 +41,6 @@ def program(*arguments: str) -> str:
                             check=False)
     expect(result.returncode == 0, f"python -m vantage {' '.join(arguments)}: exit {result.returncode} {result.stderr[-300:]}")
     return result.stdout
-
-
-def dutch_cube() -> str:
-    """A CityJSON file in the Dutch system: reading it takes PROJ and its database."""
-    corners = [[x, y, z] for z in (0, 10) for y in (0, 10) for x in (0, 10)]
-    sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]]
-    return json.dumps({
-        "type": "CityJSON", "version": "1.1", "transform": {"scale": [1, 1, 1], "translate": [155000, 463000, 0]},
-        "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"},
-        "CityObjects": {"house": {"type": "Building", "geometry": [
-            {"type": "Solid", "lod": "1", "boundaries": [[[side] for side in sides]]}]}},
-        "vertices": corners})
 
 
 def same_as_program(result: vt.Result, name: str, expected: pathlib.Path | None) -> None:
@@ -161,7 +148,7 @@ def main() -> int:
         check_volumes(arguments.expected)
     check_tour()
     check_page()
-    cube = vt.Scene.from_bytes(dutch_cube().encode(), "json")
+    cube = vt.Scene.from_bytes((HERE / "dutch_cube.city.json").read_bytes(), "json")
     place = cube.georeference
     assert place is not None
     expect(abs(place.latitude_deg - 52.155172897) < 1e-4 and abs(place.longitude_deg - 5.387203657) < 1e-4,

@@ -79,7 +79,8 @@ make_root() {
   "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-deps --require-hashes \
     --requirement <(grep '^numpy==' "$here/../python/requirements.lock")
   "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-deps --no-index "$wheel"
-  cp -r "$here/../examples" "$here/check_wheel.py" "$here/read_elf.py" "$here/../python/wheel/same_bytes.py" "$folder/expected" "$root/check/"
+  cp -r "$here/../examples" "$here/check_wheel.py" "$here/read_elf.py" "$here/../python/wheel/same_bytes.py" \
+    "$here/../python/wheel/dutch_cube.city.json" "$folder/expected" "$root/check/"
   if [ -n "$emulator" ]; then cp "$(command -v "$emulator")" "$root/usr/bin/"; fi
   echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: ${names//$'\n'/ }"
 }

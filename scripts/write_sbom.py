@@ -24,6 +24,7 @@ import uuid
 import zipfile
 
 import fetch_web_sources
+from vantage_version import version
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
@@ -187,14 +188,6 @@ def libraries_in(file: pathlib.Path, libraries: dict[str, list[dict]]) -> list[L
         raise Failure(f"{name} has no {LIST}")
     found = [from_list(line, libraries) for line in text.splitlines() if not line.startswith("#")]
     return found + (page_libraries(libraries) if has_page else [])
-
-
-def version() -> str:
-    header = (PROJECT / "include" / "vantage" / "version.h").read_text(encoding="utf-8")
-    found = re.search(r'VANTAGE_VERSION "([^"]+)"', header)
-    if found is None:
-        raise Failure("include/vantage/version.h names no VANTAGE_VERSION")
-    return found[1]
 
 
 def commit_time() -> str:
