@@ -100,6 +100,11 @@ endfunction()
 # ---- vantage ------------------------------------------------------------------
 # PROJ is loaded when it is needed, not linked, but with VANTAGE_LINK_PROJ: src/geo/proj_library.h.
 set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS "${VANTAGE_PROJ_DEFINITIONS}")
+# GDAL, OpenGL and libcurl are loaded when they are needed, where there is a loader.
+option(VANTAGE_LOAD_LIBRARIES "Load libraries at run time; OFF for a program that is linked statically" ON)
+if(NOT VANTAGE_LOAD_LIBRARIES)
+  set_source_files_properties(${source}/core/system_limits.cpp PROPERTIES COMPILE_DEFINITIONS VANTAGE_LOADS_NO_LIBRARIES)
+endif()
 vantage_part(core
   MODULES core request options geo io tiles scene target query camera sensor prove simplify
   HOT exact

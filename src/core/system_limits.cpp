@@ -25,7 +25,16 @@ void check_open_files() {
   }
 }
 
+bool can_load_libraries() {
+#ifdef VANTAGE_LOADS_NO_LIBRARIES  // set by cmake/Components.cmake
+  return false;
+#else
+  return true;
+#endif
+}
+
 void* load_library(const std::vector<std::string>& names, const std::string& what) {
+  if (!can_load_libraries()) return nullptr;
   for (const std::string& name : names) {
     if (void* const handle = ::dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
     const char* const reason = ::dlerror();

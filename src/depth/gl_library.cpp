@@ -2,9 +2,15 @@
 
 #include <dlfcn.h>
 
+#include "core/system_limits.h"
+
 namespace vantage::internal::depth {
 
 std::shared_ptr<const GlLibrary> load_gl_library(std::string& why_not, const char* file) {
+  if (!core::can_load_libraries()) {
+    why_not = std::string("no OpenGL: ") + core::kLoadsNone + "; " + core::kLoadsNoneFix;
+    return nullptr;
+  }
   void* const handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* const reason = dlerror();

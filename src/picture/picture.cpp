@@ -8,6 +8,7 @@
 #include "common/atomic_file.h"
 #include "core/png_mark.h"
 #include "core/progress_reporter.h"
+#include "core/system_limits.h"
 #include "depth/depth.h"
 #include "depth/gl_context.h"
 #include "picture/annotate.h"
@@ -109,6 +110,11 @@ std::vector<std::uint8_t> draw(const DrawList& list, const View& view,
     } catch (const internal::depth::DeviceFailure& failure) {
       why = device.device.name + ": " + failure.what();
     }
+  }
+  if (!internal::core::can_load_libraries()) {
+    throw Error(ErrorCode::device_missing,
+                std::string("pictures are drawn with OpenGL, but ").append(internal::core::kLoadsNone), "",
+                internal::core::kLoadsNoneFix);
   }
   throw Error(ErrorCode::device_missing, "pictures need OpenGL 4.5: " + why, "this machine's OpenGL",
               devices.empty() ? "install libegl1 and libgl1-mesa-dri (Debian): no graphics processor is needed"

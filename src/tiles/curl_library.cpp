@@ -121,6 +121,11 @@ int ask_to_go_on(void* gathering, std::int64_t /*total*/, std::int64_t /*now*/, 
 }  // namespace
 
 HttpClient::HttpClient(const std::string& where) {
+  if (!core::can_load_libraries()) {
+    throw Error(ErrorCode::library_missing,
+                std::string("tilesets are read over the network with libcurl, but ").append(core::kLoadsNone), where,
+                std::string("download the tileset, or ").append(core::kLoadsNoneFix));
+  }
   if (!curl()) {
     throw Error(ErrorCode::library_missing, "tilesets are read over the network with libcurl, which is not installed",
                 where, "install libcurl4 (Debian), or download the tileset");

@@ -49,7 +49,7 @@ std::vector<std::string> gdal_library_names() {
 }
 
 const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std::string>& names) {
-  why_not = "GDAL is not installed";
+  why_not = core::can_load_libraries() ? "GDAL is not installed" : core::kLoadsNone;
   for (const std::string& name : names) {
     void* const handle = core::load_library({name}, "GDAL");
     if (!handle) continue;
@@ -75,8 +75,9 @@ const GdalLibrary& gdal(const std::filesystem::path& file) {
   static std::string why_not;
   static const GdalLibrary* const library = load_gdal_library(why_not, gdal_library_names());
   if (!library) {
-    throw Error(ErrorCode::library_missing, "rasters are read with GDAL: " + why_not, file.string(),
-                "install libgdal32 (Debian 12), or GDAL 3.1 or later");
+    throw Error(
+        ErrorCode::library_missing, "rasters are read with GDAL: " + why_not, file.string(),
+        core::can_load_libraries() ? "install libgdal32 (Debian 12), or GDAL 3.1 or later" : core::kLoadsNoneFix);
   }
   return *library;
 }
