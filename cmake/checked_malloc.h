@@ -7,6 +7,9 @@
 #if __has_include(<malloc.h>)
 #include <malloc.h>
 #endif
+#if __has_include(<sched.h>)
+#include <sched.h>  // that of musl declares calloc
+#endif
 
 #include <cstdlib>
 #include <new>
