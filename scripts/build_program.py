@@ -6,7 +6,7 @@ the compiler of zig.
 
     vantage-VERSION-linux-x86_64.tar.xz          for glibc 2.17 or newer; loads GDAL and OpenGL where they are installed
     vantage-VERSION-linux-x86_64-static.tar.xz   --targets x86_64-linux-musl: for any Linux, with no library at all; so
-                                                 neither GDAL nor OpenGL. Not tried to the end yet.
+                                                 neither GDAL nor OpenGL, and no tilesets over the network
 
 What is in them: wheel_libraries.toml, as in the wheels, and the build fails on anything else. The same sources give the
 same bytes. The program writes its man pages and completions itself, so this runs on the processor that it builds for.
@@ -26,24 +26,19 @@ import tarfile
 import read_elf
 import wheel_licences
 from build_wheel_libraries import Failure, run, zig_tools
+from vantage_version import version
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
 DEPS = PROJECT / ".deps"
-TARGETS = ["x86_64-linux-gnu.2.17"]
+TARGETS = ["x86_64-linux-gnu.2.17", "x86_64-linux-musl"]
 FIXED_TIME = 1577836800  # 2020-01-01, of all files
 GLIBC = re.compile(r"(libc|libm|libdl|libpthread|librt|ld-linux-[\w-]+)\.so\.\d+")
 ZIG_ARCHIVES = {"libc++.a", "libc++abi.a", "libunwind.a", "libcompiler_rt.a"}
 """Those that zig made of its own sources: the list has these under its name."""
 PAGES = ("index.html", "report.html")  # of `vantage view` and `vantage report`
-
-
-def version() -> str:
-    header = (PROJECT / "include" / "vantage" / "version.h").read_text(encoding="utf-8")
-    found = re.search(r'VANTAGE_VERSION "([^"]+)"', header)
-    if found is None:
-        raise Failure("include/vantage/version.h names no VANTAGE_VERSION")
-    return found[1]
+STACK_BYTES = 8 << 20
+"""Of each thread, as glibc gives it; musl gives 128 KiB where a program does not ask for more, and never more than this."""
 
 
 def is_static(target: str) -> bool:
@@ -67,7 +62,10 @@ def build(target: str, work: pathlib.Path, jobs: int, libraries: dict) -> pathli
     zig = zig_tools(target, prefix)
     portable = libraries["portable"]
     flags = f"{portable['vantage']} {portable[zig.processor]} -ffile-prefix-map={PROJECT}=."
-    link = "-Wl,--gc-sections -s" + (" -static-pie" if is_static(target) else "")
+    link, options = "-Wl,--gc-sections -s", list(portable["vantage_options"])
+    if is_static(target):  # zig links for musl without libraries, as a PIE
+        link += f" -Wl,-z,stack-size={STACK_BYTES}"
+        options.append("-DVANTAGE_LOAD_LIBRARIES=OFF")
     cache = build_folder / "CMakeCache.txt"
     if cache.exists() and any(done.stat().st_mtime > cache.stat().st_mtime for done in (folder / "done").iterdir()):
         cache.unlink()  # what CMake remembers of libraries holds until they are built anew
@@ -78,7 +76,7 @@ def build(target: str, work: pathlib.Path, jobs: int, libraries: dict) -> pathli
          "-DVANTAGE_BUILD_PYTHON=OFF",
          "-DVANTAGE_INSTALL=OFF", "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_WITH_DRACO=OFF",
          "-DVANTAGE_WITH_MESHOPT=OFF", "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={prefix}",
-         f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}", *portable["vantage_options"]],
+         f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}", *options],
         PROJECT, log, PKG_CONFIG_LIBDIR=str(prefix / "lib" / "pkgconfig"))
     run(["cmake", "--build", str(build_folder), "--parallel", str(jobs), "--target", "vantage_cli"], PROJECT, log)
     return build_folder
@@ -89,11 +87,14 @@ def check_binary(program: pathlib.Path, target: str) -> str:
     elf = read_elf.read(program)
     if elf is None:
         raise Failure(f"{program} is no program of Linux")
-    if not elf.may_lie_anywhere:
-        raise Failure(f"{program} has a fixed address (no PIE)")
+    faults = read_elf.search_path_faults(elf) + read_elf.hardening_faults(elf, not is_static(target))  # musl has no FORTIFY
+    if faults:
+        raise Failure(f"{program} {'; '.join(faults)}")
     if is_static(target):
-        if elf.needed or elf.is_program:
+        if elf.needed or elf.has_loader:
             raise Failure(f"{program} is not static: it needs {', '.join(elf.needed) or 'a loader'}")
+        if elf.stack_bytes < STACK_BYTES:
+            raise Failure(f"{program} asks for stacks of {elf.stack_bytes} bytes, fewer than {STACK_BYTES}")
         return "no library"
     strange = [name for name in elf.needed if not GLIBC.fullmatch(name)]
     if strange:
@@ -261,7 +262,7 @@ def main() -> int:
             tarball = dist / f"{tarball_name(target)}.tar.xz"
             pack(put_together(target, build_folder), tarball)
             print(f"{tarball.stat().st_size / 1e6:.1f} MB  {tarball} (needs {needs})", flush=True)
-    except (Failure, wheel_licences.Failure, OSError, KeyError, StopIteration, subprocess.CalledProcessError) as error:
+    except (Failure, wheel_licences.Failure, OSError, KeyError, ValueError, subprocess.CalledProcessError) as error:
         print(f"{error}", file=sys.stderr)
         return 1
     return 0
