@@ -296,9 +296,9 @@ VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOption
 /// compute_parts, but only what keeps those limits of the sensor that are cut where the view is computed:
 /// Volume::kept_limits. These are min_range, incidence, sun and the frame of a camera, of a target that is one polygon,
 /// or is computed like one (compute_parts; docs/theory.md, "Limits in the chart"). Where that fails
-/// (StageCounts::boolean_fallbacks), or they leave nothing, it is compute_parts: cut_to_limits then cuts it, or says why
-/// nothing is left. Throws as compute_parts does. Cost: the engine's, and 0 to 90 % more for each limit; some 40 ms for
-/// a camera that turns.
+/// (StageCounts::boolean_fallbacks), or they leave nothing, it is compute_parts: cut_to_limits then cuts it, or says
+/// why nothing is left. Throws as compute_parts does. Cost: the engine's, and 0 to 90 % more for each limit; some 40 ms
+/// for a camera that turns.
 VANTAGE_API Volume compute_view(const PreparedTarget& target, const ExactOptions& options = {},
                                 const Progress& progress = {});
 
