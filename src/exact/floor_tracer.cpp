@@ -18,6 +18,9 @@ namespace {
 
 using core::FacetPolygon;
 
+/// In parts of an inverse depth: what is so far behind a facet is no tie with it.
+constexpr double kSurelyBefore = 1e-9;
+
 /// The part of from -> to in which every plane stays below 1, and which is in a cone of half-spaces e . x > 0: what
 /// lies inside a body of planes. Empty intervals have begin >= end.
 Interval inner_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes,
@@ -159,7 +162,8 @@ void Tracer::gather_blockers() {
     }
     const QuadrantLinear plane = on_quadrant(floor_.planes()[facet_->plane], quadrant);
     for (const DirectionTree::Leaf* leaf : leaves_) {
-      const CellCorners own = leaf->cell.at_corners(plane);
+      CellCorners own = leaf->cell.at_corners(plane);
+      for (double& value : own) value -= kSurelyBefore * std::abs(value);
       for (std::size_t i = 0; i < leaf->count(); ++i) {
         const std::uint32_t blocker = leaf->blockers[i];
         if (seen_[blocker] == number_) continue;
