@@ -4,7 +4,7 @@
     check_symbols.py --headers include/vantage src/common --internals tests/exported_internals.txt -- LIBRARY...
 
 Every symbol of vantage (text, data and zeroed data; nm -D) must be declared in one of the headers, or be in namespace
-vantage::internal and in the list of those that one component needs of another. The list may have at most 58, and all of
+vantage::internal and in the list of those that one component needs of another. The list may have at most 59, and all of
 them must be exported. With --write the list is written anew. With --self-test the check must notice what is wrong in
 examples.
 """
@@ -15,7 +15,7 @@ import re
 import subprocess
 import sys
 
-MOST_INTERNALS = 58
+MOST_INTERNALS = 59
 SYMBOL = re.compile(r"^[0-9a-f]+ ([TBD]) (.+)$")
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
@@ -74,7 +74,7 @@ def self_test() -> list[str]:
         ({"vantage::internal::io::h"}, [], "not in the list"),
         ({"vantage::internal::io::h"}, ["vantage::internal::io::h"], ""),
         (set(), ["vantage::internal::io::h"], "but not exported"),
-        ({f"vantage::internal::f{i}" for i in range(59)}, [f"vantage::internal::f{i}" for i in range(59)], "at most 58"),
+        ({f"vantage::internal::f{i}" for i in range(59)}, [f"vantage::internal::f{i}" for i in range(59)], "at most 59"),
     ]
     wrong = []
     for symbols, listed, expected in cases:
