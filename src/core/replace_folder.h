@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace vantage::internal::core {
 
@@ -20,5 +21,13 @@ std::filesystem::path without_slash(const std::filesystem::path& folder);
 /// ".NAME.vantage-stages-". A long name is cut, since a file system takes 255 bytes: a hash then keeps two of them
 /// apart.
 std::string temporary_prefix(const std::filesystem::path& folder, const std::string& purpose);
+
+/// At the end of a temporary folder's name, as mkdtemp makes them; and after that where it has made room for another.
+constexpr std::size_t kRandomCharacters = 6;
+constexpr std::string_view kAside = "-old";
+/// Whether it is PREFIXxxxxxx and an ending.
+bool is_named_so(const std::string& name, std::string_view prefix, std::string_view ending);
+/// Whether it is one of both.
+bool is_temporary_name(const std::string& name, std::string_view prefix);
 
 }  // namespace vantage::internal::core

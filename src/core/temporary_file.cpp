@@ -17,8 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostNumbers = 256;  // as many processes may write the same file at once
-constexpr int kMostRetries = 10;   // at what another process may be doing at the same moment
+constexpr int kMostRetries = 10;  // at what another process may be doing at the same moment
 
 [[noreturn]] void fail(int error_number) { throw std::system_error(error_number, std::generic_category()); }
 
@@ -28,7 +27,7 @@ std::string name_in_proc(int descriptor) { return "/proc/self/fd/" + std::to_str
 /// Those that were abandoned make room.
 template <typename Path, typename Make>
 int first_free(const Path& path, const Make& make) {
-  for (int number = 0; number < kMostNumbers; ++number) {
+  for (int number = 0; number < TemporaryFile::kMostNumbers; ++number) {
     const fs::path candidate = path(number);
     int error = make(candidate);
     if (error == EEXIST) {
@@ -38,11 +37,6 @@ int first_free(const Path& path, const Make& make) {
     if (error != EEXIST) return error;
   }
   return EEXIST;
-}
-
-bool is_there(const fs::path& path) {
-  struct stat status {};
-  return ::lstat(path.c_str(), &status) == 0;
 }
 
 /// Removes the file that is open, and nothing that took its name meanwhile.
@@ -94,19 +88,6 @@ TemporaryFile::~TemporaryFile() {
   unlink_own(kept_, old_descriptor_);
   if (descriptor_ >= 0) ::close(descriptor_);  // and with it the lock
   if (old_descriptor_ >= 0) ::close(old_descriptor_);
-}
-
-void TemporaryFile::remove_abandoned_ones() const {
-  // Numbers are given from 0 on, so that those in use lie close together: further ones are looked at only behind
-  // others.
-  for (int number = 0, last = kUsualNumbers; number < std::min(last, kMostNumbers); ++number) {
-    for (const char* ending : {".tmp", ".old"}) {
-      const fs::path candidate = numbered(number, ending);
-      if (!is_there(candidate)) continue;
-      last = number + 1 + kUsualNumbers;
-      remove_if_abandoned(candidate);
-    }
-  }
 }
 
 fs::path TemporaryFile::numbered(int number, const char* ending) const {

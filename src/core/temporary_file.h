@@ -35,6 +35,7 @@ class TemporaryFile {
   bool give_back();
 
   static constexpr int kUsualNumbers = 4;
+  static constexpr int kMostNumbers = 256;  ///< as many processes may write the same file at once
 
  protected:  // the steps of keep_old(), for tests
   bool hold_old();

@@ -20,6 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using internal::core::has_temporary_mark;
+using internal::core::is_named_so;
+using internal::core::is_temporary_name;
+using internal::core::kAside;
+using internal::core::kRandomCharacters;
 using internal::core::leads_to;
 using internal::core::lock_alone;
 using internal::core::lock_with_others;
@@ -27,19 +31,12 @@ using internal::core::put_temporary_mark;
 using internal::core::remove_temporary_folder;
 using internal::core::remove_unmarked_folder;
 
-constexpr std::size_t kRandomCharacters = 6;  // of mkdtemp
 constexpr int kAttempts = 10;
 
 fs::path folder_for_temporary_files() {
   std::error_code error;
   const fs::path folder = fs::temp_directory_path(error);
   return error ? fs::path("/tmp") : folder;
-}
-
-/// Whether it is PREFIXxxxxxx and an ending.
-bool is_named_so(const std::string& name, std::string_view prefix, std::string_view ending) {
-  return name.size() == prefix.size() + kRandomCharacters + ending.size() && name.starts_with(prefix) &&
-         name.ends_with(ending);
 }
 
 /// Removes those that were left by processes that have ended: PREFIXxxxxxx and an ending. A name shows nothing, since
@@ -63,8 +60,6 @@ void remove_abandoned(const fs::path& parent, std::string_view prefix, std::stri
     ::close(descriptor);
   }
 }
-
-constexpr std::string_view kAside = "-old";
 
 }  // namespace
 
@@ -101,8 +96,7 @@ TemporaryFolder::~TemporaryFolder() {
 
 bool TemporaryFolder::move_to(const fs::path& place) {
   const std::string own = path_.filename().string(), prefix = own.substr(0, own.size() - kRandomCharacters);
-  const std::string name = place.filename().string();
-  if (is_named_so(name, prefix, "") || is_named_so(name, prefix, kAside)) {
+  if (is_temporary_name(place.filename().string(), prefix)) {
     errno = EINVAL;
     return false;
   }

@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostNumbers = 256;  // as many processes may write the same file at once
-
 [[noreturn]] void fail(int error_number) { throw std::system_error(error_number, std::generic_category()); }
 
 bool is_there(const fs::path& path) { return ::GetFileAttributesW(path.c_str()) != INVALID_FILE_ATTRIBUTES; }
@@ -29,13 +27,7 @@ HANDLE handle_of(int descriptor) { return reinterpret_cast<HANDLE>(::_get_osfhan
 int make_held(const fs::path& path) {
   const HANDLE handle = ::CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr,
                                       CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
-  if (handle == INVALID_HANDLE_VALUE) {
-    errno = errno_of(::GetLastError());
-    return -1;
-  }
-  const int descriptor = ::_open_osfhandle(reinterpret_cast<intptr_t>(handle), _O_BINARY | _O_NOINHERIT);
-  if (descriptor < 0) ::CloseHandle(handle);
-  return descriptor;
+  return descriptor_of(handle);
 }
 
 /// Renames an open file, in one step where another file has the name. 0, or the number of an error.
@@ -80,17 +72,6 @@ TemporaryFile::~TemporaryFile() {
   if (descriptor_ < 0) return;
   remove_open(descriptor_);
   ::_close(descriptor_);
-}
-
-void TemporaryFile::remove_abandoned_ones() const {
-  for (int number = 0, last = kUsualNumbers; number < std::min(last, kMostNumbers); ++number) {
-    for (const char* ending : {".tmp", ".old"}) {
-      const fs::path candidate = numbered(number, ending);
-      if (!is_there(candidate)) continue;
-      last = number + 1 + kUsualNumbers;
-      remove_if_abandoned(candidate);
-    }
-  }
 }
 
 fs::path TemporaryFile::numbered(int number, const char* ending) const {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/replace_folder.h"
 #include "core/temporary_mark.h"
 #include "core/windows/windows.h"
 #include "vantage/error.h"
@@ -19,14 +20,17 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
+using internal::core::descriptor_of;
 using internal::core::errno_of;
+using internal::core::is_named_so;
+using internal::core::is_temporary_name;
+using internal::core::kAside;
+using internal::core::kRandomCharacters;
 using internal::core::kTemporaryMark;
 
 constexpr std::string_view kMarkText =
     "vantage made this folder for a short time. It removes the folder with all that is in it.\n";
-constexpr std::size_t kRandomCharacters = 6;
 constexpr int kAttempts = 10;
-constexpr std::string_view kAside = "-old";
 
 std::string random_characters() {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";  // names differ in more than case
@@ -36,22 +40,11 @@ std::string random_characters() {
   return made;
 }
 
-bool is_named_so(const std::string& name, std::string_view prefix, std::string_view ending) {
-  return name.size() == prefix.size() + kRandomCharacters + ending.size() && name.starts_with(prefix) &&
-         name.ends_with(ending);
-}
-
 /// The mark of a folder, held as above; -1, with errno. `creation`: CREATE_NEW or OPEN_EXISTING.
 int open_mark(const fs::path& folder, DWORD creation) {
   const HANDLE handle = ::CreateFileW((folder / kTemporaryMark).c_str(), GENERIC_READ | GENERIC_WRITE, 0, nullptr,
                                       creation, FILE_ATTRIBUTE_NORMAL | FILE_FLAG_OPEN_REPARSE_POINT, nullptr);
-  if (handle == INVALID_HANDLE_VALUE) {
-    errno = errno_of(::GetLastError());
-    return -1;
-  }
-  const int descriptor = ::_open_osfhandle(reinterpret_cast<intptr_t>(handle), _O_BINARY | _O_NOINHERIT);
-  if (descriptor < 0) ::CloseHandle(handle);
-  return descriptor;
+  return descriptor_of(handle);
 }
 
 bool has_whole_text(int mark) {
@@ -135,8 +128,7 @@ TemporaryFolder::~TemporaryFolder() {
 
 bool TemporaryFolder::move_to(const fs::path& place) {
   const std::string own = path_.filename().string(), prefix = own.substr(0, own.size() - kRandomCharacters);
-  const std::string name = place.filename().string();
-  if (is_named_so(name, prefix, "") || is_named_so(name, prefix, kAside)) {
+  if (is_temporary_name(place.filename().string(), prefix)) {
     errno = EINVAL;
     return false;
   }

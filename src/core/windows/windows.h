@@ -3,9 +3,12 @@
 
 #define WIN32_LEAN_AND_MEAN
 #define NOMINMAX
+#include <fcntl.h>
+#include <io.h>
 #include <windows.h>
 
 #include <cerrno>
+#include <cstdint>
 
 namespace vantage::internal::core {
 
@@ -51,6 +54,17 @@ inline int errno_of(DWORD error) {
     default:
       return EIO;
   }
+}
+
+/// The descriptor of a file that was opened, which closes it. -1, with errno, where that has failed.
+inline int descriptor_of(HANDLE opened) {
+  if (opened == INVALID_HANDLE_VALUE) {
+    errno = errno_of(::GetLastError());
+    return -1;
+  }
+  const int descriptor = ::_open_osfhandle(reinterpret_cast<intptr_t>(opened), _O_BINARY | _O_NOINHERIT);
+  if (descriptor < 0) ::CloseHandle(opened);
+  return descriptor;
 }
 
 }  // namespace vantage::internal::core
