@@ -21,6 +21,18 @@ using core::FacetPolygon;
 /// In parts of an inverse depth: what is so far behind a facet is no tie with it.
 constexpr double kSurelyBefore = 1e-9;
 
+/// Keeps of a segment what is on the positive side, with `a` at its begin and `b` at its end. False where that is
+/// nothing.
+bool keep_positive(double a, double b, Interval& part) {
+  const double crossing = a / (a - b);
+  if (a < b) {
+    part.begin = std::max(part.begin, crossing);
+  } else {
+    part.end = std::min(part.end, crossing);
+  }
+  return part.begin < part.end;
+}
+
 /// The part of from -> to in which every plane stays below 1, and which is in a cone of half-spaces e . x > 0: what
 /// lies inside a body of planes. Empty intervals have begin >= end.
 Interval inner_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes,
@@ -30,25 +42,13 @@ Interval inner_part(const Vec3& from, const Vec3& to, double reach, std::span<co
     const double a = side.dot(from), b = side.dot(to);
     if (a <= 0 && b <= 0) return {1, 0};
     if (a >= 0 && b >= 0) continue;
-    const double crossing = a / (a - b);
-    if (a < b) {
-      inner.begin = std::max(inner.begin, crossing);
-    } else {
-      inner.end = std::min(inner.end, crossing);
-    }
-    if (inner.begin >= inner.end) return {1, 0};
+    if (!keep_positive(a, b, inner)) return {1, 0};
   }
   for (const Plane& plane : planes) {
-    const double margin = tie_margin(plane, reach), a = plane.dot(from) - 1, b = plane.dot(to) - 1;
-    if (a >= -margin && b >= -margin) return {1, 0};
-    if (a <= margin && b <= margin) continue;
-    const double crossing = a / (a - b);
-    if (a < b) {
-      inner.end = std::min(inner.end, crossing);
-    } else {
-      inner.begin = std::max(inner.begin, crossing);
-    }
-    if (inner.begin >= inner.end) return {1, 0};
+    const double margin = tie_margin(plane, reach), a = 1 - plane.dot(from), b = 1 - plane.dot(to);
+    if (a <= margin && b <= margin) return {1, 0};
+    if (a >= -margin && b >= -margin) continue;
+    if (!keep_positive(a, b, inner)) return {1, 0};
   }
   return inner;
 }

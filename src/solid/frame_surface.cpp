@@ -102,7 +102,8 @@ class FrameSurfaceBuilder {
   /// Those beside corners that are far out take others with them: facets that no aim does for.
   enum class Asked { all, beside_raised };
   void settle(Asked asked);
-  Needs cheaper(const Triangle& facet) const;
+  double cost(const Triangle& facet, const Needs& needs) const;
+  Needs cheaper_needs(const Triangle& facet) const;
   bool holds(const Triangle& facet, const Needs& needs) const;
   Needs own_needs(const Triangle& facet) const;
   Needs shared_needs(const Triangle& facet) const;
@@ -216,17 +217,19 @@ bool FrameSurfaceBuilder::holds(const Triangle& facet, const Needs& needs) const
   return true;
 }
 
+/// The sum of the corners' distances once they are raised to what is needed.
+double FrameSurfaceBuilder::cost(const Triangle& facet, const Needs& needs) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
+  return sum;
+}
+
 /// What is needed where the corners are as near as each of them may be.
-FrameSurfaceBuilder::Needs FrameSurfaceBuilder::cheaper(const Triangle& facet) const {
-  const auto cost = [&](const Needs& needs) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
-    return sum;
-  };
+FrameSurfaceBuilder::Needs FrameSurfaceBuilder::cheaper_needs(const Triangle& facet) const {
   const Needs own = own_needs(facet);
-  if (cost(own) <= (1 + view_.share) * cost({})) return own;
+  if (cost(facet, own) <= (1 + view_.share) * cost(facet, {})) return own;
   const Needs shared = shared_needs(facet);
-  Needs needs = cost(own) <= cost(shared) ? own : shared;
+  Needs needs = cost(facet, own) <= cost(facet, shared) ? own : shared;
   if (!(*std::max_element(needs.begin(), needs.end()) < cap_)) needs.fill(cap_);
   return needs;
 }
@@ -240,7 +243,7 @@ void FrameSurfaceBuilder::estimate() {
     if (!matters(facet)) continue;
     Estimate& of = estimates_[f];
     const bool is_new = std::any_of(facet.begin(), facet.end(), [&](std::uint32_t i) { return nodes_[i].is_new; });
-    if (!of.is_known || is_new) of = {true, cheaper(facet)};
+    if (!of.is_known || is_new) of = {true, cheaper_needs(facet)};
   }
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     if (!estimates_[f].is_known) continue;
@@ -264,11 +267,6 @@ void FrameSurfaceBuilder::settle(Asked asked) {
     if (node.distance > kMuch * node.best) raised[i] = 0;
     node.distance = std::min(node.distance * kRaise, cap_);
   }
-  const auto cost = [&](const Triangle& facet, const Needs& needs) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
-    return sum;
-  };
   std::vector<int> own_raises(facets_.size(), 0);
   bool is_raised = true;
   for (int pass = 1; is_raised; ++pass) {
