@@ -324,7 +324,7 @@ double FrameSurfaceBuilder::least_space() const {
   // A facet that is halved halves another one beside it.
   const std::size_t most = std::max<std::size_t>((view_.most_facets - facets_.size()) / 2, 1);
   if (spaces.size() <= most) return mean;
-  std::ranges::nth_element(spaces, spaces.begin() + static_cast<std::ptrdiff_t>(most), std::greater());
+  std::nth_element(spaces.begin(), spaces.begin() + static_cast<std::ptrdiff_t>(most), spaces.end(), std::greater());
   return std::max(mean, spaces[most]);
 }
 
