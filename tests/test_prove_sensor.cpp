@@ -184,14 +184,35 @@ TEST(ProveSensor, AFixedCamera) {
   }
 }
 
-/// One orientation is found for each facet, or one that turns from corner to corner. Here, that is: of the ranges 20 to
-/// 60 37 of 41 leave a few facets open, and the last digits of the volume decide which.
+/// One orientation is found for each facet, or one that turns from corner to corner.
 TEST(ProveSensor, ACameraThatTurns) {
   const Place place{1e-3, {5e5, 5e6, 100}};
-  Sensor sensor{.max_range_m = 46 * place.scale};
-  sensor.camera = pinhole_of_fov(30, 20);
-  sensor.mount = {.min_pitch_deg = -30, .max_pitch_deg = 30};
-  EXPECT_EQ(sensor_claim(place, sensor, volume_with(place, sensor)).verdict, ProofVerdict::proved);
+  for (const double range : {20, 46}) {
+    Sensor sensor{.max_range_m = range * place.scale};
+    sensor.camera = pinhole_of_fov(30, 20);
+    sensor.mount = {.min_pitch_deg = -30, .max_pitch_deg = 30};
+    EXPECT_EQ(sensor_claim(place, sensor, volume_with(place, sensor)).verdict, ProofVerdict::proved) << range;
+  }
+}
+
+/// Where what serves is a narrow strip of yaws and pitches, or there are several.
+TEST(ProveSensor, ACameraThatTurnsAndRolls) {
+  struct Camera {
+    double width_deg, height_deg;
+    Mount mount;
+  };
+  const Place place{1e-3, {5e5, 5e6, 100}};
+  for (const Camera& camera :
+       std::vector<Camera>{{38, 46, {.min_pitch_deg = -75.6, .max_pitch_deg = -50.5, .roll_deg = -140}},
+                           {60, 2, {.min_pitch_deg = -90, .max_pitch_deg = 90, .roll_deg = -50}},
+                           {8, 150, {.min_pitch_deg = -90, .max_pitch_deg = 90, .roll_deg = 3}},
+                           {150, 103, {.min_pitch_deg = 40, .max_pitch_deg = 90, .roll_deg = 90}}}) {
+    Sensor sensor{.max_range_m = 50 * place.scale};
+    sensor.camera = pinhole_of_fov(camera.width_deg, camera.height_deg);
+    sensor.mount = camera.mount;
+    EXPECT_EQ(sensor_claim(place, sensor, volume_with(place, sensor)).verdict, ProofVerdict::proved)
+        << camera.width_deg;
+  }
 }
 
 /// What does not keep the frame is not proved, as no search shows that there is no orientation.

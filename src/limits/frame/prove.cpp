@@ -10,6 +10,7 @@
 #include <string>
 
 #include "prove/limit_proof.h"
+#include "prove/lowest_point.h"
 #include "prove/orientation.h"
 #include "prove/triangle_distance.h"
 
@@ -69,15 +70,45 @@ class Picture {
     return most;
   }
 
-  /// Orientations from which a search may start: towards the target, and turned about the vertical.
-  std::vector<CameraAim> starts(const LimitedVolume::Corners& positions) const {
-    const Vec3 towards = middle_ - (positions[0] + positions[1] + positions[2]) / 3;
-    const double pitch = clamped(std::atan2(towards.z(), towards.head<2>().norm()));
-    if (mount_.yaw_deg) return {{*mount_.yaw_deg * kDegrees, pitch}};
-    constexpr int kStarts = 16;
+  /// Towards the target.
+  CameraAim towards(const LimitedVolume::Corners& positions) const {
+    const Vec3 way = middle_ - (positions[0] + positions[1] + positions[2]) / 3;
+    return {mount_.yaw_deg ? *mount_.yaw_deg * kDegrees : std::atan2(way.x(), way.y()),
+            clamped(std::atan2(way.z(), way.head<2>().norm()))};
+  }
+
+  /// Orientations over all that the mount allows, each as good as its neighbours in a grid: the best ones, best first.
+  std::vector<CameraAim> valleys(const LimitedVolume::Corners& positions) const {
+    constexpr int kYaws = 180, kMost = 12;
+    constexpr double kPitchStep = 2 * kDegrees;
+    constexpr double kDeepest = 0.1;  // radians: where more is out, none next to it lets all in
+    const double low = clamped(-std::numbers::pi / 2), high = clamped(std::numbers::pi / 2);
+    const int yaws = mount_.yaw_deg ? 1 : kYaws, pitches = 2 + static_cast<int>((high - low) / kPitchStep);
+    const auto aim_at = [&](int yaw, int pitch) {
+      const double turned = mount_.yaw_deg ? *mount_.yaw_deg * kDegrees : yaw * 2 * std::numbers::pi / kYaws;
+      return CameraAim{turned, low + (high - low) * pitch / (pitches - 1)};
+    };
+    std::vector<double> outs;
+    for (int yaw = 0; yaw < yaws; ++yaw) {
+      for (int pitch = 0; pitch < pitches; ++pitch) outs.push_back(out_by(aim_at(yaw, pitch), positions));
+    }
+    const auto out_at = [&](int yaw, int pitch) {
+      const auto row = static_cast<std::size_t>((yaw + yaws) % yaws);
+      return outs[row * static_cast<std::size_t>(pitches) +
+                  static_cast<std::size_t>(std::clamp(pitch, 0, pitches - 1))];
+    };
+    std::vector<std::pair<double, CameraAim>> found;
+    for (int yaw = 0; yaw < yaws; ++yaw) {
+      for (int pitch = 0; pitch < pitches; ++pitch) {
+        double least = out_at(yaw, pitch);
+        for (int i = 0; i < 9; ++i) least = std::min(least, out_at(yaw + i / 3 - 1, pitch + i % 3 - 1));
+        if (out_at(yaw, pitch) <= least) found.emplace_back(least, aim_at(yaw, pitch));
+      }
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<CameraAim> aims;
-    for (int start = 0; start < kStarts; ++start) {
-      aims.push_back({std::atan2(towards.x(), towards.y()) + start * 2 * std::numbers::pi / kStarts, pitch});
+    for (const auto& valley : found) {
+      if (aims.size() < kMost && valley.first < kDeepest * distance_from(positions[0])) aims.push_back(valley.second);
     }
     return aims;
   }
@@ -110,65 +141,35 @@ class Picture {
     return aim;
   }
 
-  /// Goes to the best of the neighbours, in shorter steps where there is none. Whether nothing is out by more than what
-  /// is allowed then.
+  /// Turns the camera until nothing is out by more than what is allowed, or as far as that gets better: to where the
+  /// most is least that any corner is out by, were it linear, again and again (Madsen 1975). Whether it is allowed
+  /// then.
   template <typename Positions>
   bool improve(CameraAim& aim, const Positions& positions, double allowed) const {
-    double out = out_by(aim, positions), farthest = 0;
+    constexpr int kMostTurns = 40;
+    constexpr double kFirst = 0.3, kFarthest = 0.5, kLast = 1e-9;  // radians
+    constexpr double kLeastGain = 1e-9;                            // of the distance
     const CameraAim middle = centred(aim, positions);
-    const double out_of_middle = out_by(middle, positions);
-    if (out_of_middle < out) {
-      aim = middle;
-      out = out_of_middle;
-    }
-    for (const Vec3& corner : corners_) farthest = std::max(farthest, (corner - positions[0]).norm());
-    constexpr double kLongest = 0.2, kShortest = 1e-6;  // radians
-    constexpr double kHope = 6;                         // steps of this length, not many more, are to come
-    for (double step = kLongest; step > kShortest && out > allowed;) {
-      CameraAim best = aim;
-      double least = out;
-      for (int yaw = -1; yaw <= 1; ++yaw) {
-        if (yaw != 0 && mount_.yaw_deg) continue;
-        for (int pitch = -1; pitch <= 1; ++pitch) {
-          const CameraAim next{aim.yaw + yaw * step, clamped(aim.pitch + pitch * step)};
-          const double by = out_by(next, positions);
-          if (by >= least) continue;
-          least = by;
-          best = next;
-        }
+    if (out_by(middle, positions) < out_by(aim, positions)) aim = middle;
+    double out = out_by(aim, positions), reach = kFirst;
+    for (int i = 0; i < kMostTurns && out > allowed && reach > kLast; ++i) {
+      const std::vector<Plane2> planes = outs_about(aim, positions);
+      const double yaw = mount_.yaw_deg ? 0 : reach;
+      const Eigen::Vector2d turn = lowest_point(planes, {-yaw, clamped(aim.pitch - reach) - aim.pitch},
+                                                {yaw, clamped(aim.pitch + reach) - aim.pitch});
+      const double hoped = highest(planes, turn);
+      if (!(out - hoped > kLeastGain * distance_from(positions[0]))) break;
+      const CameraAim next{aim.yaw + turn.x(), clamped(aim.pitch + turn.y())};
+      const double out_of_next = out_by(next, positions), gain = (out - out_of_next) / (out - hoped);
+      if (gain > 0) {
+        aim = next;
+        out = out_of_next;
       }
-      if (!(least < out)) {
-        step /= 2;
-        if (std::isfinite(allowed) && out - allowed > kHope * step * farthest) break;
-      }
-      out = least;
-      aim = best;
+      const double turned = turn.cwiseAbs().maxCoeff();
+      if (gain < 0.25) reach = turned / 4;
+      if (gain > 0.75) reach = std::clamp(2 * turned, reach, kFarthest);
     }
     return out <= allowed;
-  }
-
-  /// The same by one search within another, for each pitch the best yaw: slower, but it ends nowhere on a slanted
-  /// ridge, where all the neighbours are worse.
-  template <typename Positions>
-  bool refine(CameraAim& aim, const Positions& positions, double allowed) const {
-    constexpr double kAround = 0.1;  // radians
-    CameraAim best = aim;
-    double least = out_by(aim, positions);
-    const auto out_at = [&](const CameraAim& at) {
-      const double out = out_by(at, positions);
-      if (out < least) {
-        least = out;
-        best = at;
-      }
-      return out;
-    };
-    const auto out_at_pitch = [&](double pitch) {
-      if (mount_.yaw_deg) return out_at({aim.yaw, pitch});
-      return least_between(aim.yaw - kAround, aim.yaw + kAround, [&](double yaw) { return out_at({yaw, pitch}); });
-    };
-    least_between(clamped(aim.pitch - kAround), clamped(aim.pitch + kAround), out_at_pitch);
-    aim = best;
-    return least <= allowed;
   }
 
   /// Whether an orientation that changes linearly, from that of one corner of a facet to that of the next, serves all
@@ -180,7 +181,7 @@ class Picture {
     for (std::size_t i = 0; i < 3; ++i) {
       const CameraAim &a = aims[i], &b = aims[(i + 1) % 3];
       turn = std::max(turn, std::abs(a.yaw - b.yaw) + std::abs(a.pitch - b.pitch));
-      for (const Vec3& corner : corners_) farthest = std::max(farthest, (corner - facet[i]).norm());
+      farthest = std::max(farthest, distance_from(facet[i]));
     }
     const double most = allowed - turn * turn / 2 * farthest;
     const std::array<std::array<Vec3, 4>, 3> edges_of = {edges(aims[0]), edges(aims[1]), edges(aims[2])};
@@ -197,42 +198,30 @@ class Picture {
     return true;
   }
 
-  /// The best orientation that is found from all starts.
-  bool find(CameraAim& aim, const LimitedVolume::Corners& positions, double allowed) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (CameraAim start : starts(positions)) {
-      const bool fits = improve(start, positions, allowed);
-      const double out = out_by(start, positions);
-      if (out < least) aim = start;
-      least = std::min(least, out);
-      if (fits) return true;
-    }
-    return false;
-  }
-
  private:
-  /// The least of a function that falls and then rises (Kiefer 1953).
-  template <typename Function>
-  static double least_between(double begin, double end, const Function& value) {
-    constexpr double kPart = 0.6180339887498949, kLast = 2e-6;  // radians
-    double left = end - kPart * (end - begin), right = begin + kPart * (end - begin);
-    double at_left = value(left), at_right = value(right);
-    while (end - begin > kLast) {
-      if (at_left < at_right) {
-        end = right;
-        right = left;
-        at_right = at_left;
-        left = end - kPart * (end - begin);
-        at_left = value(left);
-      } else {
-        begin = left;
-        left = right;
-        at_left = at_right;
-        right = begin + kPart * (end - begin);
-        at_right = value(right);
+  /// Metres by which each corner is out of each edge of the picture, from each position, as the camera turns by yaw and
+  /// pitch.
+  template <typename Positions>
+  std::vector<Plane2> outs_about(const CameraAim& aim, const Positions& positions) const {
+    std::vector<Plane2> planes;
+    const Vec3 level(std::cos(aim.yaw), -std::sin(aim.yaw), 0);
+    for (const Vec3& edge : edges(aim)) {
+      const Vec3 by_yaw(edge.y(), -edge.x(), 0), by_pitch = level.cross(edge);
+      for (const Vec3& position : positions) {
+        for (const Vec3& corner : corners_) {
+          const Vec3 sight = position - corner;
+          planes.push_back({edge.dot(sight), {by_yaw.dot(sight), by_pitch.dot(sight)}});
+        }
       }
     }
-    return std::min(at_left, at_right);
+    return planes;
+  }
+
+  /// To the farthest corner.
+  double distance_from(const Vec3& position) const {
+    double farthest = 0;
+    for (const Vec3& corner : corners_) farthest = std::max(farthest, (corner - position).norm());
+    return farthest;
   }
 
   double clamped(double pitch) const {
@@ -251,62 +240,76 @@ class FacetServer {
   FacetServer(const Picture& picture, double allowed) : picture_(picture), allowed_(allowed) {}
 
   bool serves(const LimitedVolume::Corners& facet) {
-    CameraAim aim = picture_.starts(facet).front();
-    if (picture_.improve(aim, facet, allowed_)) return true;
-    std::array<CameraAim, 3> aims = {aim, aim, aim};
-    if (!serves_corners(facet, aims)) return false;
-    if (picture_.serve(aims, facet, allowed_) || picture_.find(aim, facet, allowed_)) return true;
-    if (picture_.refine(aim, facet, allowed_)) return true;
-    aims = {aim, aim, aim};  // orientations of the corners that are alike
-    if (serves_corners(facet, aims) && serves_in_parts(facet, aims)) return true;
-    is_fine_ = true;
     left_ = kMostCuts;
-    aims = {aim, aim, aim};
-    return serves_corners(facet, aims) && serves_in_parts(facet, aims);
+    if (serves_in_parts(facet, {picture_.towards(facet)})) return true;
+    left_ = kMostCuts;
+    return serves_in_parts(facet, picture_.valleys(facet));
   }
 
  private:
-  bool serves_corner(const Vec3& corner, CameraAim& aim) const {
-    const std::array<Vec3, 1> only = {corner};
-    picture_.improve(aim, only, -std::numeric_limits<double>::infinity());
-    if (is_fine_) return picture_.refine(aim, only, allowed_);
-    return picture_.out_by(aim, only) <= allowed_ || picture_.refine(aim, only, allowed_) ||
-           picture_.find(aim, {corner, corner, corner}, allowed_);
-  }
-
-  bool serves_corners(const LimitedVolume::Corners& facet, std::array<CameraAim, 3>& aims) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!serves_corner(facet[i], aims[i])) return false;
+  /// `aims`: of what this is a part of.
+  bool serves_in_parts(const LimitedVolume::Corners& facet, std::vector<CameraAim> aims) {
+    std::array<bool, 3> is_served{};
+    Served served = serves_next_to(aims, facet, is_served);
+    if (served == Served::nothing) {
+      aims = picture_.valleys(facet);
+      served = serves_next_to(aims, facet, is_served);
     }
-    return true;
-  }
-
-  /// `aims`: that serve the corners.
-  bool serves_in_parts(const LimitedVolume::Corners& facet, const std::array<CameraAim, 3>& aims) {
-    if (picture_.serve(aims, facet, allowed_)) return true;
-    CameraAim middle{(aims[0].yaw + aims[1].yaw + aims[2].yaw) / 3,
-                     (aims[0].pitch + aims[1].pitch + aims[2].pitch) / 3};
-    if (picture_.improve(middle, facet, allowed_) || picture_.find(middle, facet, allowed_)) return true;
+    if (served == Served::all) return true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!is_served[i] && !serves_corner(facet[i])) return false;
+    }
     if (left_ == 0) return false;
     --left_;
     LimitedVolume::Corners between;
-    std::array<CameraAim, 3> aims_between = aims;
     for (std::size_t i = 0; i < 3; ++i) between[i] = (facet[i] + facet[(i + 1) % 3]) / 2;
-    if (!serves_corners(between, aims_between)) return false;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t before = (i + 2) % 3;
-      if (!serves_in_parts({facet[i], between[i], between[before]}, {aims[i], aims_between[i], aims_between[before]})) {
-        return false;
-      }
+      if (!serves_in_parts({facet[i], between[i], between[(i + 2) % 3]}, aims)) return false;
     }
-    return serves_in_parts(between, aims_between);
+    return serves_in_parts(between, aims);
   }
 
+  enum class Served { nothing, corners, all };
+
+  /// Whether an orientation next to one of these serves all of a facet, or those for its corners do, which are alike as
+  /// they come from the same one. `aims` become those next to them, `is_served` true where one serves a corner.
+  Served serves_next_to(std::vector<CameraAim>& aims, const LimitedVolume::Corners& facet,
+                        std::array<bool, 3>& is_served) const {
+    Served most = Served::nothing;
+    for (CameraAim& aim : aims) {
+      std::array<CameraAim, 3> aims_of_corners = {aim, aim, aim};
+      if (picture_.improve(aim, facet, allowed_)) return Served::all;
+      int corners = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (!serves_corner(facet[i], aims_of_corners[i])) continue;
+        is_served[i] = true;
+        ++corners;
+      }
+      if (corners < 3) continue;
+      if (picture_.serve(aims_of_corners, facet, allowed_)) return Served::all;
+      most = Served::corners;
+    }
+    return most;
+  }
+
+  /// Whether the best orientation next to this one does; then `aim` is that.
+  bool serves_corner(const Vec3& corner, CameraAim& aim) const {
+    const std::array<Vec3, 1> only = {corner};
+    picture_.improve(aim, only, -std::numeric_limits<double>::infinity());
+    return picture_.out_by(aim, only) <= allowed_;
+  }
+
+  bool serves_corner(const Vec3& corner) const {
+    for (CameraAim valley : picture_.valleys({corner, corner, corner})) {
+      if (picture_.improve(valley, std::array<Vec3, 1>{corner}, allowed_)) return true;
+    }
+    return false;
+  }
+
+  static constexpr int kMostCuts = 100;  // of a facet and its parts
   const Picture& picture_;
   double allowed_;
-  static constexpr int kMostCuts = 100;  // of a facet and its parts
   int left_ = kMostCuts;
-  bool is_fine_ = false;  // whether each corner gets the best orientation
 };
 
 }  // namespace
