@@ -51,6 +51,7 @@ struct TilesetReport {
   /// Coarser tiles that were taken, too, as finer ones that were to replace them cannot be read.
   std::size_t coarser_kept = 0;
   std::size_t unreadable_properties = 0;  ///< names and ids of features that are garbled: taken as missing
+  std::string first_unreadable = {};      ///< the file of the first of them, and what is wrong with it
 
   double largest_error_m = 0;  ///< the geometric error of the coarsest tile that was taken
   std::size_t coarse = 0;  ///< tiles that were taken though their error is larger than asked: they have no finer ones

@@ -62,20 +62,22 @@ void add_raster(Json& json, const RasterReport& report) {
 }
 
 void add_tileset(Json& json, const TilesetReport& report) {
-  json["tileset"] = {{"documents", report.documents},
-                     {"tiles", report.tiles},
-                     {"contents", report.contents},
-                     {"without_surfaces", report.without_surfaces},
-                     {"bytes", report.bytes},
-                     {"objects_outside", report.objects_outside},
-                     {"holes", report.holes},
-                     {"first_hole", report.first_hole.empty() ? Json(nullptr) : Json(report.first_hole)},
-                     {"coarser_kept", report.coarser_kept},
-                     {"unreadable_properties", report.unreadable_properties},
-                     {"largest_error_m", report.largest_error_m},
-                     {"coarse", report.coarse},
-                     {"rim_drop_m", report.rim_drop_m},
-                     {"rim_shift_m", report.rim_shift_m}};
+  json["tileset"] = {
+      {"documents", report.documents},
+      {"tiles", report.tiles},
+      {"contents", report.contents},
+      {"without_surfaces", report.without_surfaces},
+      {"bytes", report.bytes},
+      {"objects_outside", report.objects_outside},
+      {"holes", report.holes},
+      {"first_hole", report.first_hole.empty() ? Json(nullptr) : Json(report.first_hole)},
+      {"coarser_kept", report.coarser_kept},
+      {"unreadable_properties", report.unreadable_properties},
+      {"first_unreadable", report.first_unreadable.empty() ? Json(nullptr) : Json(report.first_unreadable)},
+      {"largest_error_m", report.largest_error_m},
+      {"coarse", report.coarse},
+      {"rim_drop_m", report.rim_drop_m},
+      {"rim_shift_m", report.rim_shift_m}};
 }
 
 void add_credit(Json& json, const Scene& scene) {

@@ -33,6 +33,8 @@ std::string first_of(std::span<const std::string_view> wanted, const std::vector
   return {};
 }
 
+}  // namespace
+
 ObjectKind kind_of_feature(const std::string& type) {
   const std::string text = lower(type);
   const auto says = [&](std::initializer_list<std::string_view> words) {
@@ -46,8 +48,6 @@ ObjectKind kind_of_feature(const std::string& type) {
   if (says({"relieffeature", "tinrelief", "terrain", "ground"})) return ObjectKind::ground;
   return ObjectKind::other;
 }
-
-}  // namespace
 
 IdentityProperties identity_properties(const std::vector<std::string>& names) {
   return {first_of(kIds, names), first_of(kNumbers, names), first_of(kNames, names), first_of(kAddresses, names),

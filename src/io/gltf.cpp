@@ -71,7 +71,9 @@ class GltfReader {
     return mesh;
   }
 
-  std::uint64_t unreadable_properties() const { return features_ ? features_->unreadable() : 0; }
+  UnreadableProperties unreadable_properties() const {
+    return features_ ? features_->unreadable() : UnreadableProperties{};
+  }
 
   /// CESIUM_RTC (Cesium): what all positions are about.
   Vec3 center() const {

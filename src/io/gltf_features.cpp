@@ -94,7 +94,7 @@ const Features::Table* Features::table_or_nothing(std::uint64_t index) {
     return table(index);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::mesh_syntax) throw;
-    ++unreadable_;
+    unreadable_.add(error.problem());
     return nullptr;
   }
 }
@@ -165,7 +165,7 @@ std::string Features::value_or_nothing(const Table& from, const std::string& nam
     return value(from, name, row);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::mesh_syntax) throw;
-    ++unreadable_;
+    unreadable_.add(error.problem());
     return {};
   }
 }

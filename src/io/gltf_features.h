@@ -39,8 +39,7 @@ class Features {
 
   /// A property that cannot be read is taken as missing.
   SceneObject identity(std::uint64_t table, std::uint64_t id);
-  /// How many were.
-  std::uint64_t unreadable() const { return unreadable_; }
+  const UnreadableProperties& unreadable() const { return unreadable_; }
 
  private:
   struct Table {
@@ -62,7 +61,7 @@ class Features {
   Batch batch_;
   std::string tile_;
   std::map<std::uint64_t, Table> tables_;
-  std::uint64_t unreadable_ = 0;
+  UnreadableProperties unreadable_;
 };
 
 }  // namespace vantage::internal::io::gltf

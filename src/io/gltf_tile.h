@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "io/feature_identity.h"
 #include "io/mesh_file.h"
 
 namespace vantage::internal::io {
@@ -18,9 +19,9 @@ struct TileContext {
 };
 
 struct TileMesh {
-  RawMesh mesh;                             ///< as read_gltf gives it, y up, but with an object for each feature
-  Vec3 center = Vec3::Zero();               ///< CESIUM_RTC: to be added when z is up
-  std::uint64_t unreadable_properties = 0;  ///< of features: names and ids that are garbled, taken as missing
+  RawMesh mesh;                ///< as read_gltf gives it, y up, but with an object for each feature
+  Vec3 center = Vec3::Zero();  ///< CESIUM_RTC: to be added when z is up
+  UnreadableProperties unreadable_properties = {};
 };
 
 TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& progress,

@@ -20,7 +20,7 @@ namespace {
 constexpr double kDoubleEpsilon = std::numeric_limits<double>::epsilon();
 
 /// A solid that is as thin as rounding may gain more corners by each cut than by the one before. Others stay far below.
-constexpr std::size_t kMostCorners = 2000;
+constexpr std::size_t kMostSolidCorners = 2000;
 
 /// Half-spaces that hold all positions from which a convex polygon hides something of the target: planes that have the
 /// polygon on one side and the target on the other, through an edge of one and a corner of the other. Of those that
@@ -124,7 +124,7 @@ class Cover {
 
   bool covers(const ConvexSolid& solid) {
     if (solid.empty()) return true;
-    if (left_ <= 0 || solid.corner_count() > kMostCorners) return false;
+    if (left_ <= 0 || solid.corner_count() > kMostSolidCorners) return false;
     const Vec3 middle = solid.middle();
     const Box box = solid.box();
     const std::vector<Near> near = facets_near(box, depth_m_, middle);
@@ -337,7 +337,7 @@ bool Shallow::is_shallow(const std::array<Vec3, 3>& facet, const Piece& obstacle
   for (const HalfSpace& side : behind.sides()) {
     solid = solid.within(side);
     if (solid.empty()) return true;
-    if (solid.corner_count() > kMostCorners) return false;
+    if (solid.corner_count() > kMostSolidCorners) return false;
   }
   return Cover(surface_, depth_m).covers(solid);
 }

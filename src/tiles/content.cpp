@@ -34,20 +34,6 @@ std::string without_end(std::string text) {
   return text;
 }
 
-/// A mesh that may have no triangles.
-std::optional<io::TileMesh> surfaces_of(const io::MeshSource& source, const core::ProgressReporter& progress,
-                                        const core::ReadLimits& limits, const io::TileContext& tile,
-                                        std::uint64_t& unreadable_properties) {
-  try {
-    io::TileMesh mesh = io::read_gltf_tile(source, progress, limits, tile);
-    unreadable_properties += mesh.unreadable_properties;
-    return mesh;
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::mesh_empty) return std::nullopt;
-    throw;
-  }
-}
-
 }  // namespace
 
 /// Of a b3dm or i3dm.
@@ -58,6 +44,23 @@ struct ContentReader::Parts {
 void ContentReader::fail(const std::string& address, const std::string& problem) const {
   throw Error(ErrorCode::mesh_syntax, "not a valid tile: " + problem, source_.shown(address),
               "export the tileset again; the file is cut off or garbled");
+}
+
+/// A mesh that may have no triangles.
+std::optional<io::TileMesh> ContentReader::surfaces_of(const io::MeshSource& source, const io::TileContext& tile) {
+  try {
+    io::TileMesh mesh = io::read_gltf_tile(source, progress_, limits_, tile);
+    count_unreadable(source.file().string(), mesh.unreadable_properties);
+    return mesh;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::mesh_empty) return std::nullopt;
+    throw;
+  }
+}
+
+void ContentReader::count_unreadable(const std::string& shown, io::UnreadableProperties more) {
+  if (more.count > 0) more.first.insert(0, shown + ": ");
+  unreadable_properties_.add(more);
 }
 
 bool ContentReader::read(const std::string& address, const std::string& bytes, const Placement& placement) {
@@ -134,8 +137,7 @@ ContentReader::Parts ContentReader::split(const std::string& address, std::strin
 bool ContentReader::read_gltf(const std::string& address, std::string_view bytes, const Placement& placement) {
   const io::MeshSource source(source_.shown(address), std::string(bytes));
   const auto from_here = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
-  const auto mesh =
-      surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here}, unreadable_properties_);
+  const auto mesh = surfaces_of(source, {source_.name(address), {}, from_here});
   if (!mesh) return false;
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(mesh->center) * upright(placement.gltf_up),
                  source_.shown(address));
@@ -145,7 +147,7 @@ bool ContentReader::read_gltf(const std::string& address, std::string_view bytes
 bool ContentReader::read_batched(const std::string& address, std::string_view bytes, const Placement& placement) {
   const Parts parts = split(address, bytes, kBatchedHeader);
   const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
-  const BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
+  BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
   const std::vector<double> about = features.global("RTC_CENTER", 3).value_or(std::vector<double>{0, 0, 0});
   const io::MeshSource source(source_.shown(address), std::string(parts.rest));
   io::TileContext context{source_.name(address), {}, {}};
@@ -153,7 +155,8 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
     context.batch = [&batch](std::uint64_t id) { return batch.identity(id); };
   }
   context.read_file = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
-  const auto mesh = surfaces_of(source, progress_, limits_, context, unreadable_properties_);
+  const auto mesh = surfaces_of(source, context);
+  count_unreadable(source_.shown(address), batch.unreadable());
   if (!mesh) return false;
   const Vec3 center = mesh->center + Vec3(about[0], about[1], about[2]);
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(center) * upright(placement.gltf_up),
@@ -182,7 +185,7 @@ const std::optional<io::TileMesh>& ContentReader::model(const std::string& addre
   if (const auto known = models_.find(file); known != models_.end()) return known->second;
   const io::MeshSource source(source_.shown(file), other_file(file));
   const auto from_model = [&](const std::string& name) { return other_file(source_.resolve(file, name)); };
-  auto mesh = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_model}, unreadable_properties_);
+  auto mesh = surfaces_of(source, {source_.name(address), {}, from_model});
   const std::size_t triangles = mesh ? mesh->mesh.triangles.size() : 0;
   if (models_.size() >= kMostKept || kept_ + triangles > kMostTriangles) {
     models_.clear();
@@ -205,7 +208,7 @@ void ContentReader::count_repeated(const std::string& address, std::uint64_t ins
 bool ContentReader::read_instanced(const std::string& address, std::string_view bytes, const Placement& placement) {
   const Parts parts = split(address, bytes, kInstancedHeader);
   const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
-  const BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
+  BatchTable batch(parts.batch_json, parts.batch_binary, source_.name(address), progress_, limits_);
   const std::size_t count = instance_count(features);
   if (count == 0) return false;
   std::optional<io::TileMesh> own;
@@ -213,7 +216,7 @@ bool ContentReader::read_instanced(const std::string& address, std::string_view 
   if (!is_apart) {
     const io::MeshSource source(source_.shown(address), std::string(parts.rest));
     const auto from_here = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
-    own = surfaces_of(source, progress_, limits_, {source_.name(address), {}, from_here}, unreadable_properties_);
+    own = surfaces_of(source, {source_.name(address), {}, from_here});
   }
   const std::optional<io::TileMesh>& mesh = is_apart ? model(address, without_end(std::string(parts.rest))) : own;
   if (!mesh) return false;
@@ -224,6 +227,7 @@ bool ContentReader::read_instanced(const std::string& address, std::string_view 
     collector_.add_as(batch.identity(instance.batch), mesh->mesh, placement.into_world * instance.transform * shape,
                       source_.shown(address));
   }
+  count_unreadable(source_.shown(address), batch.unreadable());
   return true;
 }
 

@@ -29,8 +29,8 @@ class ContentReader {
   /// Bytes of other files that all contents referred to so far, each time that one was read.
   std::uint64_t bytes_of_other_files() const { return all_other_bytes_; }
 
-  /// Names and ids of features that are garbled.
-  std::uint64_t unreadable_properties() const { return unreadable_properties_; }
+  /// Of all features so far; the first is said with its file.
+  const io::UnreadableProperties& unreadable_properties() const { return unreadable_properties_; }
 
   /// Adds the surfaces of a content to the collector. Returns whether there are any: a cloud of points has none.
   /// Throws Error(input).
@@ -47,6 +47,8 @@ class ContentReader {
   std::string other_file(const std::string& address);
   void count_repeated(const std::string& address, std::uint64_t instances, std::uint64_t triangles);
   bool read_gltf(const std::string& address, std::string_view bytes, const Placement& placement);
+  std::optional<io::TileMesh> surfaces_of(const io::MeshSource& source, const io::TileContext& tile);
+  void count_unreadable(const std::string& shown, io::UnreadableProperties more);
   Parts split(const std::string& address, std::string_view bytes, std::size_t header) const;
   [[noreturn]] void fail(const std::string& address, const std::string& problem) const;
 
@@ -54,7 +56,8 @@ class ContentReader {
   Collector& collector_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
-  std::uint64_t all_other_bytes_ = 0, unreadable_properties_ = 0;
+  std::uint64_t all_other_bytes_ = 0;
+  io::UnreadableProperties unreadable_properties_;
   // Of the content that is being read:
   std::map<std::string, std::optional<io::TileMesh>> models_;  // other files, by address
   std::uint64_t kept_ = 0;                                     // triangles of these

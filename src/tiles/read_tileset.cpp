@@ -186,8 +186,9 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
         report.coarser_kept));
   }
   if (report.unreadable_properties > 0) {
-    notes.push_back(internal::core::format("{} names or ids of features cannot be read: taken as missing",
-                                           report.unreadable_properties));
+    notes.push_back(
+        internal::core::format("{} names or ids of features cannot be read: taken as missing. The first: {}",
+                               report.unreadable_properties, report.first_unreadable));
   }
   if (report.without_surfaces > 0) {
     notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: passed over",

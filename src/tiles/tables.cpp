@@ -115,40 +115,109 @@ std::optional<std::vector<double>> Table::per_instance(const char* name, std::si
   return values;
 }
 
-BatchTable::BatchTable(std::string_view json, std::string_view binary, std::string tile,
-                       const core::ProgressReporter& progress, const core::ReadLimits& limits)
-    : binary_(binary), tile_(std::move(tile)) {
-  table_.emplace(json, binary, progress, limits);
-  std::vector<std::string> names;
-  for (const auto& [name, value] : table_->json().items()) {
-    if (value.is_array() || value.is_object()) names.push_back(name);
-  }
-  known_ = io::identity_properties(names);
-}
-
-SceneObject BatchTable::identity(std::uint64_t feature) const {
-  return io::identity_of({value(known_.id, feature), value(known_.number, feature), value(known_.name, feature),
-                          value(known_.address, feature), value(known_.kind, feature)},
-                         tile_, feature);
-}
-
-/// As text; empty for what is neither a text nor a number.
-std::string BatchTable::value(const std::string& property, std::uint64_t feature) const {
-  if (property.empty()) return {};
-  const Json& values = table_->json()[property];
+std::string property_text(const Json& values, std::string_view binary, std::uint64_t index) {
   if (values.is_array()) {
-    if (feature >= values.size()) return {};
-    const Json& value = values[feature];
+    if (index >= values.size()) return {};
+    const Json& value = values[index];
     if (value.is_string()) return value.get<std::string>();
     return value.is_number() ? value.dump() : "";
   }
   const auto type = values.find("type");
   if (type == values.end() || *type != "SCALAR") return {};
+  const Component& component = component_named(type_named(values, ""));
+  return shortest(component.load(element(values, binary, index, component.size)));
+}
+
+std::vector<std::uint32_t> whole_numbers(const Json& values, const std::string& name, std::uint64_t count,
+                                         std::string_view binary) {
+  std::vector<std::uint32_t> numbers;
+  if (values.is_array()) {
+    if (values.size() != count) {
+      throw "\"" + name + "\" has " + std::to_string(values.size()) + " values instead of " + std::to_string(count);
+    }
+    for (const Json& value : values) {
+      if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffU) {
+        throw "\"" + name + "\" holds something other than whole numbers";
+      }
+      numbers.push_back(value.get<std::uint32_t>());
+    }
+    return numbers;
+  }
+  if (!values.is_object()) throw "\"" + name + "\" is neither an array nor an object";
+  const std::string type = type_named(values, "UNSIGNED_SHORT");
+  if (!type.starts_with("UNSIGNED_")) throw "\"" + name + "\" is of a \"componentType\" other than whole numbers";
+  const Component& component = component_named(type);
+  if (count == 0) return numbers;
+  element(values, binary, count - 1, component.size);  // all are there
+  const char* const data = element(values, binary, 0, component.size);
+  numbers.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    numbers[i] = static_cast<std::uint32_t>(component.load(data + i * component.size));
+  }
+  return numbers;
+}
+
+BatchTable::BatchTable(std::string_view json, std::string_view binary, std::string tile,
+                       const core::ProgressReporter& progress, const core::ReadLimits& limits)
+    : table_(json, binary, progress, limits), binary_(binary), tile_(std::move(tile)) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : table_.json().items()) {
+    if (value.is_array() || value.is_object()) names.push_back(name);
+  }
+  known_ = io::identity_properties(names);
+  read_hierarchy(progress);
+}
+
+/// A garbled table says less of who hides something. It must not take away what hides.
+void BatchTable::read_hierarchy(const core::ProgressReporter& progress) {
+  const auto extensions = table_.json().find("extensions");
+  if (extensions == table_.json().end() || !extensions->is_object()) return;
+  const auto described = extensions->find("3DTILES_batch_table_hierarchy");
+  if (described == extensions->end()) return;
   try {
-    const Component& component = component_named(type_named(values, ""));
-    return shortest(component.load(element(values, binary_, feature, component.size)));
-  } catch (const std::string&) {
-    return {};  // a name less
+    hierarchy_.emplace(*described, binary_, progress, unreadable_);
+  } catch (const std::string& problem) {
+    unreadable_.add("the hierarchy of the batch table: " + problem);
+  }
+}
+
+SceneObject BatchTable::identity(std::uint64_t feature) {
+  constexpr std::size_t kMostInherited = std::size_t{64} << 20;  // a tile of a million features has 40 of names
+  io::IdentityValues own{value(known_.id, feature), value(known_.number, feature), value(known_.name, feature),
+                         value(known_.address, feature), value(known_.kind, feature)};
+  if (!hierarchy_) return io::identity_of(own, tile_, feature);
+  if (feature >= hierarchy_->size()) {
+    unreadable_.add("feature " + std::to_string(feature) + " is no instance of the hierarchy, which has " +
+                    std::to_string(hierarchy_->size()));
+    return io::identity_of(own, tile_, feature);
+  }
+  const Hierarchy::Known known = hierarchy_->known(feature);
+  inherited_bytes_ += known.bytes();
+  if (inherited_bytes_ > kMostInherited) {
+    unreadable_.add("the names of the hierarchy have more than 64 MiB together");
+    return io::identity_of(own, tile_, feature);
+  }
+  const bool has_label = !own.name.empty() || !own.address.empty();
+  if (own.id.empty() && own.number.empty()) {
+    own.id = known.values.id;
+    own.number = known.values.number;
+  }
+  if (!has_label) {
+    own.name = known.values.name;
+    own.address = known.values.address;
+  }
+  SceneObject object = io::identity_of(own, tile_, has_label ? feature : known.instance);
+  if (object.kind == ObjectKind::other) object.kind = known.kind;
+  return object;
+}
+
+std::string BatchTable::value(const std::string& property, std::uint64_t feature) {
+  if (property.empty()) return {};
+  try {
+    return property_text(table_.json()[property], binary_, feature);
+  } catch (const std::string& problem) {
+    unreadable_.add("the property \"" + property + "\" of the batch table: " + problem);
+    return {};
   }
 }
 

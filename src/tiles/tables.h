@@ -12,6 +12,7 @@
 #include "core/read_limits.h"
 #include "io/feature_identity.h"
 #include "tiles/bounds.h"
+#include "tiles/hierarchy.h"
 
 namespace vantage::internal::tiles {
 
@@ -38,22 +39,38 @@ class Table {
   std::string_view binary_;
 };
 
+/// Value `index` of a property of a batch table as text: empty for what is neither a text nor a number, and beyond the
+/// end of an array. `binary`: of the table. Throws std::string.
+std::string property_text(const Json& values, std::string_view binary, std::uint64_t index);
+
+/// `count` whole numbers, of an array of that length or in the binary part, as UNSIGNED_SHORT where it does not say.
+/// Throws std::string.
+std::vector<std::uint32_t> whole_numbers(const Json& values, const std::string& name, std::uint64_t count,
+                                         std::string_view binary);
+
 /// Who the features of a tile are.
 class BatchTable {
  public:
-  /// Throws std::string.
+  /// A hierarchy that is garbled is taken as missing. Throws std::string.
   BatchTable(std::string_view json, std::string_view binary, std::string tile, const core::ProgressReporter& progress,
              const core::ReadLimits& limits);
 
-  SceneObject identity(std::uint64_t feature) const;
+  /// By its own properties, and where these do not say by the hierarchy.
+  SceneObject identity(std::uint64_t feature);
+
+  const io::UnreadableProperties& unreadable() const { return unreadable_; }
 
  private:
-  std::string value(const std::string& property, std::uint64_t feature) const;
+  std::string value(const std::string& property, std::uint64_t feature);
+  void read_hierarchy(const core::ProgressReporter& progress);
 
-  std::optional<Table> table_;  ///< nothing where the tile has none
+  Table table_;
   std::string_view binary_;
   std::string tile_;
   io::IdentityProperties known_;
+  std::optional<Hierarchy> hierarchy_;
+  io::UnreadableProperties unreadable_;
+  std::size_t inherited_bytes_ = 0;  ///< of all texts that the hierarchy gave
 };
 
 }  // namespace vantage::internal::tiles

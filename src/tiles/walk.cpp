@@ -76,7 +76,8 @@ void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
       keep_coarser(next.coarser);
     }
   }
-  report_.unreadable_properties = contents_.unreadable_properties();
+  report_.unreadable_properties = contents_.unreadable_properties().count;
+  report_.first_unreadable = contents_.unreadable_properties().first;
 }
 
 void Walk::count_hole(const Error& error) {

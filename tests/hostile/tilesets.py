@@ -40,12 +40,15 @@ def gltf(**more: object) -> Json:
             **more}
 
 
-def box(feature: str = "_BATCHID") -> bytes:
-    """A box of 1 m: half of its corners are of feature 0, half of 1."""
+def box(feature: str = "_BATCHID", sets: list[Json] | None = None) -> bytes:
+    """A box of 1 m: half of its corners are of feature 0, half of 1. `sets`: those of EXT_mesh_features."""
+    own: Json = {"attributes": {"POSITION": 0, feature: 2}, "indices": 1}
+    if sets:
+        own["extensions"] = {"EXT_mesh_features": {"featureIds": sets}}
     corners = b"".join(struct.pack("<3f", i & 1, i >> 2, i >> 1 & 1) for i in range(8))
     parts = [corners, struct.pack("<36I", *FACES), struct.pack("<8f", *(i // 4 for i in range(8)))]
     starts = [0, 96, 240]
-    return glb(gltf(meshes=[{"primitives": [{"attributes": {"POSITION": 0, feature: 2}, "indices": 1}]}],
+    return glb(gltf(meshes=[{"primitives": [own]}],
                     accessors=[{"bufferView": i, "componentType": kind, "count": count, "type": form} for i, (kind, count, form)
                                in enumerate([(5126, 8, "VEC3"), (5125, 36, "SCALAR"), (5126, 8, "SCALAR")])],
                     bufferViews=[{"buffer": 0, "byteOffset": start, "byteLength": len(part)}
@@ -80,11 +83,26 @@ def meshopt() -> bytes:
                     buffers=[{"byteLength": len(VERTICES) + len(INDICES)}, {"byteLength": 112}]), VERTICES + INDICES)
 
 
-def b3dm(content: bytes) -> bytes:
+# Who the features of a tile are: in a table of their own, and in a hierarchy, whose numbers are binary in the second one.
+TABLE: Json = {"gml_id": ["a", "b"], "name": ["A", "B"],
+               "height": {"byteOffset": 0, "componentType": "DOUBLE", "type": "SCALAR"}}
+HIERARCHY: Json = {"classes": [{"name": "Wall", "length": 2, "instances": {"id": [1, 2]}},
+                               {"name": "House", "length": 2, "instances": {"gml_id": ["h", "i"], "name": ["H", "I"]}}],
+                   "instancesLength": 4, "classIds": [0, 0, 1, 1], "parentCounts": [1, 2, 1, 0], "parentIds": [2, 3, 2, 3]}
+BINARY: Json = {"classes": [{"name": "Wall", "length": 2, "instances": {
+                    "id": {"byteOffset": 8, "componentType": "UNSIGNED_SHORT", "type": "SCALAR"}}},
+                            {"name": "House", "length": 2, "instances": {"name": ["H", "I"]}}],
+                "instancesLength": 4, "classIds": {"byteOffset": 0, "componentType": "UNSIGNED_BYTE"},
+                "parentCounts": {"byteOffset": 4, "componentType": "UNSIGNED_BYTE"}, "parentIds": {"byteOffset": 8}}
+
+
+def hierarchy(of: Json) -> Json:
+    return {"extensions": {"3DTILES_batch_table_hierarchy": of}}
+
+
+def b3dm(content: bytes, table: Json = TABLE, numbers: bytes = struct.pack("<2d", 3, 4)) -> bytes:
     features = padded(text_of({"BATCH_LENGTH": 2}), 8, b" ")
-    batch = padded(text_of({"gml_id": ["a", "b"], "name": ["A", "B"],
-                            "height": {"byteOffset": 0, "componentType": "DOUBLE", "type": "SCALAR"}}), 8, b" ")
-    numbers = struct.pack("<2d", 3, 4)
+    batch = padded(text_of(table), 8, b" ")
     length = 28 + len(features) + len(batch) + len(numbers) + len(content)
     return (struct.pack("<4s6I", b"b3dm", 1, length, len(features), 0, len(batch), len(numbers)) + features + batch + numbers
             + content)
@@ -126,7 +144,11 @@ def originals(kind: str) -> list[bytes]:
     trees = i3dm(box())
     of_kind = {"json": [tileset(tile(10, refine="ADD", children=[tile(0, "a.glb"), tile(0, "b.glb", transform=[
                             1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1])]))],
-               "glb": [box("_FEATURE_ID_0")], "b3dm": [house, b3dm(draco(DRACO[1]))], "i3dm": [trees],
+               "glb": [box("_FEATURE_ID_0"), box("_FEATURE_ID_0", [{"featureCount": 2, "texture": {"index": 0, "channels": [0]}},
+                                                                   {"featureCount": 2, "attribute": 0}])],
+               "b3dm": [house, b3dm(draco(DRACO[1])), b3dm(box(), hierarchy(HIERARCHY), b""),
+                        b3dm(box(), hierarchy(BINARY), bytes((0, 0, 1, 1, 1, 1, 1, 0)) + struct.pack("<4H", 2, 3, 3, 3))],
+               "i3dm": [trees],
                "cmpt": [cmpt(house, trees)], "subtree": [subtree()], "draco": [draco(data) for data in DRACO],
                "meshopt": [meshopt()]}
     return of_kind[kind]
