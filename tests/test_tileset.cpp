@@ -268,6 +268,30 @@ TEST(Tileset, GarbledPropertiesCostNoGeometry) {
   EXPECT_EQ(read_with(table), (std::set<std::string>{"a.glb#0", "a.glb#1"}));
 }
 
+TEST(Tileset, FeaturesByTextureAreNotToldApart) {
+  Tileset tiles(tileset_json(tile_json(0, "a.glb")));
+  const auto read_with = [&](const json& sets) {
+    tiles.add("a.glb", box_glb({{{0, 0, 0}, 5, 1}, {{4, 0, 0}, 6, 0}}, "_FEATURE_ID_0", json{{"featureIds", sets}}));
+    TilesetScene read = tiles.read();
+    EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+    EXPECT_EQ(read.report.triangles, 24u);
+    return read;
+  };
+  const json by_texture = {{"featureCount", 2}, {"texture", {{"index", 0}, {"channels", {0}}}}};
+  const json by_attribute = {{"featureCount", 2}, {"attribute", 0}};
+  const TilesetScene one = read_with(json::array({by_texture}));
+  ASSERT_EQ(one.scene.objects.size(), 1u);
+  EXPECT_EQ(one.scene.objects[0], (SceneObject{"house", "a.glb", ObjectKind::other}));
+  EXPECT_EQ(one.report.features_by_texture, 1u);
+  testing::expect_wording(notes_of(one.report));
+  const TilesetScene both = read_with(json::array({by_texture, by_attribute}));
+  EXPECT_EQ(ids_of(both), (std::set<std::string>{"a.glb#0", "a.glb#1"}));
+  EXPECT_EQ(both.report.features_by_texture, 1u);
+  EXPECT_EQ(read_with(json::array({by_attribute})).report.features_by_texture, 0u);
+  const json garbled = {{"featureCount", 2}, {"texture", 7}};
+  EXPECT_EQ(read_with(json::array({garbled})).report.features_by_texture, 1u);
+}
+
 TEST(Tileset, ReadsInstancesAndComposites) {
   json root = tile_json(0, "all.cmpt");
   Tileset tiles(tileset_json(root, 1, "1.0"));

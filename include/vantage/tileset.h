@@ -52,6 +52,9 @@ struct TilesetReport {
   std::size_t coarser_kept = 0;
   std::size_t unreadable_properties = 0;  ///< names and ids of features that are garbled: taken as missing
   std::string first_unreadable = {};      ///< the file of the first of them, and what is wrong with it
+  /// Primitives of glTF with features by texture (EXT_mesh_features), one for each pixel. These are not told apart: the
+  /// primitive belongs to other features that it has, or else to its node's object.
+  std::size_t features_by_texture = 0;
 
   double largest_error_m = 0;  ///< the geometric error of the coarsest tile that was taken
   std::size_t coarse = 0;  ///< tiles that were taken though their error is larger than asked: they have no finer ones

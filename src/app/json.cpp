@@ -74,6 +74,7 @@ void add_tileset(Json& json, const TilesetReport& report) {
       {"coarser_kept", report.coarser_kept},
       {"unreadable_properties", report.unreadable_properties},
       {"first_unreadable", report.first_unreadable.empty() ? Json(nullptr) : Json(report.first_unreadable)},
+      {"features_by_texture", report.features_by_texture},
       {"largest_error_m", report.largest_error_m},
       {"coarse", report.coarse},
       {"rim_drop_m", report.rim_drop_m},

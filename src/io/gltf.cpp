@@ -75,6 +75,8 @@ class GltfReader {
     return features_ ? features_->unreadable() : UnreadableProperties{};
   }
 
+  std::uint64_t features_by_texture() const { return features_ ? features_->by_texture() : 0; }
+
   /// CESIUM_RTC (Cesium): what all positions are about.
   Vec3 center() const {
     const Json* const about = document_.extension(document_.root(), "CESIUM_RTC");
@@ -384,6 +386,7 @@ TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& 
   result.mesh = reader.read();
   result.center = reader.center();
   result.unreadable_properties = reader.unreadable_properties();
+  result.features_by_texture = reader.features_by_texture();
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "io/gltf_features.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -105,7 +106,7 @@ std::optional<FeatureIds> Features::best_of(const Json& sets,
   std::optional<FeatureIds> best;
   for (const Json& set : sets) {
     if (!set.is_object()) document_.fail("a set of feature ids is not an object");
-    if (set.contains("texture")) continue;  // a feature for each pixel is none for a triangle
+    if (set.contains("texture")) continue;  // that is seen from its image alone, and no image is read
     FeatureIds ids;
     ids.table = document_.whole(set, "propertyTable").value_or(FeatureIds::kNoTable);
     ids.null_id = document_.whole(set, "nullFeatureId");
@@ -129,7 +130,10 @@ std::optional<FeatureIds> Features::of_primitive(const Json& primitive,
     return document_.accessor(document_.required_whole(named ? *named : primitive, name.c_str()));
   };
   if (const Json* const features = document_.extension(primitive, "EXT_mesh_features")) {
-    return best_of(document_.array(*features, "featureIds"), accessor);
+    const Json& sets = document_.array(*features, "featureIds");
+    const auto is_by_texture = [](const Json& set) { return set.is_object() && set.contains("texture"); };
+    if (std::any_of(sets.begin(), sets.end(), is_by_texture)) ++by_texture_;
+    return best_of(sets, accessor);
   }
   const Json* const named = member(primitive, "attributes");
   if (!batch_ || !named || !named->contains("_BATCHID")) return std::nullopt;

@@ -40,6 +40,8 @@ class Features {
   /// A property that cannot be read is taken as missing.
   SceneObject identity(std::uint64_t table, std::uint64_t id);
   const UnreadableProperties& unreadable() const { return unreadable_; }
+  /// Primitives with a set of features by texture, each time that one was asked for.
+  std::uint64_t by_texture() const { return by_texture_; }
 
  private:
   struct Table {
@@ -62,6 +64,7 @@ class Features {
   std::string tile_;
   std::map<std::uint64_t, Table> tables_;
   UnreadableProperties unreadable_;
+  std::uint64_t by_texture_ = 0;
 };
 
 }  // namespace vantage::internal::io::gltf

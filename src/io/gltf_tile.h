@@ -22,6 +22,7 @@ struct TileMesh {
   RawMesh mesh;                ///< as read_gltf gives it, y up, but with an object for each feature
   Vec3 center = Vec3::Zero();  ///< CESIUM_RTC: to be added when z is up
   UnreadableProperties unreadable_properties = {};
+  std::uint64_t features_by_texture = 0;  ///< primitives that have such
 };
 
 TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& progress,

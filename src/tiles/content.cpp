@@ -51,6 +51,7 @@ std::optional<io::TileMesh> ContentReader::surfaces_of(const io::MeshSource& sou
   try {
     io::TileMesh mesh = io::read_gltf_tile(source, progress_, limits_, tile);
     count_unreadable(source.file().string(), mesh.unreadable_properties);
+    features_by_texture_ += mesh.features_by_texture;
     return mesh;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::mesh_empty) return std::nullopt;

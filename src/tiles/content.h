@@ -32,6 +32,9 @@ class ContentReader {
   /// Of all features so far; the first is said with its file.
   const io::UnreadableProperties& unreadable_properties() const { return unreadable_properties_; }
 
+  /// Primitives with features by texture.
+  std::uint64_t features_by_texture() const { return features_by_texture_; }
+
   /// Adds the surfaces of a content to the collector. Returns whether there are any: a cloud of points has none.
   /// Throws Error(input).
   bool read(const std::string& address, const std::string& bytes, const Placement& placement);
@@ -56,7 +59,7 @@ class ContentReader {
   Collector& collector_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
-  std::uint64_t all_other_bytes_ = 0;
+  std::uint64_t all_other_bytes_ = 0, features_by_texture_ = 0;
   io::UnreadableProperties unreadable_properties_;
   // Of the content that is being read:
   std::map<std::string, std::optional<io::TileMesh>> models_;  // other files, by address

@@ -7,6 +7,7 @@
 #include "common/input.h"
 #include "core/format.h"
 #include "core/read_limits.h"
+#include "core/text.h"
 #include "tiles/http_source.h"
 #include "tiles/place.h"
 #include "tiles/walk.h"
@@ -189,6 +190,11 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
     notes.push_back(
         internal::core::format("{} names or ids of features cannot be read: taken as missing. The first: {}",
                                report.unreadable_properties, report.first_unreadable));
+  }
+  if (report.features_by_texture > 0) {
+    notes.push_back(internal::core::count_text(report.features_by_texture, "primitive has features by texture",
+                                               "primitives have features by texture") +
+                    ", which are not told apart: no images are read");
   }
   if (report.without_surfaces > 0) {
     notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: passed over",

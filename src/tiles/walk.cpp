@@ -78,6 +78,7 @@ void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
   }
   report_.unreadable_properties = contents_.unreadable_properties().count;
   report_.first_unreadable = contents_.unreadable_properties().first;
+  report_.features_by_texture = contents_.features_by_texture();
 }
 
 void Walk::count_hole(const Error& error) {

@@ -57,6 +57,10 @@ std::string box_glb(const std::vector<TileBox>& boxes, const std::string& ids, j
   if (ids == "_FEATURE_ID_0") {
     primitive["extensions"]["EXT_mesh_features"]["featureIds"] = {{{"attribute", 0}, {"propertyTable", 0}}};
   }
+  if (gltf.contains("featureIds")) {
+    primitive["extensions"]["EXT_mesh_features"]["featureIds"] = gltf["featureIds"];
+    gltf.erase("featureIds");
+  }
   gltf["meshes"] = {{{"primitives", {primitive}}}};
   const std::size_t vertices = 8 * boxes.size();
   gltf["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", vertices}, {"type", "VEC3"}},

@@ -15,7 +15,8 @@ struct TileBox {
   double height = 1;
   int feature = 0;  ///< as _BATCHID, or _FEATURE_ID_0
 };
-/// `ids`: the attribute of the features; empty for none.
+/// `ids`: the attribute of the features; empty for none. `extra`: members of the glTF; "more": texts that become buffer
+/// views from 3 on; "featureIds": the sets of EXT_mesh_features.
 std::string box_glb(const std::vector<TileBox>& boxes, const std::string& ids = "", nlohmann::json extra = {});
 
 /// The tables may be empty.
