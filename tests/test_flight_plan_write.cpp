@@ -5,14 +5,18 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "geo/ellipsoid.h"
+#include "io/on_globe.h"
 #include "io/write_zip.h"
 #include "io/zip.h"
 #include "support/internals.h"
 #include "support/random.h"
 #include "support/temporary_directory.h"
+#include "support/tile_files.h"
 #include "support/wording.h"
 #include "vantage/flight.h"
 
@@ -58,6 +62,12 @@ FlightOut flight_out() {
   return out;
 }
 
+/// As if the scene had been read from a tileset.
+void on_earth(FlightOut& out) {
+  out.georeference->vertical = internal::geo::kEllipsoidalHeight;
+  out.georeference->source_crs = internal::geo::kEarthCentred;
+}
+
 LocatedPlan read_back(const FlightOut& out, PlanFormat format, FlightPlan* read = nullptr) {
   const FlightPlan plan = parse_flight_plan(flight_plan_bytes(out, format), "written");
   EXPECT_EQ(plan.format, format);
@@ -66,6 +76,11 @@ LocatedPlan read_back(const FlightOut& out, PlanFormat format, FlightPlan* read 
   options.georeference = out.georeference;
   options.levels = out.levels;
   if (out.home) options.home_z_m = out.home->z();
+  if (out.home && out.georeference &&
+      internal::io::OnGlobe(*out.georeference).is_cartesian()) {  // z alone does not say how high that is
+    const auto place = internal::io::OnGlobe(*out.georeference).to_geodetic(*out.home).place;
+    options.home = Eigen::Vector2d(place.longitude_deg, place.latitude_deg);
+  }
   return locate_flight(plan, options);
 }
 
@@ -76,6 +91,7 @@ TEST(WriteFlightPlan, IsReadBackToTheMicrometre) {
     FlightOut out = flight_out();
     out.georeference->latitude_deg = random.uniform(-80, 80);
     out.georeference->longitude_deg = round % 5 == 0 ? 179.999 : random.uniform(-180, 180);
+    if (round % 4 == 1) on_earth(out);
     out.home = random.point(-50, 50);
     const double extent = round % 3 == 0 ? 5e3 : 300;
     out.flight.points.clear();
@@ -107,6 +123,62 @@ TEST(WriteFlightPlan, IsReadBackToTheMicrometre) {
       }
     }
   }
+}
+
+// The frame of a scene from a tileset is turned about the earth's centre, not bent: at 2 km a level that is flat there
+// is 0.3 m above the ellipsoid's.
+TEST(WriteFlightPlan, ScenesOfTilesetsLieWhereTheEarthIs) {
+  FlightOut out = flight_out();
+  on_earth(out);
+  out.heights = HeightDatum::ellipsoid;
+  out.flight.points.clear();
+  for (const Vec3& at : {Vec3(0, 0, 0), Vec3(2000, 0, 120), Vec3(0, -2000, 120), Vec3(-1414, 1414, 500)}) {
+    out.flight.points.push_back({at, 0, 8});
+  }
+  const json axes = transform_at(out.georeference->latitude_deg, out.georeference->longitude_deg);
+  Eigen::Matrix4d into_earth;
+  for (Eigen::Index i = 0; i < 16; ++i) into_earth(i % 4, i / 4) = axes[static_cast<std::size_t>(i)];
+  const json features = json::parse(flight_plan_bytes(out, PlanFormat::geojson)).at("features");
+  const json& line = features.at(0).at("geometry").at("coordinates");
+  ASSERT_EQ(line.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const json place = transform_at(line[i][1], line[i][0]);  // its last column is on the ellipsoid, its third is up
+    Vec3 written;
+    for (std::size_t k = 0; k < 3; ++k) {
+      written[static_cast<Eigen::Index>(k)] =
+          place[12 + k].get<double>() + line[i][2].get<double>() * place[8 + k].get<double>();
+    }
+    const Vec3 exact = into_earth.topLeftCorner<3, 3>() * out.flight.points[i].position + into_earth.col(3).head<3>();
+    EXPECT_LT((written - exact).norm(), 1.5e-6) << i;
+  }
+  EXPECT_NEAR(line[1][2].get<double>(), 120 + 2000.0 * 2000 / (2 * 6.385e6), 1e-3);
+  // And above the home.
+  out.heights = HeightDatum::home;
+  out.home = Vec3(0, 0, 20);
+  std::istringstream last_row(flight_plan_bytes(out, PlanFormat::csv));
+  std::string row;
+  for (int i = 0; i < 5; ++i) std::getline(last_row, row);
+  for (int i = 0; i < 3; ++i) row.erase(0, row.find(',') + 1);
+  EXPECT_NEAR(std::stod(row), 480 + 2 * 1414.0 * 1414 / (2 * 6.385e6), 1e-3);
+}
+
+// Vehicles keep their height, and the scene is flat: long legs are cut.
+TEST(WriteFlightPlan, LevelLegsInScenesOfTilesetsAreCut) {
+  FlightOut out = flight_out();
+  on_earth(out);
+  out.heights = HeightDatum::ellipsoid;
+  const internal::io::OnGlobe globe(*out.georeference);
+  for (const double longitude : {11.56, 11.62}) {
+    out.flight.points.push_back({globe.to_scene({{longitude, 48.1374}, 300}), 0, 8});
+  }
+  out.flight.points.erase(out.flight.points.begin(), out.flight.points.begin() + 3);
+  const LocatedPlan read = read_back(out, PlanFormat::geojson);
+  EXPECT_GT(read.flight.points.size(), 5U);
+  for (std::size_t i = 0; i + 1 < read.flight.points.size(); ++i) {
+    const Vec3 middle = (read.flight.points[i].position + read.flight.points[i + 1].position) / 2;
+    EXPECT_NEAR(globe.to_geodetic(middle).height_m, 300, read.flight.chord_error_m);
+  }
+  EXPECT_LE(read.flight.chord_error_m, 0.05);
 }
 
 TEST(WriteFlightPlan, HasTheFieldsThatQGroundControlDemands) {

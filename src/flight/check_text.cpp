@@ -1,7 +1,7 @@
 // What a check found, as JSON and as a table.
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +9,7 @@
 #include "common/input.h"
 #include "core/format.h"
 #include "core/text.h"
+#include "io/on_globe.h"
 #include "vantage/flight_check.h"
 #include "vantage/georeference.h"
 
@@ -23,20 +24,21 @@ Json number_json(double value) { return std::isfinite(value) ? Json(value) : Jso
 /// Positions as they are told: with longitude and latitude where these are known.
 class PositionJson {
  public:
-  explicit PositionJson(const Georeference* georeference) : georeference_(georeference) {}
+  explicit PositionJson(const Georeference* georeference) {
+    if (georeference != nullptr) globe_.emplace(*georeference);
+  }
 
   Json operator()(const Vec3& position) const {
     Json json = {{"x_m", position.x()}, {"y_m", position.y()}, {"z_m", position.z()}};
-    if (georeference_ == nullptr) return json;
-    const std::array<Eigen::Vector2d, 1> at = {Eigen::Vector2d(position.head<2>())};
-    const Eigen::Vector2d lonlat = positions_in_crs(*georeference_, "EPSG:4326", at).front();
-    json["lon_deg"] = lonlat.x();
-    json["lat_deg"] = lonlat.y();
+    if (!globe_) return json;
+    const internal::geo::LonLat place = globe_->to_geodetic(position).place;
+    json["lon_deg"] = place.longitude_deg;
+    json["lat_deg"] = place.latitude_deg;
     return json;
   }
 
  private:
-  const Georeference* georeference_;
+  std::optional<internal::io::OnGlobe> globe_;
 };
 
 Json span_json(const FlightSpan& span, const PositionJson& position) {

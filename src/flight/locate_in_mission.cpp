@@ -1,7 +1,7 @@
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 
+#include "io/on_globe.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
 #include "vantage/flight_check.h"
@@ -13,9 +13,9 @@ namespace {
 
 /// Longitude and latitude, or x and y for a plan in the scene frame.
 Eigen::Vector2d home_of_tour(bool is_in_scene_frame, const Mission& mission) {
-  Eigen::Vector2d at = mission.home->head<2>();
-  if (is_in_scene_frame || !mission.scene().georeference) return at;
-  return positions_in_crs(*mission.scene().georeference, "EPSG:4326", std::array{at}).front();
+  if (is_in_scene_frame || !mission.scene().georeference) return mission.home->head<2>();
+  const auto place = internal::io::OnGlobe(*mission.scene().georeference).to_geodetic(*mission.home).place;
+  return {place.longitude_deg, place.latitude_deg};
 }
 
 /// Whether the plan's home is that of the mission's tour, but for what plans round.

@@ -18,10 +18,9 @@ std::optional<GroundLevels> ground_levels(const Mission& mission) {
   }
 }
 
-std::optional<geo::LocalFrame> earth_frame(const Mission& mission) {
+std::optional<io::OnGlobe> globe_of(const Mission& mission) {
   const auto& place = mission.scene().georeference;
-  if (!place) return std::nullopt;
-  return std::optional<geo::LocalFrame>(std::in_place, geo::LonLat{place->longitude_deg, place->latitude_deg});
+  return place ? std::optional<io::OnGlobe>(std::in_place, *place) : std::nullopt;
 }
 
 }  // namespace
@@ -29,7 +28,7 @@ std::optional<geo::LocalFrame> earth_frame(const Mission& mission) {
 Surroundings::Surroundings(const Mission& mission)
     : obstacles(mission),
       ground(ground_levels(mission)),
-      earth(earth_frame(mission)),
+      earth(globe_of(mission)),
       sea_level_m(vantage::sea_level_m(mission)) {}
 
 }  // namespace vantage::internal::flight
@@ -66,17 +65,19 @@ ViewDescription ViewDescriber::describe(const Vec3& position) const {
   const Surroundings& around = *data_->around;
   ViewDescription view;
   view.position = position;
+  double height_m = position.z();  // above the level surface through the origin; a map has it as z
   if (around.earth) {
-    const internal::geo::LonLat place = around.earth->to_lonlat(position.head<2>());
-    view.longitude_deg = place.longitude_deg;
-    view.latitude_deg = place.latitude_deg;
+    const internal::geo::Geodetic place = around.earth->to_geodetic(position);
+    view.longitude_deg = place.place.longitude_deg;
+    view.latitude_deg = place.place.latitude_deg;
+    if (around.earth->is_cartesian()) height_m = place.height_m;
   }
   if (around.ground) {
     if (const auto level = around.ground->at(position.x(), position.y())) {
       view.above_ground_m = position.z() - level->highest_m;
     }
   }
-  if (around.sea_level_m) view.above_sea_m = position.z() - *around.sea_level_m;
+  if (around.sea_level_m) view.above_sea_m = height_m - *around.sea_level_m;
   const internal::flight::AimedCamera camera = data_->aim.at(position, target.centre());
   view.yaw_deg = camera.aim.yaw_deg < 360 ? camera.aim.yaw_deg : 0;
   view.pitch_deg = camera.aim.pitch_deg;

@@ -19,6 +19,12 @@ geo::Geodetic OnGlobe::to_geodetic(const Vec3& scene) const {
   return {map_.to_lonlat(scene.head<2>()), scene.z()};
 }
 
+Vec3 OnGlobe::to_scene(const geo::Geodetic& place) const {
+  if (tangent_) return tangent_->to_local(geo::to_ecef(place));
+  const Eigen::Vector2d at = map_.to_local(place.place);
+  return {at.x(), at.y(), place.height_m};
+}
+
 Vec3 OnGlobe::to_earth(const Vec3& scene) const {
   return tangent_ ? tangent_->to_earth(scene) : geo::to_ecef(to_geodetic(scene));
 }

@@ -22,6 +22,12 @@ class OnGlobe {
   /// Longitude, latitude and height of a point of the scene frame.
   geo::Geodetic to_geodetic(const Vec3& scene) const;
 
+  /// The point of the scene frame that is there.
+  Vec3 to_scene(const geo::Geodetic& place) const;
+
+  /// Whether the frame is a Cartesian one. In a map z is the height, and x and y do not depend on it.
+  bool is_cartesian() const { return tangent_.has_value(); }
+
  private:
   geo::LocalFrame map_;
   std::optional<geo::TangentFrame> tangent_;

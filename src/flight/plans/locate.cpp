@@ -14,6 +14,7 @@
 #include "flight/plans/ground_profile.h"
 #include "flight/plans/levels.h"
 #include "geo/local_frame.h"
+#include "io/on_globe.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
 
@@ -26,7 +27,7 @@ using Point = Eigen::Vector2d;
 
 /// A corner of the way, before its legs are cut.
 struct Corner {
-  Vec3 position;
+  Vec3 position;                         ///< x and y of the map about the origin, and the height (Locator::scene_of)
   std::optional<double> above_ground_m;  ///< where its height is that
   bool follows_ground = false;           ///< the leg that ends here
   double hold_s = 0, speed_m_s = std::nan(""), cut_m = 0;
@@ -49,6 +50,8 @@ class Locator {
            "give a scene of a map, or its place: 'origin' under 'scene'");
     }
     frame_.emplace(geo::LonLat{options.georeference->longitude_deg, options.georeference->latitude_deg});
+    const internal::io::OnGlobe globe(*options.georeference);
+    if (globe.is_cartesian()) globe_.emplace(*options.georeference);
   }
 
   LocatedPlan locate();
@@ -56,9 +59,13 @@ class Locator {
  private:
   void check_options() const;
   Point local(const Point& horizontal, const std::string& where) const;
+  Vec3 scene_of(const Vec3& at) const;
+  double level_of(const Point& at, double scene_z) const;
+  double home_level(double scene_z) const;
   std::optional<Point> home_position() const;
   std::optional<double> known_home_z();
   double home_z(const std::string& where);
+  std::optional<double> ground_level(const Point& at);
   double ground_z(const Point& at, const std::string& where);
   double stated_home_z(const std::string& where) const;
   double z_of(const PlanPosition& position, const Point& at, const std::string& where);
@@ -76,6 +83,7 @@ class Locator {
   void cut_geodesic(const Point& from, const Point& to, double begin, double end, int depth,
                     std::vector<double>& shares) const;
   std::vector<double> geodesic_shares(const Point& from, const Point& to) const;
+  std::vector<double> level_shares(const std::vector<double>& shares, double length_m) const;
   Point between(const Point& from, const Point& to, double share) const;
   void push(const Vec3& position, const Corner& to, bool is_last);
   void note(const std::string& text) {
@@ -89,7 +97,8 @@ class Locator {
   const FlightPlan& plan_;
   const LocateOptions& options_;
   plans::Levels levels_;
-  std::optional<geo::LocalFrame> frame_;  ///< none: the plan is in the scene frame
+  std::optional<geo::LocalFrame> frame_;        ///< none: the plan is in the scene frame
+  std::optional<internal::io::OnGlobe> globe_;  ///< of a scene whose frame is no map: from a tileset
   std::optional<GroundLevels> ground_;
   std::optional<plans::GroundProfile> profile_;
   std::optional<double> home_z_;
@@ -130,10 +139,47 @@ Point Locator::local(const Point& horizontal, const std::string& where) const {
        is_swapped ? "longitude and latitude seem to be swapped" : "give the plan and the scene of one place");
 }
 
+/// From the map, in which plans are followed, with heights that are level all over, to the scene frame. Of most scenes
+/// they are the same.
+Vec3 Locator::scene_of(const Vec3& at) const {
+  return globe_ ? globe_->to_scene({frame_->to_lonlat(at.head<2>()), at.z()}) : at;
+}
+
+/// The height in the map of what has a z in the scene. They differ by less than their distance over the earth's radius.
+double Locator::level_of(const Point& at, double scene_z) const {
+  constexpr int kSteps = 3;
+  double level = scene_z;
+  for (int i = 0; globe_ && i < kSteps; ++i) level += scene_z - scene_of({at.x(), at.y(), level}).z();
+  return level;
+}
+
+double Locator::home_level(double scene_z) const {
+  const auto at = globe_ ? home_position() : std::nullopt;
+  return at ? level_of(*at, scene_z) : scene_z;
+}
+
 std::optional<Point> Locator::home_position() const {
   if (options_.home) return local(*options_.home, "home");
   if (plan_.home) return local(plan_.home->horizontal, plan_.file + ": home");
   return std::nullopt;
+}
+
+/// The height in the map, of the highest ground there.
+std::optional<double> Locator::ground_level(const Point& at) {
+  if (!ground_) ground_.emplace(*options_.ground);
+  if (!globe_) {
+    const auto range = ground_->at(at.x(), at.y());
+    return range ? std::optional(range->highest_m) : std::nullopt;
+  }
+  constexpr int kSteps = 3;  // x and y of the scene depend on the height, by centimetres
+  double level = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 point = scene_of({at.x(), at.y(), level});
+    const auto range = ground_->at(point.x(), point.y());
+    if (!range) return std::nullopt;
+    level += range->highest_m - point.z();
+  }
+  return level;
 }
 
 double Locator::ground_z(const Point& at, const std::string& where) {
@@ -141,8 +187,7 @@ double Locator::ground_z(const Point& at, const std::string& where) {
     fail(ErrorCode::ground_missing, where, "a height above ground is given, and the scene has no ground",
          "give a scene with terrain, or say what of it is ground ('navigation.ground' of a mission)");
   }
-  if (!ground_) ground_.emplace(*options_.ground);
-  if (const auto range = ground_->at(at.x(), at.y())) return range->highest_m;
+  if (const auto level = ground_level(at)) return *level;
   fail(ErrorCode::ground_missing, where,
        "there is no ground below it, at x " + internal::core::number_text(at.x()) + ", y " +
            internal::core::number_text(at.y()) + " of the scene",
@@ -153,7 +198,7 @@ double Locator::stated_home_z(const std::string& where) const {
   const PlanPosition& home = *plan_.home;
   switch (home.datum) {
     case HeightDatum::scene_z:
-      return home.height_m;
+      return home_level(home.height_m);
     case HeightDatum::ellipsoid:
       return home.height_m + levels_.ellipsoid_z(where);
     default:
@@ -164,7 +209,7 @@ double Locator::stated_home_z(const std::string& where) const {
 /// What is given; the ground there; what the plan states.
 std::optional<double> Locator::known_home_z() {
   if (home_z_) return home_z_;
-  if (options_.home_z_m) return home_z_ = options_.home_z_m;
+  if (options_.home_z_m) return home_z_ = home_level(*options_.home_z_m);
   const std::string where = plan_.file + ": home";
   const bool is_stated = plan_.home && !options_.home && std::isfinite(plan_.home->height_m);
   const bool can_state = is_stated && (plan_.home->datum == HeightDatum::scene_z ||
@@ -172,11 +217,8 @@ std::optional<double> Locator::known_home_z() {
                                        (plan_.home->datum == HeightDatum::sea_level && levels_.knows_sea_level()));
   const auto at = home_position();
   std::optional<double> ground;
-  if (options_.ground && !options_.ground->surface) ground = options_.ground->plane_z_m;  // the same everywhere
-  if (!ground && options_.ground && at) {
-    if (!ground_) ground_.emplace(*options_.ground);
-    if (const auto range = ground_->at(at->x(), at->y())) ground = range->highest_m;
-  }
+  if (options_.ground && !options_.ground->surface) ground = home_level(options_.ground->plane_z_m);
+  if (!ground && options_.ground && at) ground = ground_level(*at);
   if (ground) {
     constexpr double kMuchM = 1;
     const double stated = can_state ? stated_home_z(where) : *ground;
@@ -213,7 +255,7 @@ double Locator::z_of(const PlanPosition& stated, const Point& at, const std::str
   if (position.datum == HeightDatum::unknown && options_.unknown_heights) position.datum = *options_.unknown_heights;
   switch (position.datum) {
     case HeightDatum::scene_z:
-      return position.height_m;
+      return level_of(at, position.height_m);
     case HeightDatum::sea_level:
       return position.height_m + levels_.sea_level_z(where);
     case HeightDatum::ellipsoid:
@@ -414,7 +456,23 @@ std::vector<double> Locator::geodesic_shares(const Point& from, const Point& to)
     bent_m_ = std::max(bent_m_, std::min(sagitta, geodesic_error_m()));
   }
   shares.push_back(1);
-  return shares;
+  return globe_ ? level_shares(shares, (to - from).norm()) : shares;
+}
+
+/// The same with parts so short that a level way, which the earth bends, is near enough to its chord.
+std::vector<double> Locator::level_shares(const std::vector<double>& shares, double length_m) const {
+  constexpr double kRadiusM = 6.3e6;
+  const double longest_m = std::sqrt(8 * kRadiusM * geodesic_error_m());
+  std::vector<double> shorter;
+  double begin = 0;
+  for (const double end : shares) {
+    const double part_m = (end - begin) * length_m, parts = std::max(std::ceil(part_m / longest_m), 1.0);
+    for (double part = 1; part < parts; ++part) shorter.push_back(begin + (end - begin) * part / parts);
+    shorter.push_back(end);
+    bent_m_ = std::max(bent_m_, part_m / parts * part_m / parts / (8 * kRadiusM));
+    begin = end;
+  }
+  return shorter;
 }
 
 void Locator::push(const Vec3& position, const Corner& to, bool is_last) {
@@ -447,7 +505,7 @@ void Locator::add_leg(const Corner& from, const Corner& to) {
     if (follows) {
       add_following(begin, end, is_last);
     } else {
-      push(end.position, end, is_last);
+      push(scene_of(end.position), end, is_last);
     }
     begin = end;
   }
@@ -457,7 +515,8 @@ void Locator::add_following(const Corner& from, const Corner& to, bool is_last) 
   if (!options_.ground) (void)ground_z(to.position.head<2>(), place(to.item));
   if (!profile_) profile_.emplace(*options_.ground);
   has_following_ = true;
-  std::vector<plans::ProfilePoint> profile = profile_->along(from.position.head<2>(), to.position.head<2>());
+  const Vec3 first = scene_of(from.position), last = scene_of(to.position);
+  std::vector<plans::ProfilePoint> profile = profile_->along(first.head<2>(), last.head<2>());
   if (profile.empty()) {
     fail(ErrorCode::ground_missing, place(to.item), "the way to it follows the ground, and leaves it",
          "take a scene that reaches so far");
@@ -470,15 +529,15 @@ void Locator::add_following(const Corner& from, const Corner& to, bool is_last) 
   // Where the ground jumps at an end, the way goes up or down there.
   constexpr double kSameM = 1e-6;
   const auto push_at = [&](double share, double z, bool is_end) {
-    const Point at = from.position.head<2>() + share * (to.position - from.position).head<2>();
+    const Point at = first.head<2>() + share * (last - first).head<2>();
     push({at.x(), at.y(), z}, to, is_end);
   };
   const bool jumps_at_begin = std::abs(profile.front().z_m - located_.flight.points.back().position.z()) > kSameM;
-  const bool jumps_at_end = is_last && std::abs(profile.back().z_m - to.position.z()) > kSameM;
+  const bool jumps_at_end = is_last && std::abs(profile.back().z_m - last.z()) > kSameM;
   for (std::size_t i = jumps_at_begin ? 0 : 1; i < profile.size(); ++i) {
     push_at(profile[i].share, profile[i].z_m, is_last && !jumps_at_end && i + 1 == profile.size());
   }
-  if (jumps_at_end) push_at(1, to.position.z(), true);
+  if (jumps_at_end) push_at(1, last.z(), true);
 }
 
 LocatedPlan Locator::locate() {
@@ -509,7 +568,7 @@ LocatedPlan Locator::locate() {
   const std::vector<Corner> corners = with_cut_corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (i == 0) {
-      push(corners[i].position, corners[i], true);
+      push(scene_of(corners[i].position), corners[i], true);
     } else {
       add_leg(corners[i - 1], corners[i]);
     }
@@ -517,7 +576,7 @@ LocatedPlan Locator::locate() {
   located_.flight.chord_error_m =
       (has_curves_ ? options_.chord_error_m : 2 * bent_m_) + (has_following_ ? options_.ground_error_m : 0);
   const auto home = home_position();
-  if (home && known_home_z()) located_.home = Vec3(home->x(), home->y(), *known_home_z());
+  if (home && known_home_z()) located_.home = scene_of({home->x(), home->y(), *known_home_z()});
   using internal::core::count_text;
   if (timed_circles_ > 0) {
     note(count_text(timed_circles_, "loiter is", "loiters are") +

@@ -39,8 +39,7 @@ PlanWriter::PlanWriter(const FlightOut& flight, PlanFormat format, const std::ve
                 std::string(name_of(format)) + " has no heights above " + name_of(heights_), place(),
                 "choose " + choice);
   }
-  if (flight.georeference)
-    frame_.emplace(geo::LonLat{flight.georeference->longitude_deg, flight.georeference->latitude_deg});
+  if (flight.georeference) globe_.emplace(*flight.georeference);
 }
 
 void PlanWriter::check_actions() const {
@@ -73,13 +72,13 @@ void PlanWriter::check_actions() const {
 }
 
 Eigen::Vector2d PlanWriter::lonlat(const Vec3& position) const {
-  if (!frame_) {
+  if (!globe_) {
     throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies, and a plan needs it",
                 place(),
                 "give a scene of a map, or its place: 'origin' under 'scene'; or write CSV with z of the scene");
   }
   constexpr double kSteps = 1e11;  // a millionth of a metre
-  const geo::LonLat at = frame_->to_lonlat(position.head<2>());
+  const geo::LonLat at = globe_->to_geodetic(position).place;
   return {rounded(at.longitude_deg, kSteps), rounded(at.latitude_deg, kSteps)};
 }
 
@@ -88,12 +87,23 @@ bool PlanWriter::knows(HeightDatum datum) const {
                                          : datum != HeightDatum::ellipsoid || levels_.knows_ellipsoid();
 }
 
+/// How high it is above the surface that z = 0 at the origin lies in, which is level all over.
+double PlanWriter::level(const Vec3& position) const {
+  return globe_ && globe_->is_cartesian() ? globe_->to_geodetic(position).height_m : position.z();
+}
+
 double PlanWriter::height(const Vec3& position, HeightDatum datum) const {
-  double level = 0;
-  if (datum == HeightDatum::sea_level) level = levels_.sea_level_z(place());
-  if (datum == HeightDatum::ellipsoid) level = levels_.ellipsoid_z(place());
-  if (datum == HeightDatum::home) level = home().z();
-  return rounded(position.z() - level, 1e6);
+  constexpr double kSteps = 1e6;
+  switch (datum) {
+    case HeightDatum::sea_level:
+      return rounded(level(position) - levels_.sea_level_z(place()), kSteps);
+    case HeightDatum::ellipsoid:
+      return rounded(level(position) - levels_.ellipsoid_z(place()), kSteps);
+    case HeightDatum::home:
+      return rounded(level(position) - level(home()), kSteps);
+    default:
+      return rounded(position.z(), kSteps);
+  }
 }
 
 const Vec3& PlanWriter::home() const {

@@ -10,7 +10,7 @@
 
 #include "core/xml_text.h"
 #include "flight/plans/levels.h"
-#include "geo/local_frame.h"
+#include "io/on_globe.h"
 #include "vantage/flight.h"
 
 namespace vantage::internal::flight::plans {
@@ -48,10 +48,11 @@ class PlanWriter {
   HeightDatum heights() const { return heights_; }
   const std::string& place() const { return flight_.name; }  ///< for messages
 
-  bool is_on_earth() const { return frame_.has_value(); }
+  bool is_on_earth() const { return globe_.has_value(); }
   /// Longitude and latitude, rounded to 1e-11 degrees. Throws Error(not_georeferenced).
   Eigen::Vector2d lonlat(const Vec3& position) const;
-  /// Rounded to a micrometre. Throws Error(height_unknown), and missing_key for a home that is needed.
+  /// Rounded to a micrometre. On a scene from a tileset, whose z is not the height, as the ellipsoid curves; but for
+  /// scene_z. Throws Error(height_unknown), and missing_key for a home that is needed.
   double height(const Vec3& position, HeightDatum datum) const;
   double height(const Vec3& position) const { return height(position, heights_); }
   bool knows(HeightDatum datum) const;
@@ -63,10 +64,11 @@ class PlanWriter {
 
  private:
   void check_actions() const;
+  double level(const Vec3& position) const;
 
   const FlightOut& flight_;
   Levels levels_;
-  std::optional<geo::LocalFrame> frame_;
+  std::optional<io::OnGlobe> globe_;
   HeightDatum heights_;
 };
 
