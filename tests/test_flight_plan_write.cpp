@@ -110,8 +110,9 @@ TEST(WriteFlightPlan, IsReadBackToTheMicrometre) {
         std::vector<FlightPoint> points;
         for (std::size_t i = 0; i < located.items.size(); ++i) {
           const bool is_last = i + 1 == located.items.size() || located.items[i + 1] != located.items[i];
-          if (is_last && plan.items[located.items[i]].kind == PlanItemKind::waypoint)
-            points.push_back(located.flight.points[i]);
+          const PlanItem& item = plan.items[located.items[i]];
+          const bool is_cut = std::abs(item.position.horizontal.x()) == 180;  // a line at the antimeridian
+          if (is_last && item.kind == PlanItemKind::waypoint && !is_cut) points.push_back(located.flight.points[i]);
         }
         ASSERT_EQ(points.size(), out.flight.points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {

@@ -217,9 +217,19 @@ def test_geojson_across_the_antimeridian(tmp_path):
     scene = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]],
                                  georeference=vt.Georeference(-17, 180))
     result = vt.compute(scene, [[0, 0, 0], [9, 0, 0], [9, 9, 0]], max_range=50)
-    result.slice(z=10).save(tmp_path / "fiji.geojson")
-    ring = json.loads((tmp_path / "fiji.geojson").read_text())["features"][0]["geometry"]["coordinates"][0][0]
-    assert np.ptp(np.array(ring)[:, 0]) < 0.01
+    pytest.importorskip("shapely")
+    one = result.slice(z=10)
+    one.save(tmp_path / "fiji.geojson")
+    geometry = json.loads((tmp_path / "fiji.geojson").read_text())["features"][0]["geometry"]
+    assert geometry["type"] == "MultiPolygon"
+    turns = []
+    for rings in geometry["coordinates"]:
+        x, y = np.array(rings[0]).T
+        assert np.ptp(x) < 0.01 and abs(x).max() == 180
+        turns.append((np.dot(x[:-1], y[1:]) - np.dot(y[:-1], x[1:])) / 2)
+    assert len(turns) == 2 and min(turns) > 0
+    east, north = 111_320 * np.cos(np.radians(17)), 110_659  # metres of a degree there
+    assert sum(turns) * east * north == pytest.approx(one.area_m2, rel=2e-3)
 
 
 def test_geopackage_keeps_the_crs(placed, tmp_path):

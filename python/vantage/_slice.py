@@ -105,12 +105,13 @@ class Slice:
     def save(self, path: Path) -> None:
         """Writes .geojson, or .gpkg or .parquet (GeoParquet) in the slice's own CRS; whole or not at all.
 
-        GeoJSON is longitude and latitude, WGS 84 (RFC 7946), whatever the slice's CRS. Its properties are z_m and area_m2. A
-        slice across the antimeridian has longitudes beyond 180 degrees, in all formats. `write_slices` writes several, with
-        their heights.
+        GeoJSON is longitude and latitude, WGS 84 (RFC 7946), whatever the slice's CRS. Its properties are z_m and area_m2.
+        Across the antimeridian it is cut there, which takes the extra `geo`; in the other formats longitudes go on beyond 180
+        degrees. `write_slices` writes several, with their heights.
 
         Raises:
-            Error: the extension is another one, the place on the earth is not known, or the file cannot be written.
+            Error: the extension is another one, the place on the earth is not known, a package is missing, or the file cannot
+                be written.
         """
         file, extension = _output(path, (".geojson", ".json", ".gpkg", ".parquet"))
         if extension in (".gpkg", ".parquet"):
@@ -122,8 +123,11 @@ class Slice:
 
     def _feature_collection(self) -> dict[str, Any]:
         on_earth = self.to_crs(WGS84)
+        geometry = on_earth.__geo_interface__
+        if any(ring[:, 0].max() > 180 for rings in on_earth.polygons for ring in rings):
+            geometry = _cut_at_antimeridian(on_earth)
         properties = {"z_m": self.z_m, "area_m2": self.area_m2}
-        feature = {"type": "Feature", "properties": properties, "geometry": on_earth.__geo_interface__}
+        feature = {"type": "Feature", "properties": properties, "geometry": geometry}
         return {"type": "FeatureCollection", "features": [feature]}
 
     def __repr__(self) -> str:
@@ -133,6 +137,18 @@ class Slice:
 
     def _repr_html_(self) -> str:
         return html(self)
+
+
+def _cut_at_antimeridian(whole: Slice) -> dict[str, Any]:
+    """A GeoJSON geometry of a slice in degrees that go on beyond 180: cut there, as RFC 7946 has it in section 3.1.9."""
+    shapely = require("shapely", "geo")
+    shape, cut = whole.to_shapely(), 180.0
+    west = shape.intersection(shapely.box(cut - 90, -90, cut, 90))
+    east = shapely.transform(shape.intersection(shapely.box(cut, -90, cut + 90, 90)), lambda places: places - (360, 0))
+    parts = [part for side in (west, east) for part in getattr(side, "geoms", [side]) if part.geom_type == "Polygon"]
+    geometry: dict[str, Any] = shapely.geometry.mapping(shapely.MultiPolygon([
+        shapely.geometry.polygon.orient(part) for part in parts if not part.is_empty]))
+    return geometry
 
 
 def _whole(moved: list[list[Ring]], polygons: list[list[Ring]], place: Georeference, crs: str) -> list[list[Ring]]:

@@ -1,11 +1,14 @@
 // GeoJSON: RFC 7946.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "core/text.h"
-#include "geo/local_frame.h"
+#include "io/antimeridian.h"
 #include "io/georeference_text.h"
+#include "io/on_globe.h"
 #include "vantage/fraction.h"
 
 namespace vantage {
@@ -17,27 +20,42 @@ using GeoJson = nlohmann::ordered_json;
 class Positions {
  public:
   explicit Positions(const std::optional<Georeference>& place) {
-    if (place) frame_.emplace(internal::geo::LonLat{place->longitude_deg, place->latitude_deg});
+    if (place) globe_.emplace(*place);
   }
 
-  GeoJson of(const Vec3& point) const {
-    if (!frame_) return {point.x(), point.y(), point.z()};
-    const internal::geo::LonLat position = frame_->to_lonlat(point.head<2>());
-    return {position.longitude_deg, position.latitude_deg, point.z()};
-  }
-
-  /// Closed, as GeoJSON has it. `is_turned`: the other way round.
-  GeoJson ring(const std::vector<Vec3>& corners, bool is_turned) const {
-    GeoJson json = GeoJson::array();
-    for (std::size_t i = 0; i <= corners.size(); ++i) {
-      const std::size_t k = i % corners.size();
-      json.push_back(of(corners[is_turned && k > 0 ? corners.size() - k : k]));
+  /// The coordinates of a polygon, and of more where it is cut at the antimeridian.
+  std::vector<GeoJson> polygons(const std::vector<std::vector<Vec3>>& rings) const {
+    std::vector<GeoJson> polygons;
+    if (!globe_) {
+      GeoJson& json = polygons.emplace_back(GeoJson::array());
+      for (const std::vector<Vec3>& ring : rings) {
+        json.push_back(closed<Vec3>(ring, [](const Vec3& at) { return GeoJson{at.x(), at.y(), at.z()}; }));
+      }
+      return polygons;
     }
-    return json;
+    const auto place = [this](const Vec3& point) { return globe_->to_geodetic(point); };
+    for (const internal::io::GlobePolygon& part : internal::io::cut_at_antimeridian(rings, place)) {
+      GeoJson& json = polygons.emplace_back(GeoJson::array());
+      for (const internal::io::GlobeRing& ring : part) {
+        json.push_back(closed<internal::io::GlobeCorner>(ring, [](const internal::io::GlobeCorner& corner) {
+          return GeoJson{corner.at.place.longitude_deg, corner.at.place.latitude_deg, corner.scene.z()};
+        }));
+      }
+    }
+    return polygons;
   }
 
  private:
-  std::optional<internal::geo::LocalFrame> frame_;
+  /// As GeoJSON has it: the first position is repeated.
+  template <class Corner, class Position>
+  static GeoJson closed(const std::vector<Corner>& ring, const Position& position) {
+    GeoJson json = GeoJson::array();
+    for (const Corner& corner : ring) json.push_back(position(corner));
+    if (!ring.empty()) json.push_back(json[0]);
+    return json;
+  }
+
+  std::optional<internal::io::OnGlobe> globe_;
 };
 
 /// Twice the area of a ring as seen from above, positive where it runs counter-clockwise.
@@ -47,22 +65,26 @@ double turn_from_above(const std::vector<Vec3>& ring) {
   return sum;
 }
 
-GeoJson polygon_json(const SeenPolygon& polygon, const Positions& positions) {
-  // RFC 7946 wants the outer ring counter-clockwise on the map. Of a wall it has no way round.
-  const bool is_turned = turn_from_above(polygon.outer) < 0;
-  GeoJson json = GeoJson::array();
-  json.push_back(positions.ring(polygon.outer, is_turned));
-  for (const auto& hole : polygon.holes) json.push_back(positions.ring(hole, is_turned));
-  return json;
+/// The other way round, from the same corner on.
+std::vector<Vec3> turned(const std::vector<Vec3>& ring) {
+  std::vector<Vec3> result = ring;
+  if (!result.empty()) std::reverse(result.begin() + 1, result.end());
+  return result;
 }
 
 GeoJson geometry_json(const std::vector<SeenPolygon>& polygons, const Positions& positions) {
-  if (polygons.empty()) return nullptr;
-  if (polygons.size() == 1) {
-    return {{"type", "Polygon"}, {"coordinates", polygon_json(polygons[0], positions)}};
-  }
   GeoJson all = GeoJson::array();
-  for (const SeenPolygon& polygon : polygons) all.push_back(polygon_json(polygon, positions));
+  for (const SeenPolygon& polygon : polygons) {
+    std::vector<std::vector<Vec3>> rings{polygon.outer};
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+    // RFC 7946 wants the outer ring counter-clockwise on the map. Of a wall it has no way round.
+    if (turn_from_above(polygon.outer) < 0) {
+      for (std::vector<Vec3>& ring : rings) ring = turned(ring);
+    }
+    for (GeoJson& part : positions.polygons(rings)) all.push_back(std::move(part));
+  }
+  if (all.empty()) return nullptr;
+  if (all.size() == 1) return {{"type", "Polygon"}, {"coordinates", std::move(all[0])}};
   return {{"type", "MultiPolygon"}, {"coordinates", std::move(all)}};
 }
 

@@ -13,6 +13,7 @@
 #include "common/output.h"
 #include "core/xml_text.h"
 #include "geo/local_frame.h"
+#include "io/antimeridian.h"
 #include "io/kind_colours.h"
 #include "io/on_globe.h"
 #include "io/write_zip.h"
@@ -62,7 +63,7 @@ class KmlVolume {
 
   void write(const Sink& sink) const {
     sink(head());
-    const std::vector<std::string> corners = corner_texts();
+    const std::vector<Corner> corners = corner_texts();
     std::vector<std::vector<std::size_t>> facets_of(volume_.causes.size());
     for (std::size_t t = 0; t < stored_.cause_of.size(); ++t) facets_of[stored_.cause_of[t]].push_back(t);
     for (const CauseKind kind : kKinds) {
@@ -80,18 +81,25 @@ class KmlVolume {
 
  private:
   /// "11.5,48.1,520".
-  std::string position(const Vec3& point) const {
-    const geo::Geodetic at = globe_.to_geodetic(point);
+  std::string position(const geo::Geodetic& at) const {
     return core::decimal(at.place.longitude_deg, kPlaceDecimals) + "," +
            core::decimal(at.place.latitude_deg, kPlaceDecimals) + "," +
            core::decimal(at.height_m - sea_level_z_m_, kHeightDecimals);
   }
 
-  std::vector<std::string> corner_texts() const {
-    std::vector<std::string> texts;
-    texts.reserve(stored_.mesh.vertices.size());
-    for (const Vec3& vertex : stored_.mesh.vertices) texts.push_back(position(vertex));
-    return texts;
+  struct Corner {
+    double longitude_deg;
+    std::string text;
+  };
+
+  std::vector<Corner> corner_texts() const {
+    std::vector<Corner> corners;
+    corners.reserve(stored_.mesh.vertices.size());
+    for (const Vec3& vertex : stored_.mesh.vertices) {
+      const geo::Geodetic at = globe_.to_geodetic(vertex);
+      corners.push_back({at.place.longitude_deg, position(at)});
+    }
+    return corners;
   }
 
   std::string title() const {
@@ -119,14 +127,20 @@ class KmlVolume {
     return text + kml_style("target", {213, 94, 0, 0.8});
   }
 
-  void write_cause(const Cause& cause, const std::vector<std::size_t>& facets, const std::vector<std::string>& corners,
+  void write_cause(const Cause& cause, const std::vector<std::size_t>& facets, const std::vector<Corner>& corners,
                    const Sink& sink) const {
     sink("<Placemark><name>" + core::xml_text(cause.name) + "</name><description>" + core::decimal(cause.area_m2, 3) +
          " m2, " + std::to_string(facets.size()) + (facets.size() == 1 ? " facet" : " facets") +
          "</description><styleUrl>#" + name_of(cause.kind) + "</styleUrl><MultiGeometry>\n");
     for (const std::size_t t : facets) {
       const Triangle& triangle = stored_.mesh.triangles[t];
-      sink(polygon({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]}));
+      const Corner &a = corners[triangle[0]], &b = corners[triangle[1]], &c = corners[triangle[2]];
+      const bool crosses = crosses_antimeridian(a.longitude_deg, b.longitude_deg) ||
+                           crosses_antimeridian(b.longitude_deg, c.longitude_deg) ||
+                           crosses_antimeridian(c.longitude_deg, a.longitude_deg);
+      const std::vector<Vec3>& at = stored_.mesh.vertices;
+      sink(crosses ? cut_polygon({at[triangle[0]], at[triangle[1]], at[triangle[2]]})
+                   : polygon({a.text, b.text, c.text}));
     }
     sink("</MultiGeometry></Placemark>\n");
   }
@@ -137,18 +151,30 @@ class KmlVolume {
     return text.append(corners.front()).append("</coordinates></LinearRing></outerBoundaryIs></Polygon>\n");
   }
 
+  /// A polygon for each side of the antimeridian. Corners where it is cut lie on the sides, to 2^-60 of their length.
+  std::string cut_polygon(const std::vector<Vec3>& corners) const {
+    std::string text;
+    for (const GlobePolygon& part :
+         cut_at_antimeridian({corners}, [this](const Vec3& point) { return globe_.to_geodetic(point); })) {
+      std::vector<std::string> texts;
+      for (const GlobeCorner& corner : part.front()) texts.push_back(position(corner.at));
+      text += polygon(texts);
+    }
+    return text;
+  }
+
   std::string target_text(const Target& target) const {
     std::string geometries;
     for (std::size_t i = 0; i < target.parts.size(); ++i) {
       const Vec3 offset =
           target.offset_m == 0 ? Vec3::Zero() : Vec3(target.offset_m * make_target_frame(target, i).normal);
-      std::vector<std::string> corners;
-      for (const Vec3& corner : target.parts[i]) corners.push_back(position(corner + offset));
+      std::vector<Vec3> corners;
+      for (const Vec3& corner : target.parts[i]) corners.push_back(corner + offset);
       if (corners.size() == 1) {
-        geometries +=
-            "<Point><altitudeMode>absolute</altitudeMode><coordinates>" + corners[0] + "</coordinates></Point>\n";
+        geometries += "<Point><altitudeMode>absolute</altitudeMode><coordinates>" +
+                      position(globe_.to_geodetic(corners[0])) + "</coordinates></Point>\n";
       } else if (corners.size() > 2) {
-        geometries += polygon(corners);
+        geometries += cut_polygon(corners);
       }
     }
     if (geometries.empty()) return {};

@@ -51,11 +51,13 @@ class GeojsonTracks {
     const std::string kind = type->get<std::string>();
     const auto coordinates = shape.find("coordinates");
     if (coordinates == shape.end() || !coordinates->is_array()) return;
+    const std::size_t lines = lines_.size();
     if (kind == "LineString") add_line(*coordinates, name, place);
     if (kind == "MultiLineString") {
       for (std::size_t i = 0; i < coordinates->size(); ++i) {
         add_line((*coordinates)[i], name, place + ", line " + std::to_string(i + 1));
       }
+      join_at_antimeridian(lines_, lines);
     }
     if (kind != "Point") return;
     add_position(*coordinates, place, points_.track);

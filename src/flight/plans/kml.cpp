@@ -32,8 +32,9 @@ class KmlTracks {
       source_.progress.tick();
       if (xml_.name(node) != "Placemark") return true;
       const std::string name = printable(xml_.child_text(node, "name"));
-      const std::size_t points = points_.track.items.size();
+      const std::size_t points = points_.track.items.size(), tracks = tracks_.size();
       xml_.walk(node, [&](XmlTree::Node part) { return add(part, name); });
+      join_at_antimeridian(tracks_, tracks);
       for (std::size_t i = points; i < points_.track.items.size(); ++i) add_details(node, i);
       return false;
     });

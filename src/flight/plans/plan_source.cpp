@@ -101,6 +101,30 @@ void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* man
   }
 }
 
+void join_at_antimeridian(std::vector<PlanTrack>& tracks, std::size_t first) {
+  constexpr double kAntimeridian = 180, kSameDeg = 1e-9, kSameM = 1e-4;
+  const auto meets = [](const PlanPosition& a, const PlanPosition& b) {
+    const bool is_cut = std::abs(a.horizontal.x()) == kAntimeridian && b.horizontal.x() == -a.horizontal.x() &&
+                        std::abs(a.horizontal.y() - b.horizontal.y()) <= kSameDeg;
+    const bool is_level = std::isnan(a.height_m) ? std::isnan(b.height_m) : std::abs(a.height_m - b.height_m) <= kSameM;
+    return is_cut && is_level;
+  };
+  std::vector<PlanTrack> joined(std::make_move_iterator(tracks.begin()),
+                                std::make_move_iterator(tracks.begin() + static_cast<std::ptrdiff_t>(first)));
+  for (std::size_t i = first; i < tracks.size(); ++i) {
+    std::vector<PlanItem>& items = tracks[i].items;
+    const bool goes_on =
+        joined.size() > first && !items.empty() && meets(joined.back().items.back().position, items.front().position);
+    if (goes_on) {
+      joined.back().items.insert(joined.back().items.end(), std::make_move_iterator(items.begin() + 1),
+                                 std::make_move_iterator(items.end()));
+    } else {
+      joined.push_back(std::move(tracks[i]));
+    }
+  }
+  tracks = std::move(joined);
+}
+
 PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& place, const PlanSource& source) {
   check_count(++total, source);
   PlanItem& item = track.items.emplace_back();

@@ -52,6 +52,9 @@ PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& plac
 void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* many, const PlanSource& source,
                  FlightPlan& plan);
 
+/// Joins tracks from `first` on that were one: cut at the antimeridian, where one ends and the next one begins.
+void join_at_antimeridian(std::vector<PlanTrack>& tracks, std::size_t first);
+
 /// "2 surveys, 1 point" of what was counted, the names as they are.
 std::string counted(const std::map<std::string, std::size_t>& counts);
 

@@ -82,6 +82,11 @@ Eigen::Vector2d PlanWriter::lonlat(const Vec3& position) const {
   return {rounded(at.longitude_deg, kSteps), rounded(at.latitude_deg, kSteps)};
 }
 
+io::GlobePlace PlanWriter::on_globe() const {
+  if (!globe_) (void)lonlat(Vec3::Zero());  // says so
+  return [this](const Vec3& position) { return globe_->to_geodetic(position); };
+}
+
 bool PlanWriter::knows(HeightDatum datum) const {
   return datum == HeightDatum::sea_level ? levels_.knows_sea_level()
                                          : datum != HeightDatum::ellipsoid || levels_.knows_ellipsoid();
@@ -149,6 +154,48 @@ std::vector<OutPoint> PlanWriter::points(bool with_circles) const {
     }
   }
   return points;
+}
+
+std::vector<OutPoint> PlanWriter::points_to_cut() const {
+  constexpr double kAntimeridian = 180;
+  const io::GlobePlace place = on_globe();
+  std::vector<OutPoint> cut;
+  double last_deg = 0;
+  for (const OutPoint& point : points(false)) {
+    const double longitude_deg = lonlat(point.position).x();
+    const bool is_corner = std::abs(longitude_deg) == kAntimeridian || std::abs(last_deg) == kAntimeridian;
+    if (!cut.empty() && !is_corner && io::crosses_antimeridian(last_deg, longitude_deg)) {
+      OutPoint between;
+      between.position = io::at_antimeridian(cut.back().position, point.position, place).scene;
+      between.speed_m_s = point.speed_m_s;
+      between.is_on_antimeridian = true;
+      cut.push_back(between);
+    }
+    cut.push_back(point);
+    last_deg = longitude_deg;
+  }
+  return cut;
+}
+
+std::vector<std::vector<LinePosition>> PlanWriter::lines(const std::vector<OutPoint>& points) const {
+  constexpr double kAntimeridian = 180;
+  std::vector<std::vector<LinePosition>> lines(1);
+  for (const OutPoint& point : points) {
+    const Eigen::Vector2d at = lonlat(point.position);
+    LinePosition position{at.x(), at.y(), height(point.position)};
+    if (point.is_on_antimeridian) position.longitude_deg = kAntimeridian;
+    if (!lines.back().empty()) {
+      const LinePosition last = lines.back().back();
+      if (std::abs(position.longitude_deg) == kAntimeridian) {  // of either side
+        position.longitude_deg = std::copysign(kAntimeridian, last.longitude_deg);
+      }
+      if (io::crosses_antimeridian(last.longitude_deg, position.longitude_deg)) {
+        lines.push_back({{-last.longitude_deg, last.latitude_deg, last.height_m}});
+      }
+    }
+    lines.back().push_back(position);
+  }
+  return lines;
 }
 
 CameraAngles camera_angles(const OutPoint& point) {

@@ -10,6 +10,7 @@
 
 #include "core/xml_text.h"
 #include "flight/plans/levels.h"
+#include "io/antimeridian.h"
 #include "io/on_globe.h"
 #include "vantage/flight.h"
 
@@ -35,7 +36,13 @@ struct OutPoint {
   Vec3 position;                     ///< scene frame
   double hold_s = 0, speed_m_s = 0;  ///< the speed of the leg that ends here; NaN: not stated
   FlightAction action;
-  bool is_of_circle = false;  ///< one of the chords' ends
+  bool is_of_circle = false;        ///< one of the chords' ends
+  bool is_on_antimeridian = false;  ///< a line is cut there
+};
+
+/// A position of a line, as it is written.
+struct LinePosition {
+  double longitude_deg = 0, latitude_deg = 0, height_m = 0;
 };
 
 class PlanWriter {
@@ -48,6 +55,8 @@ class PlanWriter {
   HeightDatum heights() const { return heights_; }
   const std::string& place() const { return flight_.name; }  ///< for messages
 
+  /// For as long as the writer is there. Throws Error(not_georeferenced).
+  io::GlobePlace on_globe() const;
   bool is_on_earth() const { return globe_.has_value(); }
   /// Longitude and latitude, rounded to 1e-11 degrees. Throws Error(not_georeferenced).
   Eigen::Vector2d lonlat(const Vec3& position) const;
@@ -61,6 +70,10 @@ class PlanWriter {
 
   /// The points with their actions. `with_circles`: circles stay one point; else they become chords.
   std::vector<OutPoint> points(bool with_circles) const;
+  /// The same as chords, with a point more where a leg crosses the antimeridian: a line is cut there.
+  std::vector<OutPoint> points_to_cut() const;
+  /// Of these points, each on one side of the antimeridian: where a line ends there, the next one begins in its place.
+  std::vector<std::vector<LinePosition>> lines(const std::vector<OutPoint>& points) const;
 
  private:
   void check_actions() const;

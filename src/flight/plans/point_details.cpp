@@ -15,7 +15,8 @@ bool is_same_place(const PlanPosition& a, const PlanPosition& b) {
   constexpr double kSameDeg = 1e-9, kSameM = 1e-4;
   const bool is_same_height =
       std::isnan(a.height_m) ? std::isnan(b.height_m) : std::abs(a.height_m - b.height_m) < kSameM;
-  return is_same_height && (a.horizontal - b.horizontal).cwiseAbs().maxCoeff() < kSameDeg;
+  const double across_deg = std::remainder(a.horizontal.x() - b.horizontal.x(), 360);  // 180 is -180
+  return is_same_height && std::abs(across_deg) < kSameDeg && std::abs(a.horizontal.y() - b.horizontal.y()) < kSameDeg;
 }
 
 /// `stated`: whether it was said before.

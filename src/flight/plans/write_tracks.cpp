@@ -19,9 +19,31 @@ using nlohmann::json;
 constexpr int kPlace = 11, kHeight = 6, kSmall = 3;
 
 /// "11.5,48.1,520".
+std::string kml_position(const LinePosition& at) {
+  return decimal(at.longitude_deg, kPlace) + "," + decimal(at.latitude_deg, kPlace) + "," +
+         decimal(at.height_m, kHeight);
+}
+
 std::string kml_position(const PlanWriter& writer, const Vec3& position) {
   const Eigen::Vector2d at = writer.lonlat(position);
-  return decimal(at.x(), kPlace) + "," + decimal(at.y(), kPlace) + "," + decimal(writer.height(position), kHeight);
+  return kml_position({at.x(), at.y(), writer.height(position)});
+}
+
+std::string kml_lines(const PlanWriter& writer, const std::vector<OutPoint>& points) {
+  const std::vector<std::vector<LinePosition>> lines = writer.lines(points);
+  std::string text;
+  for (const std::vector<LinePosition>& line : lines) {
+    text += "<LineString><altitudeMode>absolute</altitudeMode><coordinates>\n";
+    for (const LinePosition& position : line) text += kml_position(position) + "\n";
+    text += "</coordinates></LineString>";
+  }
+  return lines.size() == 1 ? text : "<MultiGeometry>" + text + "</MultiGeometry>";
+}
+
+std::string kml_facet(const std::vector<std::string>& corners) {
+  std::string text = "<Polygon><altitudeMode>absolute</altitudeMode><outerBoundaryIs><LinearRing><coordinates>";
+  for (const std::string& corner : corners) text += corner + " ";
+  return text + corners.front() + "</coordinates></LinearRing></outerBoundaryIs></Polygon>\n";
 }
 
 std::string kml_volume(const PlanWriter& writer, const NamedVolume& volume) {
@@ -29,16 +51,21 @@ std::string kml_volume(const PlanWriter& writer, const NamedVolume& volume) {
                      "</name><Style><LineStyle><width>0</width></LineStyle><PolyStyle><color>7f00a0ff</color>"
                      "</PolyStyle></Style><MultiGeometry>\n";
   for (const Triangle& triangle : volume.mesh.triangles) {
-    text += "<Polygon><altitudeMode>absolute</altitudeMode><outerBoundaryIs><LinearRing><coordinates>";
-    for (const std::size_t corner : {0U, 1U, 2U, 0U}) {
-      const std::uint32_t vertex = triangle[corner];
+    std::vector<Vec3> ring;
+    for (const std::uint32_t vertex : triangle) {
       if (vertex >= volume.mesh.vertices.size()) {
         throw Error(ErrorCode::index_out_of_range, "a vertex index is out of range", volume.name, "mend the mesh");
       }
-      text += kml_position(writer, volume.mesh.vertices[vertex]) + " ";
+      ring.push_back(volume.mesh.vertices[vertex]);
     }
-    text.pop_back();
-    text += "</coordinates></LinearRing></outerBoundaryIs></Polygon>\n";
+    for (const io::GlobePolygon& part : io::cut_at_antimeridian({ring}, writer.on_globe())) {
+      std::vector<std::string> corners;
+      for (const io::GlobeCorner& corner : part.front()) {
+        corners.push_back(
+            kml_position({corner.at.place.longitude_deg, corner.at.place.latitude_deg, writer.height(corner.scene)}));
+      }
+      text += kml_facet(corners);
+    }
   }
   return text + "</MultiGeometry></Placemark>\n";
 }
@@ -66,6 +93,17 @@ json properties_of(const OutPoint& point, std::size_t index) {
 json position_of_json(const PlanWriter& writer, const Vec3& position) {
   const Eigen::Vector2d at = writer.lonlat(position);
   return {at.x(), at.y(), writer.height(position)};
+}
+
+/// Cut at the antimeridian, as RFC 7946 has it in section 3.1.9.
+json line_json(const std::vector<std::vector<LinePosition>>& lines) {
+  json all = json::array();
+  for (const std::vector<LinePosition>& line : lines) {
+    json& positions = all.emplace_back(json::array());
+    for (const LinePosition& at : line) positions.push_back({at.longitude_deg, at.latitude_deg, at.height_m});
+  }
+  if (all.size() == 1) return {{"type", "LineString"}, {"coordinates", std::move(all[0])}};
+  return {{"type", "MultiLineString"}, {"coordinates", std::move(all)}};
 }
 
 /// Whether a point is written: of circles only the ends of chords where something is done.
@@ -102,14 +140,12 @@ std::string field(const std::optional<double>& number, int decimals) {
 
 std::string write_kml(const FlightOut& flight) {
   const PlanWriter writer(flight, PlanFormat::kml, {HeightDatum::sea_level});
-  const std::vector<OutPoint> points = writer.points(false);
+  const std::vector<OutPoint> points = writer.points_to_cut();
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n<name>" +
       xml_text(flight.name) + "</name>\n<Placemark><name>" + xml_text(flight.name) +
-      "</name><Style><LineStyle><color>ff0000ff</color><width>3</width></LineStyle></Style>"
-      "<LineString><altitudeMode>absolute</altitudeMode><coordinates>\n";
-  for (const OutPoint& point : points) text += kml_position(writer, point.position) + "\n";
-  text += "</coordinates></LineString></Placemark>\n";
+      "</name><Style><LineStyle><color>ff0000ff</color><width>3</width></LineStyle></Style>" +
+      kml_lines(writer, points) + "</Placemark>\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_listed(points[i])) continue;
     text += "<Placemark><name>" + xml_text(title(points[i], i)) + "</name><ExtendedData>" +
@@ -132,7 +168,8 @@ std::string write_gpx(const FlightOut& flight) {
       xml_text(flight.name) + "</name>\n";
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d at = writer.lonlat(points[i].position);
-    text += "<rtept lat=\"" + decimal(at.y(), kPlace) + "\" lon=\"" + decimal(at.x(), kPlace) + "\"><ele>" +
+    const double longitude_deg = at.x() == 180 ? -180 : at.x();  // the format has no 180
+    text += "<rtept lat=\"" + decimal(at.y(), kPlace) + "\" lon=\"" + decimal(longitude_deg, kPlace) + "\"><ele>" +
             decimal(writer.height(points[i].position), kHeight) + "</ele><name>" + xml_text(title(points[i], i)) +
             "</name>" + gpx_extensions(points[i]) + "</rtept>\n";
   }
@@ -141,12 +178,11 @@ std::string write_gpx(const FlightOut& flight) {
 
 std::string write_geojson(const FlightOut& flight) {
   const PlanWriter writer(flight, PlanFormat::geojson, {HeightDatum::ellipsoid});
-  const std::vector<OutPoint> points = writer.points(false);
-  json line = json::array(), features = json::array();
-  for (const OutPoint& point : points) line.push_back(position_of_json(writer, point.position));
+  const std::vector<OutPoint> points = writer.points_to_cut();
+  json features = json::array();
   features.push_back({{"type", "Feature"},
                       {"properties", {{"name", printable(flight.name)}, {"heights", "WGS 84 ellipsoid"}}},
-                      {"geometry", {{"type", "LineString"}, {"coordinates", std::move(line)}}}});
+                      {"geometry", line_json(writer.lines(points))}});
   if (points.size() == 1) features.clear();  // a line has two positions
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_listed(points[i])) continue;
