@@ -128,7 +128,7 @@ site: package  ## the documentation as a site, in build/site; its tutorials are 
 	PYTHONPATH=$(CURDIR)/build/python .deps/python/bin/python -m sphinx -q -W --keep-going -c docs/site docs build/site
 	@echo "site: $$(find build/site -name '*.html' | wc -l) pages, build/site/index.html"
 
-# For aarch64, which was not tried to the end: make wheelcheck TARGETS=aarch64-linux-gnu.2.17
+# For aarch64, tried by emulation: make wheelcheck TARGETS=aarch64-linux-gnu.2.17
 TARGETS = x86_64-linux-gnu.2.17
 .PHONY: wheel wheels
 wheel wheels:  ## wheels with all that they need in them, in dist/: for Python 3.11, and for 3.12 and newer
@@ -192,14 +192,16 @@ wheelwasm: build  ## a wheel for machines without a native one, in dist/, over W
 	@scripts/build_wasm_wheel.py
 	@scripts/check_wasm_wheel.sh
 
+# For aarch64, too: make programcheck PROGRAM_TARGETS=aarch64-linux-gnu.2.17
+PROGRAM_TARGETS = x86_64-linux-gnu.2.17 x86_64-linux-musl
 .PHONY: program
 program: web  ## the program as tarballs that run where they are unpacked, in dist/
 	@scripts/install_packages.sh --wheels
 	@scripts/fetch_sources.sh
-	@scripts/build_program.py --jobs $(JOBS)
+	@scripts/build_program.py --jobs $(JOBS) --targets $(PROGRAM_TARGETS)
 
 .PHONY: programcheck
-programcheck: program build  ## try them in roots of Debian 11, 12 and 13 that hold the C library alone
+programcheck: program build  ## try those in dist/ in roots of Debian 11, 12 and 13 that hold the C library alone
 	@scripts/check_program.py dist/vantage-*-linux-*.tar.xz --program build/bin/vantage
 
 .PHONY: source
@@ -208,12 +210,13 @@ source:  ## the source tarball and Debian's source package, of the last commit, 
 	@scripts/build_source.sh
 
 # The source first: it refuses a tree that differs from the last commit.
+AARCH64 = aarch64-linux-gnu.2.17
 .PHONY: release
 release:  ## all files of a release, in dist/, with SHA256SUMS and a bill of materials (docs/release.md)
 	rm -rf dist
 	@$(MAKE) --no-print-directory source
-	@$(MAKE) --no-print-directory program
-	@$(MAKE) --no-print-directory wheels
+	@$(MAKE) --no-print-directory program PROGRAM_TARGETS="$(PROGRAM_TARGETS) $(AARCH64)"
+	@$(MAKE) --no-print-directory wheels TARGETS="$(TARGETS) $(AARCH64)"
 	@$(MAKE) --no-print-directory npm
 	@$(MAKE) --no-print-directory wheelwasm
 	python3 integrations/qgis/build_zip.py

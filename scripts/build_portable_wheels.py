@@ -26,7 +26,7 @@ import python_for_windows
 import read_elf
 import wheel_targets
 from build_wheel_libraries import Failure, run, zig_tools
-from debian_archive import fetch
+from debian_archive import fetch, unpack
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
@@ -41,15 +41,7 @@ def python_headers(python: str, processor: str, folder: pathlib.Path, libraries:
     """The folders of the headers of a Python, from Debian's package for that processor."""
     package = libraries["python"][python]
     file = fetch(package[processor], package[f"{processor}_sha256"], folder / "downloads")
-    into = folder / "python" / file.stem
-    if not into.exists():
-        half = into.with_suffix(".new")
-        shutil.rmtree(half, ignore_errors=True)
-        half.mkdir(parents=True)
-        with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", str(file)], stdout=subprocess.PIPE) as unpacked:
-            subprocess.run(["tar", "-x", "-C", str(half), "./usr/include"], stdin=unpacked.stdout, check=True)
-        half.rename(into)
-    include = into / "usr" / "include"
+    include = unpack(file, folder / "python" / file.stem, "./usr/include") / "usr" / "include"
     return [next(include.glob("python3.*")), include]
 
 

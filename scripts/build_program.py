@@ -7,9 +7,11 @@ the compiler of zig.
     vantage-VERSION-linux-x86_64.tar.xz          for glibc 2.17 or newer; loads GDAL and OpenGL where they are installed
     vantage-VERSION-linux-x86_64-static.tar.xz   --targets x86_64-linux-musl: for any Linux, with no library at all; so
                                                  neither GDAL nor OpenGL, and no tilesets over the network
+    vantage-VERSION-linux-aarch64.tar.xz         --targets aarch64-linux-gnu.2.17
 
 What is in them: wheel_libraries.toml, as in the wheels, and the build fails on anything else. The same sources give the
-same bytes. The program writes its man pages and completions itself, so this runs on the processor that it builds for.
+same bytes. The program writes its man pages and completions itself; that for another processor is run by the emulator of
+Debian's qemu-user-static.
 """
 
 import argparse
@@ -17,6 +19,7 @@ import io
 import lzma
 import os
 import pathlib
+import platform
 import re
 import shutil
 import subprocess
@@ -26,6 +29,7 @@ import tarfile
 import read_elf
 import wheel_licences
 from build_wheel_libraries import Failure, run, zig_tools
+from debian_archive import fetch, unpack
 from vantage_version import version
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -80,6 +84,23 @@ def build(target: str, work: pathlib.Path, jobs: int, libraries: dict) -> pathli
         PROJECT, log, PKG_CONFIG_LIBDIR=str(prefix / "lib" / "pkgconfig"))
     run(["cmake", "--build", str(build_folder), "--parallel", str(jobs), "--target", "vantage_cli"], PROJECT, log)
     return build_folder
+
+
+def starter(target: str, libraries: dict) -> list[str]:
+    """What starts the program on this machine: nothing, or an emulator, with the C library of Debian 12 where it needs one."""
+    processor = target.partition("-")[0]
+    if processor == platform.machine():
+        return []
+    emulator = shutil.which(f"qemu-{processor}-static")
+    if emulator is None:
+        raise Failure(f"there is no qemu-{processor}-static, which runs the program for {target}: install Debian's qemu-user-static")
+    if is_static(target):
+        return [emulator]
+    folder, pinned = DEPS / f"wheel-{target}", libraries["libc"]
+    if processor not in pinned:
+        raise Failure(f"scripts/wheel_libraries.toml has no C library for {processor}, which the program for {target} is run with")
+    package = fetch(pinned[processor], pinned[f"{processor}_sha256"], folder / "downloads")
+    return [emulator, "-L", str(unpack(package, folder / "libc" / package.stem, "./lib"))]
 
 
 def check_binary(program: pathlib.Path, target: str) -> str:
@@ -185,8 +206,8 @@ def write_licences(target: str, build_folder: pathlib.Path, out: pathlib.Path) -
 
 # ---- packing
 
-def put_together(target: str, build_folder: pathlib.Path) -> pathlib.Path:
-    """The folder that the tarball holds."""
+def put_together(target: str, build_folder: pathlib.Path, start: list[str]) -> pathlib.Path:
+    """The folder that the tarball holds. `start`: what starts the program."""
     program = build_folder / "bin" / "vantage"
     prefix = DEPS / f"wheel-{target}" / "prefix"
     root = build_folder.parent / "program" / tarball_name(target)
@@ -211,10 +232,11 @@ def put_together(target: str, build_folder: pathlib.Path) -> pathlib.Path:
     (data / "web").mkdir()
     for page in pages:
         shutil.copy(page, data / "web")
-    subprocess.run([str(installed), "docs", "man", str(share / "man" / "man1")], check=True)
+    command = [*start, str(installed)]
+    subprocess.run([*command, "docs", "man", str(share / "man" / "man1")], check=True)
     for shell, file in (("bash", "bash-completion/completions/vantage"), ("zsh", "zsh/site-functions/_vantage"),
                         ("fish", "fish/vendor_completions.d/vantage.fish")):
-        subprocess.run([str(installed), "docs", "completion", shell, "-o", str(share / file)], check=True)
+        subprocess.run([*command, "docs", "completion", shell, "-o", str(share / file)], check=True)
     for name in ("LICENSE", "THIRD-PARTY-NOTICES.txt", "CHANGELOG.md"):
         shutil.copy(PROJECT / name, doc)
     for name in ("plaza", "town"):
@@ -260,7 +282,7 @@ def main() -> int:
             build_folder = build(target, PROJECT / "build-wheel" / target, arguments.jobs, libraries)
             needs = check_binary(build_folder / "bin" / "vantage", target)
             tarball = dist / f"{tarball_name(target)}.tar.xz"
-            pack(put_together(target, build_folder), tarball)
+            pack(put_together(target, build_folder, starter(target, libraries)), tarball)
             print(f"{tarball.stat().st_size / 1e6:.1f} MB  {tarball} (needs {needs})", flush=True)
     except (Failure, wheel_licences.Failure, OSError, KeyError, ValueError, subprocess.CalledProcessError) as error:
         print(f"{error}", file=sys.stderr)

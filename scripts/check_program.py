@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Tries the program's tarballs where there is nothing else: in roots of Debian 11, 12 and 13 that hold the C library alone;
 no network, no /proc, no /dev. Then that for glibc in Debian 12 and 13 with GDAL and software OpenGL, which it loads; and the
-static one in a root that holds it alone, and in one with musl's loader and busybox, as Alpine has them.
+static one in a root that holds it alone, and in one with musl's loader and busybox, as Alpine has them. Those for another
+processor are run by the emulator of Debian's qemu-user-static, and not with GDAL and OpenGL.
 
     check_program.py TARBALL... [--program build/bin/vantage] [--folder build-wheel/program-roots] [--suites bullseye ...]
                      [--bare]
@@ -16,6 +17,8 @@ import argparse
 import json
 import os
 import pathlib
+import platform
+import shlex
 import shutil
 import subprocess
 import sys
@@ -31,6 +34,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
 SUITES = ["bullseye", "bookworm", "trixie"]
 MUSL = ["musl", "busybox-static"]
+ARCHITECTURES = {"x86_64": "amd64", "aarch64": "arm64"}
+"""Names of processors in Debian, by those in names of tarballs."""
 LOADED = {"bookworm": ["libgdal32"], "trixie": ["libgdal36"]}  # GDAL, by the name that a suite has for it
 RASTER = bytes(2 * 1201 * 1201)
 """A tile of SRTM, flat, at sea level."""
@@ -63,8 +68,8 @@ def tour_by_pairs() -> str:
 class Debian:
     """Packages of a release of Debian, apart from what apt knows for this machine."""
 
-    def __init__(self, suite: str, folder: pathlib.Path):
-        self.folder = folder / f"packages-{suite}"
+    def __init__(self, suite: str, architecture: str, folder: pathlib.Path):
+        self.folder = folder / f"packages-{suite}-{architecture}"
         for name in ("partial", "lists/partial", "archives/partial"):
             (self.folder / name).mkdir(parents=True, exist_ok=True)
         status = self.folder / "nothing-installed"
@@ -72,8 +77,8 @@ class Debian:
         sources = self.folder / "sources.list"
         sources.write_text("deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] "
                            f"{debian_archive.archives()[0]} {suite} main\n", encoding="utf-8")
-        self.options = ["-o", "APT::Architecture=amd64", "-o", "APT::Architectures::=amd64", "-o", f"Dir::Etc::sourcelist={sources}",
-                        "-o", "Dir::Etc::sourceparts=-", "-o", f"Dir::State::lists={self.folder}/lists",
+        self.options = ["-o", f"APT::Architecture={architecture}", "-o", f"APT::Architectures::={architecture}",
+                        "-o", f"Dir::Etc::sourcelist={sources}", "-o", "Dir::Etc::sourceparts=-", "-o", f"Dir::State::lists={self.folder}/lists",
                         "-o", f"Dir::Cache={self.folder}", "-o", f"Dir::State::status={status}",
                         "-o", "APT::Install-Recommends=0", "-o", "Debug::NoLocking=1", "-o", "APT::Sandbox::User=root"]
         self.apt("-q", "-q", "update")
@@ -127,14 +132,18 @@ def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, 
 
 
 class Program:
-    """The program in a root."""
+    """The program in a root. `emulator`: what runs it, where it is for another processor."""
 
-    def __init__(self, root: pathlib.Path):
+    def __init__(self, root: pathlib.Path, emulator: pathlib.Path | None):
         self.root = root
+        self.start = ["/opt/moved/bin/vantage"]
+        if emulator:
+            shutil.copy(emulator, root / "emulator")
+            self.start.insert(0, "/emulator")
 
     def call(self, *arguments: str) -> subprocess.CompletedProcess:
         command = ["unshare", "--user", "--map-root-user", "--net", shutil.which("chroot") or "/usr/sbin/chroot", str(self.root),
-                   "/opt/moved/bin/vantage", *arguments]
+                   *self.start, *arguments]
         environment = {"PATH": os.environ["PATH"], "HOME": "/trial"}
         return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
 
@@ -205,13 +214,18 @@ def volumes_of(program: pathlib.Path) -> list[list[str]]:
     return rows
 
 
-def check_bytes(root: pathlib.Path, expected: pathlib.Path, folder: pathlib.Path) -> None:
+def check_bytes(root: pathlib.Path, emulator: pathlib.Path | None, expected: pathlib.Path, folder: pathlib.Path) -> None:
     """The example of a mesh in that root, and others on this machine, have the bytes of another program's."""
     file = folder / "expected-plaza.ply"
     subprocess.run([str(expected), "compute", str(PROJECT / "examples/plaza/mission.yaml"), "-o", str(file), "--quiet"], check=True)
     if file.read_bytes() != (root / "trial/plaza.ply").read_bytes():
         raise Fault(f"plaza: other bytes than {expected}")
     program = root / "opt/moved/bin/vantage"
+    if emulator:
+        emulated = folder / "emulated-vantage"
+        emulated.write_text(f'#!/bin/sh\nexec {shlex.join([str(emulator), "-L", str(root), str(program)])} "$@"\n', encoding="utf-8")
+        emulated.chmod(0o755)
+        program = emulated
     own, others = volumes_of(program), volumes_of(expected)
     differing = [name for (name, digest), other in zip(own, others, strict=True) if [name, digest] != other]
     if differing:
@@ -219,31 +233,44 @@ def check_bytes(root: pathlib.Path, expected: pathlib.Path, folder: pathlib.Path
     print(f"           {len(own) + 1} volumes: the same bytes as another build", flush=True)
 
 
-def roots_for(static: bool, arguments: argparse.Namespace) -> list[tuple[str, str | None, list[str]]]:
+def emulator_for(processor: str) -> pathlib.Path | None:
+    """What runs programs for that processor here; None where nothing is needed."""
+    if processor == platform.machine():
+        return None
+    found = shutil.which(f"qemu-{processor}-static")
+    if found is None:
+        raise Fault(f"there is no qemu-{processor}-static, which runs programs for {processor}: install Debian's qemu-user-static")
+    return pathlib.Path(found)
+
+
+def roots_for(static: bool, bare_alone: bool, arguments: argparse.Namespace) -> list[tuple[str, str | None, list[str]]]:
     """Roots by name, the suite of Debian that their packages are of, and the packages."""
     bare: list[tuple[str, str | None, list[str]]] = [(suite, suite, ["libc6"]) for suite in arguments.suites]
     if static:
         return [("empty", None, []), ("musl", "bookworm", MUSL), *bare]
-    loaded = [] if arguments.bare else [suite for suite in arguments.suites if suite in LOADED]
+    loaded = [] if bare_alone else [suite for suite in arguments.suites if suite in LOADED]
     return bare + [(f"{suite}-loaded", suite, [*LOADED[suite], "libegl1", "libgl1-mesa-dri"]) for suite in loaded]
 
 
 def check(tarball: pathlib.Path, arguments: argparse.Namespace) -> None:
-    version = tarball.name.split("-")[1]
+    _, version, _, processor, *_ = tarball.name.removesuffix(".tar.xz").split("-")
+    if processor not in ARCHITECTURES:
+        raise Fault(f"{tarball} is for no processor that is known: {', '.join(ARCHITECTURES)}")
+    emulator = emulator_for(processor)
     folder = arguments.folder
     static = "-static" in tarball.name
-    for number, (name, suite, packages) in enumerate(roots_for(static, arguments)):
+    for number, (name, suite, packages) in enumerate(roots_for(static, arguments.bare or emulator is not None, arguments)):
         root = folder / name
-        debian = Debian(suite, folder) if suite else None
+        debian = Debian(suite, ARCHITECTURES[processor], folder) if suite else None
         print(f"{tarball.name} in {name}, {make_root(root, tarball, debian, packages)}", flush=True)
-        program = Program(root)
+        program = Program(root, emulator)
         check_everywhere(program, version)
         if name.endswith("-loaded"):
             check_loaded(program)
         else:
             check_bare(program, static)
         if arguments.program and number == 0:
-            check_bytes(root, arguments.program, folder)
+            check_bytes(root, emulator, arguments.program, folder)
 
 
 def main() -> int:

@@ -1,7 +1,8 @@
-"""Source packages of Debian, from the archive that apt uses on this machine."""
+"""Packages of Debian, from the archive that apt uses on this machine."""
 
 import hashlib
 import pathlib
+import shutil
 import subprocess
 import urllib.error
 import urllib.parse
@@ -47,3 +48,15 @@ def fetch(path: str, sha256: str, folder: pathlib.Path) -> pathlib.Path:
         return file
     raise Failure(f"the archive has no {path} with the hash of the list ({'; '.join(problems)}): if Debian has a newer "
                   "version, change version and hash in the list")
+
+
+def unpack(package: pathlib.Path, into: pathlib.Path, part: str = ".") -> pathlib.Path:
+    """The folder `into`, with what a .deb has in it, or a part of that; unpacked when it is not there."""
+    if not into.exists():
+        half = into.with_name(f"{into.name}.new")
+        shutil.rmtree(half, ignore_errors=True)
+        half.mkdir(parents=True)
+        with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", str(package)], stdout=subprocess.PIPE) as unpacked:
+            subprocess.run(["tar", "-x", "-C", str(half), "--no-same-owner", part], stdin=unpacked.stdout, check=True)
+        half.rename(into)
+    return into

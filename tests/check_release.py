@@ -1,15 +1,22 @@
 #!/usr/bin/env python3
-"""Tests of what makes and checks a release (scripts/check_dist.py, build_program.py): what is wrong must be found.
+"""Tests of what makes and checks a release (scripts/check_dist.py, build_program.py, check_program.py): what is wrong must
+be found.
 
     check_release.py [ROOT]
 """
 
+import argparse
 import hashlib
+import os
 import pathlib
+import platform
+import shutil
+import subprocess
 import sys
 import tarfile
 import tempfile
 import unittest
+import unittest.mock
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -17,6 +24,8 @@ sys.path.insert(0, str(ROOT / "scripts"))
 
 import build_program
 import check_dist
+import check_program
+import debian_archive
 import write_sbom
 
 
@@ -100,6 +109,40 @@ class Release(unittest.TestCase):
             build_program.check_binary(pathlib.Path(sys.executable).resolve(), "x86_64-linux-gnu.2.17")
         with self.assertRaises(build_program.Failure):
             build_program.check_binary(pathlib.Path(sys.executable).resolve(), "x86_64-linux-musl")
+
+    def test_programs_of_other_processors_ask_for_an_emulator(self):
+        other = "aarch64" if platform.machine() == "x86_64" else "x86_64"
+        self.assertEqual(build_program.starter(f"{platform.machine()}-linux-gnu.2.17", {}), [])
+        self.assertIsNone(check_program.emulator_for(platform.machine()))
+        with unittest.mock.patch.dict(os.environ, {"PATH": str(self.dist)}):
+            with self.assertRaises(build_program.Failure):
+                build_program.starter(f"{other}-linux-gnu.2.17", {"libc": {}})
+            with self.assertRaises(check_program.Fault):
+                check_program.emulator_for(other)
+            emulator = self.dist / f"qemu-{other}-static"
+            emulator.touch(0o755)
+            self.assertEqual(build_program.starter(f"{other}-linux-musl", {}), [str(emulator)])
+            self.assertEqual(check_program.emulator_for(other), emulator)
+            with self.assertRaises(build_program.Failure):  # the list has no C library for it
+                build_program.starter(f"{other}-linux-gnu.2.17", {"libc": {}})
+        with self.assertRaises(check_program.Fault):
+            check_program.check(self.dist / "vantage-1.0.0-linux-vax.tar.xz", argparse.Namespace())
+
+    @unittest.skipUnless(shutil.which("dpkg-deb"), "needs dpkg-deb")
+    def test_parts_of_packages_are_unpacked_whole_or_not_at_all(self):
+        tree = self.dist / "tree"
+        (tree / "DEBIAN").mkdir(parents=True)
+        (tree / "DEBIAN" / "control").write_text("Package: thing\nVersion: 1\nArchitecture: all\nMaintainer: A <a@b>\nDescription: thing\n")
+        for name in ("lib/thing.so", "usr/thing"):
+            (tree / name).parent.mkdir()
+            (tree / name).write_text(name)
+        package = self.dist / "thing.deb"
+        subprocess.run(["dpkg-deb", "--build", "--root-owner-group", str(tree), str(package)], stdout=subprocess.DEVNULL, check=True)
+        into = debian_archive.unpack(package, self.dist / "thing", "./lib")
+        self.assertEqual([file.relative_to(into).as_posix() for file in into.rglob("*")], ["lib", "lib/thing.so"])
+        with self.assertRaises(subprocess.CalledProcessError):
+            debian_archive.unpack(package, self.dist / "other", "./none")
+        self.assertFalse((self.dist / "other").exists())
 
 
 if __name__ == "__main__":
