@@ -6,7 +6,7 @@ system one for CPython 3.11 and one for all from CPython 3.12 on (the stable ABI
 
 What is in them: wheel_libraries.toml, and the page, where `make web` has built it. The name of a wheel says which glibc it
 needs: the newest version that one of the functions has which it takes from glibc. It may not be newer than that of the
-target. auditwheel must say the same. Not tried to the end: aarch64-linux-gnu.2.17.
+target. auditwheel must say the same. --targets aarch64-linux-gnu.2.17 makes those for aarch64.
 """
 
 import argparse

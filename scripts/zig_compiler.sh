@@ -42,6 +42,7 @@ write_command ranlib ranlib
 # log and memcpy of its own beside what is needed, and these would take the place of glibc's.
 # On other systems than Linux nothing is put before it.
 runtime=$here/../cmake/zig_runtime.c
+hypot=$here/../cmake/zig_hypot.c
 archive=$folder/libvantage_zig.a
 # compile_c_runtime: what x86-64 needs of it
 compile_c_runtime() {
@@ -63,12 +64,21 @@ compile_zig_runtime() {
     $7 != "UND" && $8 ~ /^(sin|cos|tan|exp|exp2|log|log2|log10|fma|fmod|sqrt|memcpy|memset|strlen)$/ { print $8 " is defined" }')
   [ -z "$lines" ] || { echo "zig's compiler-rt is another one than expected: $lines" >&2; exit 1; }
 }
-if [ "$archive" -ot "$runtime" ] || [ "$archive" -ot "$0" ]; then
+# compile_hypot: in place of glibc's, on aarch64
+compile_hypot() {
+  "$folder/clang" -O2 -g0 -fPIC -fno-builtin-hypot -fno-math-errno -fvisibility=hidden -ffp-contract=off -fno-sanitize=all \
+    -mbranch-protection=standard -c "$hypot" -o "$folder/hypot.o"
+}
+if [ "$archive" -ot "$runtime" ] || [ "$archive" -ot "$hypot" ] || [ "$archive" -ot "$0" ]; then
   rm -f "$archive"
   objects=("$folder/runtime.o")
   case $target in
     x86_64-linux-*) compile_c_runtime ;;
-    aarch64-linux-*) compile_zig_runtime ;;
+    aarch64-linux-*)
+      compile_zig_runtime
+      compile_hypot
+      objects+=("$folder/hypot.o")
+      ;;
     *) objects=() ;;
   esac
   "$folder/ar" rcs "$archive" "${objects[@]}"

@@ -216,6 +216,33 @@ int main(void) {
         subprocess.run(["gcc", "-O1", "-w", "-ffp-contract=off", str(source), "-o", str(program), "-lm"], check=True)
         self.assertEqual(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout, "0 wrong")
 
+    def test_hypotenuse_of_zig_is_the_nearest_number(self):
+        source = self.scratch / "compare.c"
+        source.write_text(f'#include <math.h>\n#include <stdio.h>\n#define hypot our_hypot\n#include "{ROOT / "cmake" / "zig_hypot.c"}"\n' + r"""
+static unsigned long long state = 88172645463325252ull;
+static unsigned long long drawn(void) {
+  state ^= state << 13, state ^= state >> 7;
+  return state ^= state << 17;
+}
+int main(void) {
+  int wrong = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const double a = ldexp(1 + 0x1p-52 * (double)(drawn() >> 12), (int)(drawn() % 1900) - 950);
+    const double of_a[] = {1, 1 + 0x1p-52, 0.5 + 0x1p-54 * (double)(drawn() >> 11), ldexp(0.7, -(int)(drawn() % 90))};
+    const double b = a * of_a[drawn() % 4];
+    const long double right = sqrtl((long double)a * a + (long double)b * b), place = ldexpl(1, ilogbl(right) - 52);
+    wrong += fabsl(our_hypot(a, -b) - right) > 0.501L * place || our_hypot(a, b) != our_hypot(-b, a);
+  }
+  wrong += our_hypot(INFINITY, NAN) != INFINITY || !isnan(our_hypot(NAN, 1)) || our_hypot(-0.0, 0) != 0;
+  wrong += our_hypot(1e308, 1.7e308) != INFINITY || our_hypot(3 * 0x1p-1074, 4 * 0x1p-1074) != 5 * 0x1p-1074;
+  wrong += our_hypot(1e-200, -1e150) != 1e150 || our_hypot(0x3p+900, 0x4p+900) != 0x5p+900;
+  printf("%d wrong", wrong);
+}
+""", encoding="utf-8")
+        program = self.scratch / "compare"
+        subprocess.run(["gcc", "-O1", "-w", "-ffp-contract=off", str(source), "-o", str(program), "-lm"], check=True)
+        self.assertEqual(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout, "0 wrong")
+
     def test_no_wheel_to_try_is_a_failure(self):
         shutil.copy(ROOT / "Makefile", self.tree)
         tried = self.scratch / "tried"
