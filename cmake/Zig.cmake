@@ -22,6 +22,6 @@ foreach(kind LIBRARY INCLUDE PACKAGE)
   set(CMAKE_FIND_ROOT_PATH_MODE_${kind} ONLY)
 endforeach()
 foreach(language C CXX)
-  set(CMAKE_${language}_STANDARD_LIBRARIES ${VANTAGE_ZIG}/libvantage_zig.a)  # zig_runtime.c beside this file
+  set(CMAKE_${language}_STANDARD_LIBRARIES ${VANTAGE_ZIG}/libvantage_zig.a)  # zig_runtime.c, zig_hypot.c
 endforeach()
 set(CMAKE_TRY_COMPILE_CONFIGURATION Release)  # zig builds its C++ library once for each kind
