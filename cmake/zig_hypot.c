@@ -1,6 +1,6 @@
 /* The hypotenuse, for aarch64. glibc computes it there by another method than on x86-64: 13 % of 200,000 pairs of numbers get
- * another last bit, and points of maps other coordinates, since PROJ's geodesics call it. This one is rounded right but for
- * ties, as nearly; from glibc's on x86-64 it differs in 0.2 % of them. Needs -ffp-contract=off.
+ * another last bit, and points of maps other coordinates, since PROJ's geodesics call it. This one is within
+ * 0.501 units in the last place; from glibc's on x86-64 it differs in 0.2 % of them. Needs -ffp-contract=off.
  * The root of the sum of squares is corrected by what its square lacks; fma() tells what each square was rounded by. */
 #include <math.h>
 
