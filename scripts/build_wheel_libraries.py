@@ -205,7 +205,8 @@ class Builder:
     def keep_texts(self, library: dict, source: pathlib.Path) -> None:
         folder = self.prefix / "licences"
         folder.mkdir(exist_ok=True)
-        text = "\n".join((source / name).read_text(encoding="utf-8", errors="replace") for name in library["texts"])
+        names = [*library["texts"], *library.get(f"{self.tools.processor}_texts", [])]
+        text = "\n".join((source / name).read_text(encoding="utf-8", errors="replace") for name in names)
         (folder / f"{library['name'].replace('/', '-')}.txt").write_text(text, encoding="utf-8")
 
 
