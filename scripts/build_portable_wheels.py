@@ -25,7 +25,7 @@ import zipfile
 import python_for_windows
 import read_elf
 import wheel_targets
-from build_wheel_libraries import Failure, run, zig_tools
+from build_wheel_libraries import Failure, run, unlink_older, zig_tools
 from debian_archive import fetch, unpack
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -101,6 +101,7 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
          f"-Dfmt_DIR={folder / 'prefix' / 'lib' / 'any' / 'cmake' / 'fmt'}", f"-DPython_EXECUTABLE={tools}",
          f"-DVANTAGE_PYTHON_HEADERS={';'.join(map(str, headers))}", f"-DVANTAGE_PYTHON_SOABI={soabi}",
          f"-DSKBUILD_METADATA_DIR={info}", *options], build, log, **environment)
+    unlink_older(zig, (build / "cmake" / "python" / "vantage").glob("_core.*.so"))
     run(["cmake", "--build", str(build / "cmake"), "--parallel", str(jobs), "--target", "vantage_python"], build, log)
     run(["cmake", "--install", str(build / "cmake"), "--prefix", str(out), "--component", "python"], build, log)
     shutil.copytree(PROJECT / "python" / "vantage", out / "vantage", dirs_exist_ok=True,

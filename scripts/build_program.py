@@ -28,7 +28,7 @@ import tarfile
 
 import read_elf
 import wheel_licences
-from build_wheel_libraries import Failure, run, zig_tools
+from build_wheel_libraries import Failure, run, unlink_older, zig_tools
 from debian_archive import fetch, unpack
 from vantage_version import version
 
@@ -82,6 +82,7 @@ def build(target: str, work: pathlib.Path, jobs: int, libraries: dict) -> pathli
          "-DVANTAGE_WITH_MESHOPT=OFF", "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={prefix}",
          f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}", *options],
         PROJECT, log, PKG_CONFIG_LIBDIR=str(prefix / "lib" / "pkgconfig"))
+    unlink_older(zig, [build_folder / "bin" / "vantage"])
     run(["cmake", "--build", str(build_folder), "--parallel", str(jobs), "--target", "vantage_cli"], PROJECT, log)
     return build_folder
 

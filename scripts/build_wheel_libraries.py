@@ -23,6 +23,7 @@ import sys
 import sysconfig
 import tarfile
 import tomllib
+from collections.abc import Iterable
 
 import wheel_targets
 from debian_archive import Failure, fetch
@@ -108,6 +109,14 @@ def zig_tools(target: str, prefix: pathlib.Path) -> Tools:
                   f"-DVANTAGE_ZIG_PREFIX={prefix}", f"-DVANTAGE_ZIG_PROCESSOR={processor}",
                   f"-DVANTAGE_ZIG_SYSTEM={wheel_targets.system(target)}"],
                  [f"--host={target.partition('.')[0]}"], processor)
+
+
+def unlink_older(tools: Tools, linked: Iterable[pathlib.Path]) -> None:
+    """Removes what was linked before zig_compiler.sh made its archive anew, of which ninja does not know."""
+    archive = pathlib.Path(tools.c).parent / "libvantage_zig.a"
+    for file in linked:
+        if file.exists() and file.stat().st_mtime < archive.stat().st_mtime:
+            file.unlink()
 
 
 class Builder:

@@ -3,6 +3,7 @@
 
 import hashlib
 import importlib.util
+import os
 import pathlib
 import shutil
 import struct
@@ -242,6 +243,22 @@ int main(void) {
         program = self.scratch / "compare"
         subprocess.run(["gcc", "-O1", "-w", "-ffp-contract=off", str(source), "-o", str(program), "-lm"], check=True)
         self.assertEqual(subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout, "0 wrong")
+
+    def test_what_was_linked_before_the_runtime_is_linked_again(self):
+        sys.path.insert(0, str(self.tree / "scripts"))
+        self.addCleanup(sys.path.remove, str(self.tree / "scripts"))
+        spec = importlib.util.spec_from_file_location("build_wheel_libraries", self.tree / "scripts" / "build_wheel_libraries.py")
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[spec.name] = module  # dataclasses look there
+        self.addCleanup(sys.modules.pop, spec.name)
+        spec.loader.exec_module(module)
+        files = [self.scratch / name for name in ("older.so", "libvantage_zig.a", "newer.so")]
+        for seconds, file in enumerate(files):
+            file.touch()
+            os.utime(file, (seconds, seconds))
+        tools = module.Tools(str(self.scratch / "clang"), "", "", "", [], [], "x86_64")
+        module.unlink_older(tools, [files[0], files[2], self.scratch / "none.so"])
+        self.assertEqual([file.exists() for file in files], [False, True, True])
 
     def test_no_wheel_to_try_is_a_failure(self):
         shutil.copy(ROOT / "Makefile", self.tree)
