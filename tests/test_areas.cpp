@@ -132,10 +132,10 @@ class CliAreas : public Cli {
 
 TEST_F(CliAreas, AreListed) {
   expect_wording(output_of({"inspect", "-q", "map.osm", "--areas", "leisure=pitch"}));
-  const auto json = nlohmann::json::parse(output_of({"inspect", "-q", "map.osm", "--named", "--json"}));
-  EXPECT_EQ(json.at("type"), "FeatureCollection");
-  ASSERT_EQ(json.at("features").size(), 1U);
-  const auto& feature = json["features"][0];
+  const auto areas = nlohmann::json::parse(output_of({"inspect", "-q", "map.osm", "--named", "--json"}));
+  EXPECT_EQ(areas.at("type"), "FeatureCollection");
+  ASSERT_EQ(areas.at("features").size(), 1U);
+  const auto& feature = areas["features"][0];
   EXPECT_EQ(feature.at("properties").at("osm"), "way/2");
   EXPECT_EQ(feature.at("properties").at("tags").at("leisure"), "pitch");
   EXPECT_EQ(feature.at("geometry").at("type"), "Polygon");
