@@ -160,8 +160,8 @@ TEST_P(EveryLimit, IsCutVerifiedAndProved) {
     return claim == proof.claims.end() ? ProofVerdict::not_proved : claim->verdict;
   };
   const ProofVerdict of_free = prove(free.mesh), of_cut = prove(cut.mesh);
-  EXPECT_EQ(of_free, sample_.has_proof ? ProofVerdict::wrong : ProofVerdict::not_proved);
-  EXPECT_EQ(of_cut, sample_.has_proof ? ProofVerdict::proved : ProofVerdict::not_proved);
+  EXPECT_EQ(of_free, sample_.is_refuted ? ProofVerdict::wrong : ProofVerdict::not_proved);
+  EXPECT_EQ(of_cut, ProofVerdict::proved);
 }
 
 // Facets at the limit have a witness, or it is named as one of which there is none.

@@ -108,7 +108,7 @@ LimitSample sample_of<Limit::altitude>() {
   sample.outside_of = {"altitude max"};
   sample.text = "altitude: [4, 25]";
   sample.is_flat = true;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = true;
   sample.add_wrong = [](LimitWorld& w) { w.navigation.altitude = {5, 3}; };
   sample.wrong_code = ErrorCode::limits_reversed;
@@ -148,7 +148,7 @@ LimitSample sample_of<Limit::above_ground>() {
   sample.outside_of = {"agl max"};
   sample.text = "altitude: {agl: [4, 25]}, ground: -2";
   sample.is_flat = true;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = true;
   sample.add_wrong = [](LimitWorld& w) { w.navigation.above_ground = AboveGround{5, 3, Ground{-2}}; };
   sample.wrong_code = ErrorCode::limits_reversed;
@@ -197,7 +197,7 @@ LimitSample sample_of<Limit::keep_in>() {
   sample.outside_of = {"keep_in"};
   sample.text = "keep_in: [{min: [-20, -20, 0], max: [20, 20, 40]}]";
   sample.is_flat = true;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = true;
   sample.add_wrong = [](LimitWorld& w) { w.navigation.keep_in = {Box{{0, 9, 0}, {1, 2, 3}}}; };
   sample.wrong_code = ErrorCode::limits_reversed;
@@ -244,7 +244,7 @@ LimitSample sample_of<Limit::keep_out>() {
   sample.outside_of = {"keep_out zone 0"};
   sample.text = "keep_out: [{min: [-15, -15, 12], max: [15, 15, 40]}]";
   sample.is_flat = true;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = true;
   sample.add_wrong = [](LimitWorld& w) { w.navigation.keep_out = {Box{{0, 0, 0}, {1, 0, 3}}}; };
   sample.wrong_code = ErrorCode::limits_empty;
@@ -290,7 +290,7 @@ LimitSample sample_of<Limit::meshes>() {
   sample.outside_of = {"mesh airspace.obj"};
   sample.text = "meshes: [airspace.obj]";
   sample.is_flat = true;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = false;
   sample.add_wrong = [](LimitWorld& w) { w.navigation.meshes = {{Mesh(), "airspace.obj"}}; };
   sample.wrong_code = ErrorCode::mesh_empty;
@@ -330,7 +330,7 @@ LimitSample sample_of<Limit::clearance>() {
   sample.outside_of = {"clearance"};
   sample.text = "clearance: 10";
   sample.is_flat = false;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = false;
   sample.add_wrong = [](LimitWorld& w) { w.navigation.clearance = {-2, obstacles_of(w.scene)}; };
   sample.wrong_code = ErrorCode::value_out_of_range;

@@ -29,7 +29,7 @@ LimitSample sample_of<Limit::min_range>() {
   sample.outside_of = {"min_range"};
   sample.text = "min_range: 15";
   sample.is_flat = false;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = false;
   sample.add_wrong = [](LimitWorld& w) { w.sensor.min_range_m = -1; };
   sample.wrong_code = ErrorCode::value_out_of_range;
@@ -65,7 +65,7 @@ LimitSample sample_of<Limit::incidence>() {
   sample.outside_of = {"incidence"};
   sample.text = "incidence: 60";
   sample.is_flat = false;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = true;
   sample.add_wrong = [](LimitWorld& w) { w.sensor.incidence_deg = 95; };
   sample.wrong_code = ErrorCode::value_out_of_range;
@@ -103,7 +103,7 @@ LimitSample sample_of<Limit::frame>() {
   sample.outside_of = {"frame"};
   sample.text = "fov: [60, 40], gimbal: {pitch: [-90, 10]}";
   sample.is_flat = false;
-  sample.has_proof = false;
+  sample.is_refuted = false;
   sample.bounds_outer = false;
   sample.add_wrong = [](LimitWorld& w) {
     w.sensor.camera = pinhole_of_fov(60, 40);
@@ -112,7 +112,7 @@ LimitSample sample_of<Limit::frame>() {
   sample.wrong_code = ErrorCode::value_out_of_range;
   sample.wrong_text = "fov: [60, 40], gimbal: {pitch: [-90, 120]}";
   sample.draws = {
-      // Of a camera that turns, the proof of the frame often stays open, after minutes.
+      // Of a camera that turns, the proof of the frame often leaves a few facets open.
       {"frame", Turns::about_z, 2e-2, false,
        [](LimitWorld& w, Random& r) {
          w.sensor.camera = camera_of(r.uniform(0.15, 0.4), r.uniform(0.12, 0.3));
@@ -153,7 +153,7 @@ LimitSample sample_of<Limit::pixel>() {
   sample.outside_of = {"pixel"};
   sample.text = "fov: [60, 40], camera: {width: 4000, height: 3000}, pixel: {size: 0.01}";
   sample.is_flat = false;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = false;
   sample.add_wrong = [](LimitWorld& w) {
     w.sensor.camera = pinhole_of_fov(60, 40, 4000, 3000);
@@ -204,7 +204,7 @@ LimitSample sample_of<Limit::sun>() {
   sample.outside_of = {"sun"};
   sample.text = "sun: {azimuth: 180, elevation: 10, exclude: 30}";
   sample.is_flat = false;
-  sample.has_proof = true;
+  sample.is_refuted = true;
   sample.bounds_outer = false;
   sample.add_wrong = [](LimitWorld& w) { w.sensor.sun = SunLimit{Vec3::UnitZ(), 95}; };
   sample.wrong_code = ErrorCode::value_out_of_range;

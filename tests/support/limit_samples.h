@@ -57,7 +57,7 @@ struct LimitSample {
   std::vector<std::string> outside_of;                               ///< what is told of `broken`
   std::string text;   ///< what a mission has for both: keys of `sensor` or `navigation`
   bool is_flat;       ///< its surfaces are, and so it is cut where it is
-  bool has_proof;     ///< a volume that is cut to it is proved, one that is not is refuted
+  bool is_refuted;    ///< a volume that is not cut to it is; one that is cut is proved
   bool bounds_outer;  ///< an outer volume is cut to it
   /// The limit with a number that no limit has; the same in a mission, where it can say so.
   std::function<void(LimitWorld&)> add_wrong;
