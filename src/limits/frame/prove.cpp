@@ -77,8 +77,8 @@ class Picture {
             clamped(std::atan2(way.z(), way.head<2>().norm()))};
   }
 
-  /// Orientations over all that the mount allows, each as good as its neighbours in a grid: the best ones, best first.
-  std::vector<CameraAim> valleys(const LimitedVolume::Corners& positions) const {
+  /// Orientations of a grid over all that the mount allows, with no better neighbour there: the best ones, best first.
+  std::vector<CameraAim> local_minima(const LimitedVolume::Corners& positions) const {
     constexpr int kYaws = 180, kMost = 12;
     constexpr double kPitchStep = 2 * kDegrees;
     constexpr double kDeepest = 0.1;  // radians: where more is out, none next to it lets all in
@@ -107,8 +107,8 @@ class Picture {
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<CameraAim> aims;
-    for (const auto& valley : found) {
-      if (aims.size() < kMost && valley.first < kDeepest * distance_from(positions[0])) aims.push_back(valley.second);
+    for (const auto& minimum : found) {
+      if (aims.size() < kMost && minimum.first < kDeepest * distance_from(positions[0])) aims.push_back(minimum.second);
     }
     return aims;
   }
@@ -243,7 +243,7 @@ class FacetServer {
     left_ = kMostCuts;
     if (serves_in_parts(facet, {picture_.towards(facet)})) return true;
     left_ = kMostCuts;
-    return serves_in_parts(facet, picture_.valleys(facet));
+    return serves_in_parts(facet, picture_.local_minima(facet));
   }
 
  private:
@@ -252,7 +252,7 @@ class FacetServer {
     std::array<bool, 3> is_served{};
     Served served = serves_next_to(aims, facet, is_served);
     if (served == Served::nothing) {
-      aims = picture_.valleys(facet);
+      aims = picture_.local_minima(facet);
       served = serves_next_to(aims, facet, is_served);
     }
     if (served == Served::all) return true;
@@ -300,8 +300,8 @@ class FacetServer {
   }
 
   bool serves_corner(const Vec3& corner) const {
-    for (CameraAim valley : picture_.valleys({corner, corner, corner})) {
-      if (picture_.improve(valley, std::array<Vec3, 1>{corner}, allowed_)) return true;
+    for (CameraAim aim : picture_.local_minima({corner, corner, corner})) {
+      if (picture_.improve(aim, std::array<Vec3, 1>{corner}, allowed_)) return true;
     }
     return false;
   }
