@@ -216,6 +216,23 @@ class Volumes(Case):
         bpy.ops.object.mode_set(mode="OBJECT")
         self.assertEqual(self.reduced(), [])
 
+    def test_levels_of_subdivision_that_the_viewport_leaves_out_are_told(self):
+        self.use_square()
+        wall = city.add("wall", city.box_corners((9, -1, 0), (11, 1, 20)), city.BOX_FACES)
+        smooth = wall.modifiers.new("smooth", "SUBSURF")
+        smooth.levels, smooth.render_levels = 1, 2
+        self.assertEqual(self.reduced(), ["wall"])
+        smooth.levels = 2
+        self.assertEqual(self.reduced(), [])
+        rendering = bpy.context.scene.render
+        rendering.use_simplify, rendering.simplify_subdivision = True, 1
+        self.assertEqual(self.reduced(), ["wall"])
+        rendering.simplify_subdivision_render = 1
+        self.assertEqual(self.reduced(), [])
+        rendering.use_simplify = False
+        smooth.levels, smooth.show_render = 1, False
+        self.assertEqual(self.reduced(), [])
+
     def test_particles_that_the_viewport_leaves_out_are_told(self):
         self.use_square()
         tree = city.add("tree", city.box_corners((60, 60, 0), (61, 61, 9)), city.BOX_FACES)

@@ -48,7 +48,8 @@ def _instances(depsgraph, collection, without):
 
 def reduced_objects(depsgraph, collection=None, without=None):
     """Names of objects that hide less here than when they are rendered, as the viewport shows a part of them alone:
-    particles by their percentage, modifiers that are off in the viewport, or in Edit Mode while the object is edited."""
+    particles by their percentage, modifiers that are off in the viewport, or in Edit Mode while the object is edited,
+    and levels of subdivision."""
     allowed = None if collection is None else {thing.name_full for thing in collection.all_objects}
     looked_at, found = set(), []
     for instance in depsgraph.object_instances:  # also emitters that are not shown themselves
@@ -59,15 +60,15 @@ def reduced_objects(depsgraph, collection=None, without=None):
         for one in (owner, thing):
             if one.name_full not in looked_at:
                 looked_at.add(one.name_full)
-                if _is_reduced(one):
+                if _is_reduced(one, depsgraph.scene.render):
                     found.append(one.name_full)
     return sorted(found)
 
 
-def _is_reduced(thing):
+def _is_reduced(thing, rendering):
     for modifier in thing.modifiers:
         is_shown = modifier.show_viewport and (thing.mode != "EDIT" or modifier.show_in_editmode)
-        if modifier.show_render and not is_shown:
+        if modifier.show_render and (not is_shown or _is_coarser(modifier, rendering)):
             return True
     for settings in (system.settings for system in thing.particle_systems):
         if settings.render_type in ("OBJECT", "COLLECTION"):
@@ -77,6 +78,16 @@ def _is_reduced(thing):
                     settings.child_type != "NONE" and shown < settings.rendered_child_count):
                 return True
     return False
+
+
+def _is_coarser(modifier, rendering):
+    if modifier.type not in ("SUBSURF", "MULTIRES"):
+        return False
+    shown, rendered = modifier.levels, modifier.render_levels
+    if rendering.use_simplify:
+        shown = min(shown, rendering.simplify_subdivision)
+        rendered = min(rendered, rendering.simplify_subdivision_render)
+    return shown < rendered
 
 
 def gather(depsgraph, unit_m, collection=None, without=None):
