@@ -3,9 +3,10 @@
 # changes the compiler's flags for whoever includes it, asks for processors with POPCNT, and loads a library at run time.
 # Which sources there are is read from the release (cmake/sources.cmake).
 enable_language(C)
-# zig links musl, and what goes with it, by itself, compiled for a program that may lie anywhere. What CMake saw on its
-# command while it tried this compiler was for one with a fixed address.
-if(VANTAGE_ZIG MATCHES "-musl$")
+# zig links the C library, and what goes with it, by itself. What CMake saw on its command while it tried this compiler
+# would come before it: musl for a program with a fixed address, and zig's compiler-rt, whose sine would take the place of
+# glibc's.
+if(VANTAGE_ZIG)
   set(CMAKE_C_IMPLICIT_LINK_LIBRARIES)
 endif()
 include(CheckCXXSourceCompiles)

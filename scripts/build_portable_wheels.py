@@ -33,7 +33,6 @@ PROJECT = HERE.parent
 DEPS = PROJECT / ".deps"
 TARGETS = ["x86_64-linux-gnu.2.17"]
 TAGS = {"cp311": "cp311-cp311", "abi3": "cp312-abi3"}
-MATHEMATICS = {"sin", "cos", "exp", "log"}
 FIXED_TIME = (2020, 1, 1, 0, 0, 0)  # of all files: the same wheel from the same sources
 
 
@@ -175,15 +174,6 @@ def pack(folder: pathlib.Path, tag: str, target: str, dist: pathlib.Path) -> pat
     return wheel
 
 
-def check_mathematics(module: pathlib.Path) -> None:
-    """Fails where zig's own functions took the place of those of glibc, which other builds compute with."""
-    elf = read_elf.read(module)
-    lacking = MATHEMATICS - (elf.imports if elf else set())
-    if lacking:
-        raise Failure(f"{module} does not take {', '.join(sorted(lacking))} from glibc but from zig's compiler-rt: something needs "
-                      "what cmake/zig_runtime.c, or on other processors scripts/zig_compiler.sh, does not give")
-
-
 def check_tag(wheel: pathlib.Path, tools: pathlib.Path) -> None:
     """Fails where auditwheel names another system than the wheel's name does."""
     told = subprocess.run([str(tools), "-m", "auditwheel", "show", str(wheel)], capture_output=True, text=True, check=False)
@@ -212,7 +202,9 @@ def main() -> int:
                 print(f"building vantage for {target}, {TAGS[python]}", flush=True)
                 folder = build_module(target, python, DEPS / f"wheel-{target}", build, tools, arguments.jobs, part)
                 if not chosen:  # those for Linux
-                    check_mathematics(next((folder / "vantage").glob("_core.*.so")))
+                    module = next((folder / "vantage").glob("_core.*.so"))
+                    for fault in read_elf.mathematics_faults(read_elf.Elf(module.read_bytes())):
+                        raise Failure(f"{module} {fault}")
                 wheel = pack(folder, TAGS[python], target, dist)
                 if not chosen:
                     check_tag(wheel, tools)

@@ -110,6 +110,8 @@ def check_binary(program: pathlib.Path, target: str) -> str:
     if elf is None:
         raise Failure(f"{program} is no program of Linux")
     faults = read_elf.search_path_faults(elf) + read_elf.hardening_faults(elf, not is_static(target))  # musl has no FORTIFY
+    if not is_static(target):
+        faults += read_elf.mathematics_faults(elf)
     if faults:
         raise Failure(f"{program} {'; '.join(faults)}")
     if is_static(target):

@@ -291,6 +291,13 @@ def hardening_faults(elf: Elf, is_fortified: bool) -> list[str]:
     return found
 
 
+def mathematics_faults(elf: Elf) -> list[str]:
+    """The functions that it does not take from glibc, with which other builds compute, but brings with it."""
+    lacking = {"sin", "cos", "tan", "exp", "log"} - elf.imports
+    return [f"does not take {', '.join(sorted(lacking))} from glibc but from zig's compiler-rt: the linker was given that "
+            "before glibc, or something needs what scripts/zig_compiler.sh does not give"] if lacking else []
+
+
 def functions_without_endbr(elf: Elf) -> list[str]:
     """Those that others call through a pointer: what a library shows, and the main function of a program."""
     shown = [symbol for symbol in elf.dynamic_symbols if symbol.is_defined and symbol.is_function and symbol.address]
