@@ -239,6 +239,21 @@ TEST(ProveSensor, ACameraThatTurnsTooLittle) {
   EXPECT_EQ(verdict({}, 90, around), ProofVerdict::not_proved);
 }
 
+/// A corner almost beside the camera is so far from the middle of the picture that numbers overflow. That is no proof.
+TEST(ProveSensor, ACameraBesideTheTarget) {
+  const Scene scene = SceneBuilder().ground("ground", 90, -9);
+  const Target target = Target::polygon({{-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 0, 2}});  // looks south
+  Sensor sensor{.max_range_m = 60};
+  sensor.camera = pinhole_of_fov(40, 40);
+  sensor.mount = {.yaw_deg = 0, .min_pitch_deg = 0, .max_pitch_deg = 10};
+  for (const double beside : {-1e-320, -1e-308, -1e-300, 0.0}) {
+    const Mesh volume = {{{3, beside, 0.3}, {4, beside, 0.2}, {3.5, beside, 1}, {3.5, -1, 0.5}},
+                         {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    const ProofReport report = prove_volume(scene, target, sensor, {}, volume);
+    EXPECT_EQ(report.claims.back().verdict, ProofVerdict::not_proved) << beside;
+  }
+}
+
 TEST(ProveSensor, Sun) {
   for (const Place& place : places()) {
     for (const double exclude_deg : {25.0, 60.0, 90.0}) {

@@ -58,6 +58,7 @@ class Picture {
   }
 
   /// Metres by which some corner of the target is out of the picture, from some of the positions; negative: in it.
+  /// NaN where it cannot be computed, which no comparison takes for in it.
   template <typename Positions>
   double out_by(const CameraAim& aim, const Positions& positions) const {
     double most = -std::numeric_limits<double>::infinity();
@@ -65,7 +66,9 @@ class Picture {
       double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
       for (const Vec3& corner : corners_) nearest = std::min(nearest, edge.dot(corner));
       for (const Vec3& position : positions) farthest = std::max(farthest, edge.dot(position));
-      most = std::max(most, farthest - nearest);
+      const double out = farthest - nearest;
+      if (!std::isfinite(out)) return std::numeric_limits<double>::quiet_NaN();  // std::max passes over NaN
+      most = std::max(most, out);
     }
     return most;
   }
