@@ -182,6 +182,34 @@ TEST(WriteFlightPlan, LevelLegsInScenesOfTilesetsAreCut) {
   EXPECT_LE(read.flight.chord_error_m, 0.05);
 }
 
+// On a climb the earth also turns what is gained in height. Along a meridian, where latitude is distance.
+TEST(WriteFlightPlan, ClimbsInScenesOfTilesetsAreCut) {
+  for (const double climb : {300.0, 1000.0, 3000.0}) {
+    FlightOut out = flight_out();
+    on_earth(out);
+    out.heights = HeightDatum::ellipsoid;
+    const internal::io::OnGlobe globe(*out.georeference);
+    const auto on_leg = [&](double share) {
+      return globe.to_scene({{11.5755, 48.1374 + 0.0044 * share}, 100 + climb * share});  // 489 m
+    };
+    out.flight.points = {{on_leg(0), 0, 8}, {on_leg(1), 0, 8}};
+    const LocatedPlan read = read_back(out, PlanFormat::geojson);
+    EXPECT_LE(read.flight.chord_error_m, 0.0101);  // a tenth of 0.05 m, twice
+    for (std::size_t i = 0; i + 1 < read.flight.points.size(); ++i) {
+      const Vec3 a = read.flight.points[i].position, along = (read.flight.points[i + 1].position - a).normalized();
+      double beside = 0;
+      for (int k = 0; k <= 1000; ++k) {
+        const Vec3 way = on_leg(k / 1000.0) - a;
+        const double at = way.dot(along);
+        if (at > 0 && at < (read.flight.points[i + 1].position - a).norm()) {
+          beside = std::max(beside, (way - at * along).norm());
+        }
+      }
+      EXPECT_LE(beside, read.flight.chord_error_m) << climb;
+    }
+  }
+}
+
 TEST(WriteFlightPlan, HasTheFieldsThatQGroundControlDemands) {
   FlightOut out = flight_out();
   out.actions.resize(3);

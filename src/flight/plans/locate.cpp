@@ -82,8 +82,8 @@ class Locator {
   void add_following(const Corner& from, const Corner& to, bool is_last);
   void cut_geodesic(const Point& from, const Point& to, double begin, double end, int depth,
                     std::vector<double>& shares) const;
-  std::vector<double> geodesic_shares(const Point& from, const Point& to) const;
-  std::vector<double> level_shares(const std::vector<double>& shares, double length_m) const;
+  std::vector<double> leg_shares(const Corner& from, const Corner& to) const;
+  std::vector<double> level_shares(const std::vector<double>& shares, double length_m, double climb_m) const;
   Point between(const Point& from, const Point& to, double share) const;
   void push(const Vec3& position, const Corner& to, bool is_last);
   void note(const std::string& text) {
@@ -444,7 +444,9 @@ void Locator::cut_geodesic(const Point& from, const Point& to, double begin, dou
   cut_geodesic(from, to, middle, end, depth + 1, shares);
 }
 
-std::vector<double> Locator::geodesic_shares(const Point& from, const Point& to) const {
+/// Where a leg is cut, up to its end.
+std::vector<double> Locator::leg_shares(const Corner& begin, const Corner& end) const {
+  const Point from = begin.position.head<2>(), to = end.position.head<2>();
   std::vector<double> shares;
   if (frame_) {
     // The frame bends a geodesic at the distance d from the origin by less than d / R^2 for each metre: nothing to ask
@@ -456,20 +458,23 @@ std::vector<double> Locator::geodesic_shares(const Point& from, const Point& to)
     bent_m_ = std::max(bent_m_, std::min(sagitta, geodesic_error_m()));
   }
   shares.push_back(1);
-  return globe_ ? level_shares(shares, (to - from).norm()) : shares;
+  const double climb_m = std::abs(end.position.z() - begin.position.z());
+  return globe_ ? level_shares(shares, (to - from).norm(), climb_m) : shares;
 }
 
-/// The same with parts so short that a level way, which the earth bends, is near enough to its chord.
-std::vector<double> Locator::level_shares(const std::vector<double>& shares, double length_m) const {
+/// The same with parts so short that a way, which the earth bends, is near enough to its chord: with the part t of a
+/// leg of length d and climb h it is at (R + t h) e(t d / R), with a unit vector e, whose second derivative is at most
+/// (d^2 + 2 d h) / R. What the height adds to R is less than what kRadiusM is too small by.
+std::vector<double> Locator::level_shares(const std::vector<double>& shares, double length_m, double climb_m) const {
   constexpr double kRadiusM = 6.3e6;
-  const double longest_m = std::sqrt(8 * kRadiusM * geodesic_error_m());
+  const double bend_m = length_m * (length_m + 2 * climb_m) / (8 * kRadiusM);  // of the leg in one part
   std::vector<double> shorter;
   double begin = 0;
   for (const double end : shares) {
-    const double part_m = (end - begin) * length_m, parts = std::max(std::ceil(part_m / longest_m), 1.0);
-    for (double part = 1; part < parts; ++part) shorter.push_back(begin + (end - begin) * part / parts);
+    const double share = end - begin, parts = std::max(std::ceil(share * std::sqrt(bend_m / geodesic_error_m())), 1.0);
+    for (double part = 1; part < parts; ++part) shorter.push_back(begin + share * part / parts);
     shorter.push_back(end);
-    bent_m_ = std::max(bent_m_, part_m / parts * part_m / parts / (8 * kRadiusM));
+    bent_m_ = std::max(bent_m_, bend_m * share / parts * share / parts);
     begin = end;
   }
   return shorter;
@@ -493,7 +498,7 @@ void Locator::add_leg(const Corner& from, const Corner& to) {
   const Point a = from.position.head<2>(), b = to.position.head<2>();
   const bool follows = to.follows_ground && from.above_ground_m && to.above_ground_m;
   Corner begin = from, end = to;
-  for (const double share : geodesic_shares(a, b)) {
+  for (const double share : leg_shares(from, to)) {
     const bool is_last = share == 1;
     end = to;
     if (!is_last) {
