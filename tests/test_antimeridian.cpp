@@ -260,6 +260,32 @@ TEST(Antimeridian, PointsOfFlightsOnItAreNoCuts) {
   EXPECT_EQ(features.at(0).at("geometry").at("coordinates").size(), 2U);
 }
 
+/// A line of one position is none, in GeoJSON (RFC 7946, section 3.1.4) and in KML.
+TEST(Antimeridian, FlightsThatBeginOnItHaveNoLinesOfOnePoint) {
+  for (const double longitude_deg : {180.0, -180.0}) {
+    for (const double east : {50.0, -50.0}) {
+      for (const bool is_along : {false, true}) {
+        FlightOut out = flight_across(longitude_deg);
+        out.flight.points = {{{0, 0, 40}, 2, 8}, {{east, 0, 40}, 0, 8}, {{-east, 9, 40}, 0, 8}};
+        if (is_along) out.flight.points.insert(out.flight.points.begin() + 1, FlightPoint{{0, 30, 40}, 0, 8});
+        const json features = json::parse(flight_plan_bytes(out, PlanFormat::geojson)).at("features");
+        const json& lines = features.at(0).at("geometry").at("coordinates");
+        ASSERT_EQ(lines.size(), 2U);
+        for (const json& line : lines) {
+          EXPECT_GE(line.size(), 2U);
+          for (const json& position : line) EXPECT_GT(position[0].get<double>() * line.back()[0].get<double>(), 0);
+        }
+        for (const PlanFormat format : {PlanFormat::geojson, PlanFormat::kml}) {
+          const LocatedPlan read = located(out, format);
+          EXPECT_EQ(read.flight.points.size(), is_along ? 5U : 4U);
+          EXPECT_EQ(read.flight.points.front().hold_s, 2);
+          EXPECT_TRUE(read.notes.empty());
+        }
+      }
+    }
+  }
+}
+
 TEST(Antimeridian, OtherPlansHoldPointsAlone) {
   FlightOut out = flight_across(180);
   out.flight.points[1].position.x() = 0;

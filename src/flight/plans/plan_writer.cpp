@@ -16,6 +16,8 @@ namespace {
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps + 0.0; }  // no -0
 
+constexpr double kAntimeridian = 180;
+
 bool is_finite(const std::optional<double>& value) { return !value || std::isfinite(*value); }
 
 }  // namespace
@@ -157,7 +159,6 @@ std::vector<OutPoint> PlanWriter::points(bool with_circles) const {
 }
 
 std::vector<OutPoint> PlanWriter::points_to_cut() const {
-  constexpr double kAntimeridian = 180;
   const io::GlobePlace place = on_globe();
   std::vector<OutPoint> cut;
   double last_deg = 0;
@@ -178,7 +179,7 @@ std::vector<OutPoint> PlanWriter::points_to_cut() const {
 }
 
 std::vector<std::vector<LinePosition>> PlanWriter::lines(const std::vector<OutPoint>& points) const {
-  constexpr double kAntimeridian = 180;
+  const auto is_on_antimeridian = [](const LinePosition& at) { return std::abs(at.longitude_deg) == kAntimeridian; };
   std::vector<std::vector<LinePosition>> lines(1);
   for (const OutPoint& point : points) {
     const Eigen::Vector2d at = lonlat(point.position);
@@ -186,11 +187,15 @@ std::vector<std::vector<LinePosition>> PlanWriter::lines(const std::vector<OutPo
     if (point.is_on_antimeridian) position.longitude_deg = kAntimeridian;
     if (!lines.back().empty()) {
       const LinePosition last = lines.back().back();
-      if (std::abs(position.longitude_deg) == kAntimeridian) {  // of either side
+      if (is_on_antimeridian(position)) {  // of either side
         position.longitude_deg = std::copysign(kAntimeridian, last.longitude_deg);
       }
       if (io::crosses_antimeridian(last.longitude_deg, position.longitude_deg)) {
-        lines.push_back({{-last.longitude_deg, last.latitude_deg, last.height_m}});
+        if (std::all_of(lines.back().begin(), lines.back().end(), is_on_antimeridian)) {  // all of it is of either side
+          for (LinePosition& before : lines.back()) before.longitude_deg = -before.longitude_deg;
+        } else {
+          lines.push_back({{-last.longitude_deg, last.latitude_deg, last.height_m}});
+        }
       }
     }
     lines.back().push_back(position);
