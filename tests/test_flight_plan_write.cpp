@@ -364,6 +364,19 @@ TEST(WriteFlightPlan, TakesOffNoHigherThanIsAllowed) {
   expect_error([&] { flight_plan_bytes(out, PlanFormat::wpml); }, ErrorCode::value_unsupported);
 }
 
+TEST(WriteFlightPlan, HasNoLineOfOnePosition) {
+  FlightOut out = flight_out();
+  out.flight.points = {{{100, 50, 40}, 2, 8}};
+  for (const PlanFormat format : {PlanFormat::kml, PlanFormat::geojson}) {
+    out.heights.reset();
+    EXPECT_EQ(flight_plan_bytes(out, format).find("LineString"), std::string::npos);
+    const LocatedPlan read = read_back(out, format);
+    ASSERT_EQ(read.flight.points.size(), 1U);
+    EXPECT_EQ(read.flight.points[0].hold_s, 2);
+    EXPECT_TRUE(read.notes.empty());
+  }
+}
+
 TEST(WriteFlightPlan, DrawsVolumesInKml) {
   FlightOut out = flight_out();
   out.heights.reset();

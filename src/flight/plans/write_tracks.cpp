@@ -143,9 +143,12 @@ std::string write_kml(const FlightOut& flight) {
   const std::vector<OutPoint> points = writer.points_to_cut();
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n<name>" +
-      xml_text(flight.name) + "</name>\n<Placemark><name>" + xml_text(flight.name) +
-      "</name><Style><LineStyle><color>ff0000ff</color><width>3</width></LineStyle></Style>" +
-      kml_lines(writer, points) + "</Placemark>\n";
+      xml_text(flight.name) + "</name>\n";
+  if (points.size() > 1) {  // a line has two positions
+    text += "<Placemark><name>" + xml_text(flight.name) +
+            "</name><Style><LineStyle><color>ff0000ff</color><width>3</width></LineStyle></Style>" +
+            kml_lines(writer, points) + "</Placemark>\n";
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_listed(points[i])) continue;
     text += "<Placemark><name>" + xml_text(title(points[i], i)) + "</name><ExtendedData>" +
