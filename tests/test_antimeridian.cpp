@@ -118,6 +118,29 @@ TEST(Antimeridian, CornersThatTouchItAreNoCuts) {
   }
 }
 
+/// Sides along the line, with nothing on their other side, make no parts there and no ways along it and back.
+TEST(Antimeridian, SidesAlongItHoldNothing) {
+  const Georeference place = fiji(180);
+  for (const double side : {-1.0, 1.0}) {
+    const Ring step{{-8 * side, 0, 0}, {8 * side, 0, 0}, {8 * side, 4, 0}, {0, 4, 0},
+                    {0, 6, 0},         {0, 9, 0},        {-8 * side, 9, 0}};
+    const auto parts = cut_in(place, {step});
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_LT((area_of(parts) - area_of(step)).norm(), 1e-6);
+    for (const GlobePolygon& part : parts) {
+      expect_on_one_side(part, place);
+      EXPECT_EQ(part[0].size(), 4U);
+    }
+    const Ring slit{{0, 0, 0}, {0, 3, 0}, {0, 5, 0}, {-8 * side, 5, 0}, {-8 * side, 0, 0}};
+    EXPECT_EQ(cut_in(place, {slit}).size(), 1U);
+  }
+  // Walls that stand along it stay, also where rounding puts a corner beside it.
+  for (const double beside : {0.0, -1e-8, 1e-8}) {
+    const Ring wall{{beside, 0, 0}, {0, 9, 0}, {0, 9, 4}, {0, 0, 4}};
+    EXPECT_LT((area_of(cut_in(place, {wall})) - area_of(wall)).norm(), 1e-6);
+  }
+}
+
 TEST(Antimeridian, LeavesOthersAsTheyAre) {
   const Ring square{{-10, -10, 5}, {10, -10, 5}, {10, 10, 5}, {-10, 10, 5}};
   for (const double longitude : {11.0, -0.00001, 179.9, -179.9}) {

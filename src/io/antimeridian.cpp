@@ -1,5 +1,6 @@
 #include "io/antimeridian.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,6 +88,29 @@ void append_distinct(GlobeRing& ring, GlobeCorner corner) {
   if (ring.empty() || ring.back().scene != corner.scene) ring.push_back(std::move(corner));
 }
 
+/// Whether three corners lie on the antimeridian and on one line, as all of a polygon do there unless it stands along it.
+bool are_along_cut(const GlobeCorner& a, const GlobeCorner& b, const GlobeCorner& c) {
+  constexpr double kBesideM = 1e-7;  // what longitudes round, of 3 nm, moves a corner less
+  for (const GlobeCorner* corner : {&a, &b, &c}) {
+    if (beyond(corner->at) != 0) return false;
+  }
+  const Vec3 to = b.scene - a.scene, from = c.scene - b.scene;
+  return to.cross(from).norm() <= kBesideM * std::max(to.norm(), from.norm());
+}
+
+/// Leaves out corners between others along the cut: ways along it and back hold nothing. Of a ring that holds nothing
+/// else two corners are left.
+GlobeRing without_ways_along_cut(GlobeRing ring) {
+  const auto beside = std::find_if(ring.begin(), ring.end(), [](const GlobeCorner& at) { return beyond(at.at) != 0; });
+  if (beside != ring.end()) std::rotate(ring.begin(), beside, ring.end());
+  GlobeRing kept;
+  for (GlobeCorner& corner : ring) {
+    if (kept.size() > 1 && are_along_cut(kept[kept.size() - 2], kept.back(), corner)) kept.pop_back();
+    kept.push_back(std::move(corner));
+  }
+  return kept;
+}
+
 /// Joins chains along the cut to rings.
 void close_chains(Side& side, const std::vector<Cut>& cuts, const std::vector<std::size_t>& partner,
                   double longitude_deg) {
@@ -107,6 +131,7 @@ void close_chains(Side& side, const std::vector<Cut>& cuts, const std::vector<st
       append_distinct(ring, cut_corner(side.chains[i].end));
     }
     while (ring.size() > 1 && ring.back().scene == ring.front().scene) ring.pop_back();
+    ring = without_ways_along_cut(std::move(ring));
     if (ring.size() >= 3) side.outers.push_back(std::move(ring));
   }
 }
