@@ -88,7 +88,7 @@ void append_distinct(GlobeRing& ring, GlobeCorner corner) {
   if (ring.empty() || ring.back().scene != corner.scene) ring.push_back(std::move(corner));
 }
 
-/// Whether three corners lie on the antimeridian and on one line, as all of a polygon do there unless it stands along it.
+/// Whether three corners lie on the antimeridian, and on one line: all there do of a polygon that crosses it.
 bool are_along_cut(const GlobeCorner& a, const GlobeCorner& b, const GlobeCorner& c) {
   constexpr double kBesideM = 1e-7;  // what longitudes round, of 3 nm, moves a corner less
   for (const GlobeCorner* corner : {&a, &b, &c}) {
