@@ -187,6 +187,31 @@ TEST(TilesetHierarchy, GarbledOnesCostNamesAndNoGeometry) {
   refuse_all(circle);
 }
 
+/// A batch table that is no JSON, or JSON of another kind. Half of a surrogate pair is one that JSON allows.
+TEST(TilesetHierarchy, GarbledBatchTablesCostNamesAndNoGeometry) {
+  const std::string glb = testing::box_glb({{{0, 0, 0}, 5, 0}, {{2, 0, 0}, 5, 1}}, "_BATCHID");
+  const json batch = {{"name", {"first.", "second"}}};
+  const std::vector<std::string> tiles = {
+      testing::b3dm(glb, {{"BATCH_LENGTH", 2}}, batch),
+      testing::i3dm(glb, {{"INSTANCES_LENGTH", 1}, {"POSITION", {{"byteOffset", 0}}}}, std::string(12, '\0'), batch)};
+  for (const std::string& tile : tiles) {
+    const std::string text = batch.dump();
+    for (const char* const garbled :
+         {R"({"name":["\ud800","second"]})", R"(["name",["first.","second"]])", R"({"name":["first.","second")"}) {
+      std::string bytes = tile, other = garbled;
+      ASSERT_LE(other.size(), text.size());
+      other.resize(text.size(), ' ');
+      bytes.replace(bytes.find(text), text.size(), other);
+      Tileset folder(testing::tileset_json(testing::tile_json(0, "a.tile"), 100, "1.0"));
+      folder.add("a.tile", bytes);
+      const TilesetScene read = folder.read();
+      EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+      EXPECT_EQ(read.report.triangles, 24u);
+      EXPECT_EQ(read.report.unreadable_properties, 1u);
+    }
+  }
+}
+
 TEST(TilesetHierarchy, GarbledPropertiesCostTheirNames) {
   json short_names = block_of_houses();
   short_names["classes"][1]["instances"]["name"] = {"unit29"};

@@ -157,9 +157,15 @@ std::vector<std::uint32_t> whole_numbers(const Json& values, const std::string& 
   return numbers;
 }
 
+/// A garbled table says less of who hides something. It must not take away what hides.
 BatchTable::BatchTable(std::string_view json, std::string_view binary, std::string tile,
                        const core::ProgressReporter& progress, const core::ReadLimits& limits)
-    : table_(json, binary, progress, limits), binary_(binary), tile_(std::move(tile)) {
+    : table_({}, {}, progress, limits), binary_(binary), tile_(std::move(tile)) {
+  try {
+    table_ = Table(json, binary, progress, limits);
+  } catch (const std::string& problem) {
+    unreadable_.add("the batch table: " + problem);
+  }
   std::vector<std::string> names;
   for (const auto& [name, value] : table_.json().items()) {
     if (value.is_array() || value.is_object()) names.push_back(name);
@@ -168,7 +174,6 @@ BatchTable::BatchTable(std::string_view json, std::string_view binary, std::stri
   read_hierarchy(progress);
 }
 
-/// A garbled table says less of who hides something. It must not take away what hides.
 void BatchTable::read_hierarchy(const core::ProgressReporter& progress) {
   const auto extensions = table_.json().find("extensions");
   if (extensions == table_.json().end() || !extensions->is_object()) return;

@@ -51,7 +51,7 @@ std::vector<std::uint32_t> whole_numbers(const Json& values, const std::string& 
 /// Who the features of a tile are.
 class BatchTable {
  public:
-  /// A hierarchy that is garbled is taken as missing. Throws std::string.
+  /// A table, or a hierarchy, that is garbled is taken as missing (unreadable()).
   BatchTable(std::string_view json, std::string_view binary, std::string tile, const core::ProgressReporter& progress,
              const core::ReadLimits& limits);
 
