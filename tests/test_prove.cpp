@@ -274,6 +274,22 @@ TEST(Prove, ATriangleWithoutAreaHidesNothing) {
   EXPECT_EQ(report.maximal->proved_share, 1);
 }
 
+/// A needle from the target through a ceiling. Each facet holds views through it, however thin it is: its corners are
+/// not in one plane with the target, though products of their coordinates are too small for a double.
+TEST(Prove, ANeedleThatIsThinnerThanDoublesCanMultiply) {
+  const Scene scene = testing::SceneBuilder().ground("ceiling", 90, 5);
+  for (const Target& target :
+       {Target::point({0, 0, 0}), Target::polygon({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}})}) {
+    for (const double thin : {1e-100, 1e-165, 1e-200, 1e-320}) {
+      const Mesh needle = {{{thin, 0, thin}, {-thin, thin, thin}, {-thin, -thin, thin}, {0, 0, 10}},
+                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+      const ProofReport report = prove_volume(scene, target, {.max_range_m = 60}, {}, needle);
+      EXPECT_NE(report.verdict(), ProofVerdict::proved) << thin;
+      EXPECT_GT(report.tested_facets, 0) << thin;
+    }
+  }
+}
+
 /// As it is told, without another rounding, at map coordinates and where edges of the scene lie in one line of sight.
 TEST(Prove, AWitnessHoldsExactly) {
   int found = 0;

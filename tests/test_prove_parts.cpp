@@ -28,9 +28,11 @@ using internal::prove::ConvexSolid;
 using internal::prove::HalfSpace;
 using internal::prove::nearest_points;
 using internal::prove::NearestPoints;
+using internal::prove::orientation;
 using internal::prove::passage;
 using internal::prove::RoundedSurface;
 using internal::prove::surely_apart_by;
+using internal::prove::turn;
 using internal::prove::Winding;
 using testing::Random;
 using Corners = std::array<Vec3, 3>;
@@ -44,6 +46,31 @@ Vec3 on_grid(Random& random, int most) {
 
 double volume_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (a - d).dot((b - d).cross(c - d));
+}
+
+/// Numbers along an axis that all are made smaller or larger change no side, also where their products are no doubles.
+TEST(ProveParts, SidesAreExactAtEveryScale) {
+  Random random(2107);
+  std::size_t flat = 0, on_lines = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const std::array<Vec3, 4> p = {on_grid(random, 3), on_grid(random, 3), on_grid(random, 3), on_grid(random, 3)};
+    std::array<Vec3, 4> scaled = p;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const int power = random.integer(-1074, 30);
+      for (Vec3& point : scaled) point[axis] = std::ldexp(point[axis], power);
+    }
+    const double volume = volume_of(p[0], p[1], p[2], p[3]);
+    EXPECT_EQ(orientation(scaled[0], scaled[1], scaled[2], scaled[3]), (volume > 0) - (volume < 0));
+    flat += volume == 0 ? 1 : 0;
+    const Eigen::Vector2d a = p[0].head<2>(), b = p[1].head<2>(), c = p[2].head<2>();
+    const double area = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+    const double far = std::ldexp(1.0, 30 * random.integer(0, 33));
+    const auto at = [&](std::size_t k) { return Eigen::Vector2d(scaled[k].x(), p[k].y() * far); };
+    EXPECT_EQ(turn(at(0), at(1), at(2)), (area > 0) - (area < 0));
+    on_lines += area == 0 ? 1 : 0;
+  }
+  EXPECT_GT(flat, 1000);
+  EXPECT_GT(on_lines, 1000);
 }
 
 /// The same answers after all is moved so far that sums in doubles would lose the last digits: only exact ones agree.

@@ -1,4 +1,4 @@
-// Where points lie, exactly.
+// Where points lie, exactly, also where products of coordinates underflow. In space no coordinate is above 2^370.
 #pragma once
 
 #include <array>
