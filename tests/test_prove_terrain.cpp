@@ -52,6 +52,22 @@ TEST(ProveTerrain, HasHeights) {
   }
 }
 
+/// Squares of such lengths are zero: a triangle is no ground for what is beside it, nor has it any other height.
+TEST(ProveTerrain, OfATriangleThatIsHardlyThere) {
+  const World world;
+  for (const double size : {1e-60, 1e-80, 1e-120, 1e-160, 1e-200, 1e-320}) {
+    auto surface = std::make_shared<Mesh>();
+    surface->vertices = {{-size, -size, 0}, {size, -size, 0}, {0, size, 0}};
+    surface->triangles = {{0, 1, 2}};
+    Navigation navigation;
+    navigation.above_ground = AboveGround{5, 14, {0, surface}};
+    for (const auto& [x, low] : {std::pair(size / 4, 20.0), std::pair(0.1, 6.0), std::pair(0.1, 20.0)}) {
+      const Mesh volume = testing::make_box_mesh({-x, -x, low}, {x, x, low + 1});
+      EXPECT_NE(claim_of(world, navigation, volume).verdict, ProofVerdict::proved) << size << ' ' << x << ' ' << low;
+    }
+  }
+}
+
 /// Ground at 0 up to x = 0.37, and 2 lower beyond.
 std::shared_ptr<Mesh> ground_with_a_step(const World& world) {
   auto surface = std::make_shared<Mesh>();

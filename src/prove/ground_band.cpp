@@ -68,7 +68,7 @@ struct GroundPiece {
     std::array<Vec3, 3> outward;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-      outward[k] = Vec3(b.y() - a.y(), a.x() - b.x(), 0).normalized();
+      outward[k] = unit(Vec3(b.y() - a.y(), a.x() - b.x(), 0));
     }
     std::vector<HalfSpace> sides;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -104,7 +104,7 @@ class GroundSheet {
           std::max({(b - a).head<2>().squaredNorm(), (c - b).head<2>().squaredNorm(), (a - c).head<2>().squaredNorm()});
       piece.thinness = turn_in_plan_of(a, b, c) / longest;
       if (!(piece.thinness > kVertical)) continue;
-      piece.normal = (b - a).cross(c - a).normalized();
+      piece.normal = unit(b - a).cross(unit(c - a)).normalized();  // products of short sides underflow
       flat.push_back(Piece::triangle(piece.corners, static_cast<std::uint32_t>(pieces_.size())));
       for (Vec3& corner : flat.back().corners) corner.z() = 0;
       pieces_.push_back(piece);
