@@ -274,6 +274,15 @@ TEST(Prove, ATriangleWithoutAreaHidesNothing) {
   EXPECT_EQ(report.maximal->proved_share, 1);
 }
 
+/// By so much that its half is no less: nothing is proved, and it is told in the end.
+TEST(Prove, ALimitThatIsBrokenBeyondAllNumbers) {
+  const Mesh volume = testing::make_box_mesh({-1, -1, 5}, {1, 1, 6});
+  for (const double far : {1e150, 1e155, 1e300}) {
+    const ProofReport report = prove_volume({}, Target::point({far, 0, 0}), {.max_range_m = 60}, {}, volume);
+    EXPECT_NE(report.verdict(), ProofVerdict::proved) << far;
+  }
+}
+
 /// A needle from the target through a ceiling. Each facet holds views through it, however thin it is: its corners are
 /// not in one plane with the target, though products of their coordinates are too small for a double.
 TEST(Prove, ANeedleThatIsThinnerThanDoublesCanMultiply) {

@@ -81,7 +81,8 @@ std::optional<bool> LimitedVolume::is_outside(const Vec3& point) const {
 
 bool LimitedVolume::is_there(const Vec3& point, double within_m) const {
   constexpr double kNarrower = 8;
-  for (double step = within_m; step > 4 * unsure_m_; step /= kNarrower) {
+  const double first = std::min(within_m, std::numeric_limits<double>::max());  // what is infinite stays so
+  for (double step = first; step > 4 * unsure_m_; step /= kNarrower) {
     for (int x = -1; x <= 1; ++x) {
       for (int y = -1; y <= 1; ++y) {
         for (int z = -1; z <= 1; ++z) {
