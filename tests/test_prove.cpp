@@ -274,6 +274,17 @@ TEST(Prove, ATriangleWithoutAreaHidesNothing) {
   EXPECT_EQ(report.maximal->proved_share, 1);
 }
 
+TEST(Prove, ARangeBelowWhatDoublesCanSquare) {
+  for (const double range : {1e-150, 1e-170, 1e-300}) {
+    const Mesh volume = testing::make_box_mesh(Vec3::Constant(0.1 * range), Vec3::Constant(0.5 * range));
+    Mesh large = volume;
+    for (Vec3& vertex : large.vertices) vertex *= 1e4;
+    const Sensor sensor{.max_range_m = range};
+    EXPECT_EQ(prove_volume({}, Target::point({0, 0, 0}), sensor, {}, volume).verdict(), ProofVerdict::proved) << range;
+    EXPECT_NE(prove_volume({}, Target::point({0, 0, 0}), sensor, {}, large).verdict(), ProofVerdict::proved) << range;
+  }
+}
+
 /// By so much that its half is no less: nothing is proved, and it is told in the end.
 TEST(Prove, ALimitThatIsBrokenBeyondAllNumbers) {
   const Mesh volume = testing::make_box_mesh({-1, -1, 5}, {1, 1, 6});

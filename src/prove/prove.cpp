@@ -261,12 +261,19 @@ Prover::Judged Prover::judged(const std::vector<Vec3>& vertices, const prove::Vi
   return judged;
 }
 
+/// Also of a way so short that squares of its coordinates are zero.
+double length_of(const Vec3& way) {
+  constexpr double kSquarable = 1e-140;
+  const double length = way.norm();
+  return length > kSquarable ? length : way.stableNorm();
+}
+
 /// What vertices say of the range and of the front.
 void Prover::look_at_vertices(const Judged& judged, const prove::View& view) {
   for (const Triangle& triangle : judged.front.mesh.triangles) {
     for (const std::uint32_t v : triangle) {
       const Vec3& at = judged.front.mesh.vertices[v];
-      for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
+      for (const Vec3& corner : view.whole) farthest_.see(length_of(at - corner), view.origin + at);
       if (view.all_sides) continue;
       behind_.see(-view.normal.dot(at) - view.unsure_at(at), view.origin + at);
       most_unsure_m_ = std::max(most_unsure_m_, view.unsure_at(at));
