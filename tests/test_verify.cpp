@@ -347,6 +347,15 @@ TEST(Verify, ReportsAMeshWithHoles) {
   EXPECT_EQ(report.points, 0U);
 }
 
+/// A box to stay out of may reach as far as doubles do.
+TEST(Verify, AWideBoxToStayOutOf) {
+  for (const double far : {1e3, 1e155, 1e308}) {
+    Example example = plate_example();
+    example.navigation.keep_out = {Box{{-far, -far, -far}, {far, far, far}}};
+    EXPECT_EQ(example.verify(example.truth).worst_over_cause, "keep_out zone 0") << far;
+  }
+}
+
 TEST(Verify, RefusesBadInput) {
   const Example example = plate_example();
   const auto refused = [&](const std::function<void(Example&, VerifyOptions&)>& change) {

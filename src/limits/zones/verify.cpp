@@ -45,6 +45,7 @@ Box bounds_of(const Zone& zone) {
 /// `on_border`: what to say of points on a side.
 bool contains(const Zone& zone, const Box& bounds, const Vec3& point, bool on_border) {
   if (!(on_border ? within(bounds, point) : strictly_within(bounds, point))) return false;
+  if (zone.is_box) return true;  // it may reach so far that products are not numbers
   const Plan plan = point.head<2>();
   const std::optional<int> outer = turns_round(zone.outer, plan);
   if (!outer) return on_border;
