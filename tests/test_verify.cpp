@@ -356,6 +356,18 @@ TEST(Verify, AWideBoxToStayOutOf) {
   }
 }
 
+/// A height that is as good as none takes nothing from the other one.
+TEST(Verify, AFarHeightAboveGround) {
+  for (const double far : {1e3, 1e18, 1e300}) {
+    Example example = plate_example();
+    example.navigation = {};
+    example.navigation.above_ground = AboveGround{1000, 1000 + far, {}};
+    EXPECT_EQ(example.verify(example.truth).worst_over_cause, "agl min") << far;
+    example.navigation.above_ground = AboveGround{-far, -1, {}};
+    EXPECT_EQ(example.verify(example.truth).worst_over_cause, "agl max") << far;
+  }
+}
+
 TEST(Verify, RefusesBadInput) {
   const Example example = plate_example();
   const auto refused = [&](const std::function<void(Example&, VerifyOptions&)>& change) {

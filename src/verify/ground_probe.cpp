@@ -30,9 +30,6 @@ std::optional<double> height_above(const Vec3& point, const Vec3& a, const Vec3&
 
 GroundProbe::GroundProbe(const AboveGround& limit) : min_m_(limit.min_m), max_m_(limit.max_m), ground_(limit.ground) {
   double largest = std::abs(ground_.plane_z_m);
-  for (const double height : {min_m_, max_m_}) {
-    if (std::isfinite(height)) largest = std::max(largest, std::abs(height));
-  }
   if (ground_.surface) {
     std::vector<Box> boxes;
     for (const Triangle& triangle : ground_.surface->triangles) {
@@ -47,6 +44,12 @@ GroundProbe::GroundProbe(const AboveGround& limit) : min_m_(limit.min_m), max_m_
     index_.emplace(boxes, 2 * largest + 1);
   }
   allowance_m_ = kRoundings * std::numeric_limits<double>::epsilon() * largest;
+}
+
+/// For rounding, at one of the two heights: a far upper one lets nothing be lower than the other one.
+double GroundProbe::allowance_at(double height_m) const {
+  const double of_height = kRoundings * std::numeric_limits<double>::epsilon() * std::abs(height_m);
+  return std::isfinite(height_m) ? std::max(allowance_m_, of_height) : 0;
 }
 
 /// The heights of the point above the pieces of ground there.
@@ -72,14 +75,15 @@ std::optional<GroundProbe::Heights> GroundProbe::heights(const Vec3& point) cons
 std::optional<const char*> GroundProbe::broken_by(const Vec3& point) const {
   const auto above = heights(point);
   if (!above) return "ground edge";
-  if (above->lowest < min_m_ - allowance_m_) return "agl min";
-  if (above->highest > max_m_ + allowance_m_) return "agl max";
+  if (above->lowest < min_m_ - allowance_at(min_m_)) return "agl min";
+  if (above->highest > max_m_ + allowance_at(max_m_)) return "agl max";
   return std::nullopt;
 }
 
 bool GroundProbe::is_outside_band(const Vec3& point) const {
   const auto above = heights(point);
-  return above && (above->highest <= min_m_ + allowance_m_ || above->lowest >= max_m_ - allowance_m_);
+  if (!above) return false;
+  return above->highest <= min_m_ + allowance_at(min_m_) || above->lowest >= max_m_ - allowance_at(max_m_);
 }
 
 }  // namespace vantage::internal::verify

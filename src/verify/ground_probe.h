@@ -26,10 +26,11 @@ class GroundProbe {
     double lowest, highest;
   };
   std::optional<Heights> heights(const Vec3& point) const;
+  double allowance_at(double height_m) const;
 
   double min_m_, max_m_;
   Ground ground_;
-  double allowance_m_ = 0;  ///< for rounding
+  double allowance_m_ = 0;  ///< for rounding of the ground
   Box bounds_;              ///< of the triangles
   std::optional<BoxIndex> index_;
 };
