@@ -19,6 +19,7 @@ namespace vantage {
 namespace {
 
 using testing::append;
+using testing::expect_code;
 using testing::make_box_mesh;
 
 /// A frustum between two rectangles, outward; bit 0, 1, 2 of a vertex's number: x, y, z high.
@@ -345,6 +346,22 @@ TEST(Verify, ReportsAMeshWithHoles) {
   EXPECT_EQ(report.open_edges.count, 3U);
   EXPECT_EQ(report.open_edges.count, find_open_edges(example.truth).count);
   EXPECT_EQ(report.points, 0U);
+}
+
+/// Products of such coordinates are no numbers.
+TEST(Verify, RefusesCoordinatesThatAreTooFar) {
+  const Example example = plate_example();
+  for (const double far : {1.1e9, 1e155, 1e300}) {
+    Example scene = example, target = example, offset = example;
+    scene.scene.mesh.vertices[0].x() = far;
+    target.target = Target::point({far, 0, 0});
+    offset.target.offset_m = far;
+    for (const Example& one : {scene, target, offset}) {
+      expect_code([&] { one.verify(one.truth); }, ErrorCode::coordinate_too_large);
+    }
+    const Mesh volume = make_box_mesh({-1, -1, 20}, {1, 1, far});
+    expect_code([&] { example.verify(volume); }, ErrorCode::coordinate_too_large);
+  }
 }
 
 /// A box to stay out of may reach as far as doubles do.

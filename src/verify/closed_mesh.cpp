@@ -10,6 +10,7 @@
 #include "core/format.h"
 #include "vantage/error.h"
 #include "verify/random.h"
+#include "verify/tolerances.h"
 
 namespace vantage::internal::verify {
 namespace {
@@ -21,6 +22,10 @@ void check_numbers(const Mesh& mesh, const std::string& name) {
   for (const Vec3& vertex : mesh.vertices) {
     if (!vertex.allFinite())
       throw Error(ErrorCode::coordinate_not_finite, "a vertex of the mesh is not finite", name, "write the mesh again");
+    if (vertex.cwiseAbs().maxCoeff() > kFarthestCoordinate) {
+      throw Error(ErrorCode::coordinate_too_large, "a vertex of the mesh is farther than 1e9 m from the origin", name,
+                  "give coordinates in metres");
+    }
   }
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {

@@ -24,6 +24,10 @@ FlatTriangle local_triangle(const Mesh& mesh, std::size_t number, const Vec3& or
                   "a corner of the triangle does not exist or is not finite",
                   "scene triangle " + std::to_string(number), "read the scene again");
     }
+    if (mesh.vertices[index].cwiseAbs().maxCoeff() > kFarthestCoordinate) {
+      throw Error(ErrorCode::coordinate_too_large, "a corner of the triangle is farther than 1e9 m from the origin",
+                  "scene triangle " + std::to_string(number), "give coordinates in metres");
+    }
     corners[i] = mesh.vertices[index] - origin;
   }
   return {corners[0], corners[1], corners[2]};

@@ -10,6 +10,9 @@ namespace vantage::internal::verify {
 /// In radians.
 inline constexpr double kDegree = std::numbers::pi / 180;
 
+/// Metres. Farther coordinates are refused: their products are no numbers, and neither are those that Embree makes.
+inline constexpr double kFarthestCoordinate = 1e9;
+
 /// Unit roundoff of a double.
 inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 

@@ -350,12 +350,26 @@ void check_arguments(const VerifyOptions& options) {
   require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
 }
 
+void check_place(const Target& target) {
+  const double most = internal::verify::kFarthestCoordinate;
+  double largest = std::abs(target.offset_m);
+  for (const std::vector<Vec3>& part : target.parts) {
+    for (const Vec3& vertex : part) {
+      if (vertex.allFinite()) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+    }
+  }
+  if (!(largest > most) || !std::isfinite(largest)) return;  // what is not finite has an error of its own
+  throw Error(ErrorCode::coordinate_too_large, "the target lies farther than 1e9 m from the origin",
+              "target '" + target.name + "'", "give coordinates in metres");
+}
+
 /// The parts, each raised as it was for the volume, but by no more than its surface needs: what lies higher hides it.
 /// `lift_m` is what was stated, and then what is believed.
 std::vector<Target> raised_parts(const Scene& scene, const Target& target, double range_m, std::vector<double>& lift_m,
                                  const Progress& progress) {
   if (target.parts.empty())
     throw Error(ErrorCode::target_parts_invalid, "the target has no parts", "verify", "give one or more");
+  check_place(target);
   if (!lift_m.empty() && lift_m.size() != target.parts.size()) {
     throw Error(ErrorCode::array_sizes_differ,
                 "there are " + std::to_string(lift_m.size()) + " lifts for " + std::to_string(target.parts.size()) +
