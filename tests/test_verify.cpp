@@ -348,6 +348,16 @@ TEST(Verify, ReportsAMeshWithHoles) {
   EXPECT_EQ(report.points, 0U);
 }
 
+/// However far away the target is, what is out of range may be no deeper inside than what is in range.
+TEST(Verify, ATargetFarOutOfRange) {
+  Example example = plate_example();
+  example.target = Target::point({1e9, 0, 0});
+  example.navigation = {};
+  const VerifyReport report = example.verify(make_box_mesh({-1, -1, 20}, {1, 1, 30}));
+  EXPECT_GT(report.over_claimed, 0U);
+  EXPECT_EQ(report.worst_over_cause, "max_range");
+}
+
 /// Products of such coordinates are no numbers.
 TEST(Verify, RefusesCoordinatesThatAreTooFar) {
   const Example example = plate_example();

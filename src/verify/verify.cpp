@@ -159,9 +159,10 @@ bool Check::in_front(const Vec3& position, double margin_m) const {
   return true;
 }
 
-/// How deep on the wrong side of the surface a position may lie.
+/// How deep on the wrong side of the surface a position may lie: one that is out of range no deeper than others.
 double Check::allowed_m(const Vec3& position) const {
-  return options_.depth_tolerance * (position - view_.centre()).norm() + options_.rounding_m;
+  const double distance = std::min((position - view_.centre()).norm(), sensor_.range());
+  return options_.depth_tolerance * distance + options_.rounding_m;
 }
 
 /// `position` in the frame of the part that was turned to.
