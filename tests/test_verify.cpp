@@ -348,6 +348,15 @@ TEST(Verify, ReportsAMeshWithHoles) {
   EXPECT_EQ(report.points, 0U);
 }
 
+/// Of a needle no point is tried: nothing is known of it then.
+TEST(Verify, AVolumeWithoutAPointInsideIsNotRight) {
+  Example example = plate_example();
+  const VerifyReport report = example.verify(make_box_mesh({0, 0, 20}, {1e-20, 1e-20, 30}));
+  EXPECT_TRUE(report.is_solid());
+  EXPECT_EQ(report.inside, 0U);
+  EXPECT_FALSE(report.is_right());
+}
+
 /// However far away the target is, what is out of range may be no deeper inside than what is in range.
 TEST(Verify, ATargetFarOutOfRange) {
   Example example = plate_example();

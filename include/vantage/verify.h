@@ -63,20 +63,20 @@ struct VerifyReport {
                                       ///< the file's rounding
 
   bool is_solid() const { return closed && oriented && flat_facets == 0; }
-  bool is_right() const { return over_claimed == 0 && is_solid(); }
+  bool is_right() const { return over_claimed == 0 && inside > 0 && is_solid(); }
 };
 
 /// Checks `volume` (any mesh, scene frame) against the scene by shadow rays to the target's vertices, edges and
 /// interior, and to where scene geometry reaches between the viewpoint and the target. Grazing is allowed: a hit closer
 /// to a triangle's border than 1e-9 of its size does not count. Hits lower than 1 mm over the target itself count as
-/// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented
-/// surface for whoever reads it; see docs/verification.md. Of a mesh with holes, which has no inside, only that is
-/// reported. What is claimed must see every part of the target whole, and
-/// what is not must miss some of one. Where the sensor has a VisibleShare, what is claimed must see that part of the
-/// area: the shadows of the scene's triangles are cut out of it. The limits of the sensor are judged by their
-/// definitions in vantage/sensor.h, with code of its own: a camera is put at the viewpoint, and its orientations are
-/// searched. Depths are told by the distance to the first part's centre. The parts are looked at one after the other,
-/// so that memory is that of one.
+/// the surface that it lies on. A volume is right when nothing is over-claimed of the viewpoints inside it, of which
+/// there must be some, and its mesh is a closed, oriented surface for whoever reads it; see docs/verification.md. Of a
+/// mesh with holes, which has no inside, only that is reported. What is claimed must see every part of the target
+/// whole, and what is not must miss some of one. Where the sensor has a VisibleShare, what is claimed must see that
+/// part of the area: the shadows of the scene's triangles are cut out of it. The limits of the sensor are judged by
+/// their definitions in vantage/sensor.h, with code of its own: a camera is put at the viewpoint, and its orientations
+/// are searched. Depths are told by the distance to the first part's centre. The parts are looked at one after the
+/// other, so that memory is that of one.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
 /// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh without triangles, with

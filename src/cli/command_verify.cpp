@@ -73,6 +73,12 @@ void add_proof(TextTable& table, const Proof& proof) {
   for (const ClaimProof& claim : proof.report->claims) table.row(claim.name, name_of(claim.verdict), claim.text);
 }
 
+const char* conclusion_of(const VerifyReport& report, const Proof& proof) {
+  if (!report.is_solid()) return "WRONG: the mesh is not a closed solid";
+  if (proof.is_wrong() || report.over_claimed > 0) return "WRONG: the volume over-claims";
+  return report.is_right() ? "nothing wrong was found" : "NOT CHECKED: no point that was tried lies inside the volume";
+}
+
 std::string table_text(const VerifyReport& report, const Proof& proof, const std::string& file) {
   const OpenEdges& holes = report.open_edges;
   TextTable table;
@@ -123,9 +129,7 @@ std::string table_text(const VerifyReport& report, const Proof& proof, const std
     table.row("bound's points", count(report.bound_points),
               "spread evenly over the volume: the bound counts these alone, not those near the surface");
   }
-  table.heading(report.is_right() && !proof.is_wrong()
-                    ? "nothing wrong was found"
-                    : (report.is_solid() ? "WRONG: the volume over-claims" : "WRONG: the mesh is not a closed solid"));
+  table.heading(conclusion_of(report, proof));
   return table.text();
 }
 
