@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "geo/on_globe.h"
 #include "io/antimeridian.h"
-#include "io/on_globe.h"
 #include "support/random.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
@@ -24,10 +24,10 @@
 namespace vantage::testing {
 namespace {
 
+using internal::geo::OnGlobe;
 using internal::io::cut_at_antimeridian;
 using internal::io::GlobeCorner;
 using internal::io::GlobePolygon;
-using internal::io::OnGlobe;
 using nlohmann::json;
 using Ring = std::vector<Vec3>;
 

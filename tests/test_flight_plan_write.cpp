@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geo/ellipsoid.h"
-#include "io/on_globe.h"
+#include "geo/on_globe.h"
 #include "io/write_zip.h"
 #include "io/zip.h"
 #include "support/internals.h"
@@ -77,8 +77,8 @@ LocatedPlan read_back(const FlightOut& out, PlanFormat format, FlightPlan* read 
   options.levels = out.levels;
   if (out.home) options.home_z_m = out.home->z();
   if (out.home && out.georeference &&
-      internal::io::OnGlobe(*out.georeference).is_cartesian()) {  // z alone does not say how high that is
-    const auto place = internal::io::OnGlobe(*out.georeference).to_geodetic(*out.home).place;
+      internal::geo::OnGlobe(*out.georeference).is_cartesian()) {  // z alone does not say how high that is
+    const auto place = internal::geo::OnGlobe(*out.georeference).to_geodetic(*out.home).place;
     options.home = Eigen::Vector2d(place.longitude_deg, place.latitude_deg);
   }
   return locate_flight(plan, options);
@@ -168,7 +168,7 @@ TEST(WriteFlightPlan, LevelLegsInScenesOfTilesetsAreCut) {
   FlightOut out = flight_out();
   on_earth(out);
   out.heights = HeightDatum::ellipsoid;
-  const internal::io::OnGlobe globe(*out.georeference);
+  const internal::geo::OnGlobe globe(*out.georeference);
   for (const double longitude : {11.56, 11.62}) {
     out.flight.points.push_back({globe.to_scene({{longitude, 48.1374}, 300}), 0, 8});
   }
@@ -188,7 +188,7 @@ TEST(WriteFlightPlan, ClimbsInScenesOfTilesetsAreCut) {
     FlightOut out = flight_out();
     on_earth(out);
     out.heights = HeightDatum::ellipsoid;
-    const internal::io::OnGlobe globe(*out.georeference);
+    const internal::geo::OnGlobe globe(*out.georeference);
     const auto on_leg = [&](double share) {
       return globe.to_scene({{11.5755, 48.1374 + 0.0044 * share}, 100 + climb * share});  // 489 m
     };

@@ -14,7 +14,9 @@ namespace vantage {
 /// The scene frame of a scene that has a place on the earth: x east, y north, z up, in metres, from an origin in
 /// WGS 84. x and y are the azimuthal equidistant projection of the WGS 84 ellipsoid about the origin (Snyder, "Map
 /// projections: a working manual", 1987, chapter 25; EPSG method 9832): distances and directions from the origin are
-/// those on the ellipsoid, and between points within 2 km of it distances are right to 0.1 mm. See docs/scene.md.
+/// those on the ellipsoid, and between points within 2 km of it distances are right to 0.1 mm. See docs/scene.md. But
+/// a scene that was read from a tileset on the earth has another frame: see is_map in earth.h. Places without a height
+/// are then at z = 0 of it.
 struct Georeference {
   double latitude_deg = 0;   ///< of the origin; WGS 84, -90 to 90
   double longitude_deg = 0;  ///< of the origin; WGS 84, -180 to 180
@@ -60,7 +62,9 @@ VANTAGE_API std::vector<Eigen::Vector2d> positions_in_crs(const Georeference& ge
 /// scene_positions does. Cost: up to 50 ms.
 VANTAGE_API double vertical_unit_m(const std::string& crs);
 
-/// PROJ's words for the horizontal part: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs".
+/// PROJ's words for the map about the origin: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs". If the
+/// frame is not that map (is_map), no projection says where it is: h metres above the ellipsoid and d metres from the
+/// origin they are h * d / R apart, 3 cm for 100 m and 2 km.
 VANTAGE_API std::string projection_text(const Georeference& georeference);
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include "vantage/devices.h"
 #include "vantage/dubins.h"
 #include "vantage/each_limit.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/flight.h"

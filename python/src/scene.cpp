@@ -15,6 +15,7 @@
 #include "calls.h"
 #include "common/json.h"
 #include "places.h"
+#include "vantage/earth.h"
 #include "vantage/geometry.h"
 #include "vantage/volume.h"
 
@@ -65,8 +66,7 @@ std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray
   loaded.scene.object_of.assign(object_of.data(), object_of.data() + object_of.shape(0));
   loaded.scene.objects = objects_of(objects);
   if (place) {
-    loaded.scene.georeference =
-        Georeference{std::get<0>(*place), std::get<1>(*place), std::get<2>(*place), std::get<3>(*place)};
+    loaded.scene.georeference = place_of(*place);
   }
   loaded.scene.attribution = attribution;
   if (auto& known = loaded.scene.georeference) known->attribution = attribution_of(loaded.scene);  // for files
@@ -141,16 +141,11 @@ void bind_scene(nb::module_& module) {
   });
   module.def(
       "scene_position",
-      [](const PyScene& s, double latitude_deg, double longitude_deg) {
-        const auto& place = s.scene().georeference;
-        if (!place) {
-          throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", "",
-                      "use positions in the scene's frame, or give the scene an origin");
-        }
-        const Eigen::Vector2d at = scene_position(*place, longitude_deg, latitude_deg);
+      [](const PyScene& s, double latitude_deg, double longitude_deg, double z_m) {
+        const Eigen::Vector2d at = scene_position(place_of(s.scene()), longitude_deg, latitude_deg, z_m);
         return std::tuple(at.x(), at.y());
       },
-      "scene"_a, "latitude_deg"_a, "longitude_deg"_a);
+      "scene"_a, "latitude_deg"_a, "longitude_deg"_a, "z_m"_a = 0.0);
   module.def(
       "seems_swapped",
       [](const PyScene& s, double latitude_deg, double longitude_deg) {

@@ -312,7 +312,7 @@ def test_positions_that_cannot_be_converted():
     scene = vt.Scene.from_arrays([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]], georeference=PLACE)
     assert scene.positions([], 4326).shape == (0, 2) and scene.positions([-73.9857, 40.7484], 4326).shape == (1, 2)
     lost = vt.Scene.from_arrays(scene.vertices, scene.faces)
-    for of, points, crs, code in ((scene, [[0, 0]], 4326, "too-far-away"), (scene, [[0, 0, 0]], 4326, "array-sizes-differ"),
+    for of, points, crs, code in ((scene, [[0, 0]], 4326, "too-far-away"), (scene, [[0, 0, 0, 0]], 4326, "array-sizes-differ"),
                                   (scene, [[0, np.nan]], 4326, "coordinate-not-finite"), (scene, [[0, 0]], 99999, "crs-unknown"),
                                   (lost, [[0, 0]], 4326, "not-georeferenced")):
         with pytest.raises(vt.Error) as raised:

@@ -77,12 +77,14 @@ def points(values: Any, name: str = "points") -> Points:
     return array
 
 
-def plan(values: Any, name: str = "points") -> Points:
-    """An (n, 2) float64 array of finite coordinates; a single point becomes one row."""
+def plan_or_points(values: Any, name: str = "points") -> Points:
+    """An (n, 2) or (n, 3) float64 array of finite coordinates; a single point becomes one row."""
     array = numbers(values, name)
-    array = array.reshape(0, 2) if array.size == 0 else np.atleast_2d(array)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise input_error("array-sizes-differ", f"{name} has the shape {array.shape}", name, "pass (n, 2): x, y")
+    if array.size == 0:
+        array = array.reshape(0, array.shape[1] if array.ndim == 2 and array.shape[1] == 3 else 2)
+    array = np.atleast_2d(array)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise input_error("array-sizes-differ", f"{name} has the shape {array.shape}", name, "pass (n, 2): x, y; or (n, 3)")
     bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
     if bad.size:
         raise input_error("coordinate-not-finite", f"{name}[{bad[0]}] is {array[bad[0]].tolist()}", name,

@@ -240,7 +240,7 @@ class FlightCheck:
             rows.append({"target": target, "state": state, "what": what, "begin_m": span.begin_m, "end_m": span.end_m,
                          "begin_s": span.begin_s, "end_s": span.end_s})
             lines.append(line_of(self.flight.between(span.begin_m, span.end_m)))
-        return table_of(rows, lines, self.mission.scene.crs,
+        return table_of(rows, lines, self.mission.scene._map,
                         ("target", "state", "what", "begin_m", "end_m", "begin_s", "end_s"))
 
     def _stretches(self) -> list[tuple[str, str, str, Span]]:

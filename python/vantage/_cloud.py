@@ -215,7 +215,7 @@ def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any,
             text = crs_text(named)
             latitude, longitude = _place_of(reader.header, text, origin)
             unit_m = z_unit(text, z_unit_m, keys, crs is not None)
-            parts = (np.column_stack([_core.from_crs(latitude, longitude, text, np.ascontiguousarray(points[:, :2])),
+            parts = (np.column_stack([_core.plan_from_crs(Georeference(latitude, longitude), text, np.ascontiguousarray(points[:, :2])),
                                       points[:, 2] * unit_m]) for points in _chunks(reader, left_out))
             vertices, faces = solid_of(parts, cell_m)
             return Cloud(vertices, faces, Georeference(latitude, longitude, "", text if len(text) <= 40 else "WKT"))

@@ -14,6 +14,7 @@ from ._checks import choice, flag, not_called, path as checked_path, shown, text
 from ._errors import input_error, not_pickled
 from ._extras import require
 from ._mesh import Note
+from ._place import FrameMap, crs_of
 from ._progress import Progress
 from ._requests import Path
 from ._result import Mission, Result
@@ -37,10 +38,11 @@ class Flight:
         array([ 40., -10.,  45.])
     """
 
-    def __init__(self, core: _core.Flight, crs: str | None = None):
+    def __init__(self, core: _core.Flight, frame: FrameMap | None = None):
         not_called(core, _core.Flight, "vt.Flight", "make one with vt.Flight.of, or read a plan with vt.Flight.read")
         self._core = core
-        self.crs = crs
+        self._map = frame
+        self.crs = crs_of(frame)
         """of x and y: the scene's frame in PROJ's words; None where its place is not known"""
 
     @classmethod
@@ -92,7 +94,7 @@ class Flight:
             None if heights is None else choice(heights, "heights", HEIGHTS), _number(height_m, "height_m"),
             _number(return_height_m, "return_height_m"), _number(loiter_radius_m, "loiter_radius_m"),
             flag(ground_legs, "ground_legs"), progress))
-        return cls(core, of.scene.crs)
+        return cls(core, of.scene._map)
 
     @property
     def positions(self) -> _arrays.Points:
@@ -152,7 +154,7 @@ class Flight:
         rows = [{"leg": i, "begin_m": along[i], "end_m": along[i + 1], "speed_m_s": speeds[i + 1], "hold_s": holds[i + 1]}
                 for i in range(len(self) - 1)]
         lines = [line_of(self.positions[i:i + 2]) for i in range(len(self) - 1)]
-        return table_of(rows, lines, self.crs, ("leg", "begin_m", "end_m", "speed_m_s", "hold_s"))
+        return table_of(rows, lines, self._map, ("leg", "begin_m", "end_m", "speed_m_s", "hold_s"))
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -234,6 +236,9 @@ def line_of(points: Numbers) -> Any:
     return shapely.Point(points[0]) if len(points) == 1 or not np.any(np.ptp(points, axis=0)) else shapely.LineString(points)
 
 
-def table_of(rows: list[dict[str, Any]], geometry: list[Any], crs: str | None, columns: tuple[str, ...]) -> Any:
-    """A GeoDataFrame, also of no rows."""
+def table_of(rows: list[dict[str, Any]], geometry: list[Any], frame: FrameMap | None, columns: tuple[str, ...]) -> Any:
+    """A GeoDataFrame, also of no rows, of geometries of a scene's frame on its map."""
+    crs = crs_of(frame)
+    if frame is not None:
+        geometry = frame.on_map(geometry)
     return require("geopandas", "geo").GeoDataFrame(rows, columns=[*columns], geometry=geometry, crs=crs)

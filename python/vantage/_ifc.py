@@ -210,7 +210,7 @@ def _in_frame(vertices: Numbers, file: Any, conversion: Any, crs: Any) -> tuple[
     placed = _on_map(vertices, conversion, unit_m, _map_unit_m(text, conversion.TargetCRS.MapUnit))
     middle = (placed[:, :2].min(axis=0) + placed[:, :2].max(axis=0)) / 2
     longitude, latitude = _degrees(middle, text)
-    flat = _core.from_crs(latitude, longitude, text, np.ascontiguousarray(placed[:, :2]))
+    flat = _core.plan_from_crs(Georeference(latitude, longitude), text, np.ascontiguousarray(placed[:, :2]))
     vertical = conversion.TargetCRS.VerticalDatum or ""
     return np.column_stack([flat, placed[:, 2]]), Georeference(latitude, longitude, str(vertical), text[:40])
 

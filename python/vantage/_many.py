@@ -226,11 +226,9 @@ def _stand_in(scene: Scene, request: dict[str, Any]) -> Target:
     place = scene.georeference
     if place is not None and isinstance(request["crs"], str):
         try:
-            plan = _core.to_crs(place.latitude_deg, place.longitude_deg, request["crs"], np.ascontiguousarray(corners[:, :2]))
+            corners = _core.to_crs(place, request["crs"], corners)
         except Error:
             pass  # no CRS: the check says so
-        else:
-            corners = np.column_stack([plan, corners[:, 2]])
     return Target(point=corners[0]) if {"vlos", "link"} & set(keys) else Target(vertices=corners)
 
 

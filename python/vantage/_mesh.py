@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._extras import require
 from ._objects import KINDS
-from ._place import Georeference
+from ._place import FrameMap, Georeference, crs_of
 from ._slice import Slice
 
 if TYPE_CHECKING:
@@ -72,8 +72,14 @@ class Triangles:
 
     @property
     def crs(self) -> str | None:
-        """The frame's x and y as a coordinate reference system, in PROJ's words; None where its place is not known."""
-        return self._triangles.projection
+        """The frame's x and y as a coordinate reference system, in PROJ's words; None where its place is not known. The frame of
+        a scene of 3D Tiles is no map: then this is the map about its origin, which differs by some centimetres."""
+        return crs_of(self._map)
+
+    @property
+    def _map(self) -> FrameMap | None:
+        place, text = self.georeference, self._triangles.projection
+        return None if place is None or text is None else FrameMap(text, place)
 
 
 class Solid(Triangles):
@@ -183,7 +189,7 @@ class Solid(Triangles):
         surface_m2, footprint_m2, min_z_m, max_z_m."""
         footprint = self.footprint()
         row = {**self._row(), "footprint_m2": footprint.area_m2}
-        return require("geopandas", "geo").GeoDataFrame([row], geometry=[footprint.to_shapely()], crs=self.crs)
+        return require("geopandas", "geo").GeoDataFrame([row], geometry=[footprint._on_map().to_shapely()], crs=self.crs)
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """For trimesh, with the facets' causes as face_attributes["cause"]."""

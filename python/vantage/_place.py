@@ -6,7 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import _core
 from ._errors import Error, input_error
+from ._extras import require
 
 WGS84 = "OGC:CRS84"
 """Longitude and latitude in degrees, in this order."""
@@ -21,6 +23,28 @@ class Georeference(NamedTuple):
     """what z is measured from: "flat ground", "EGM96 geoid", ..."""
     source_crs: str = ""
     """of the file it came from"""
+
+
+class FrameMap(NamedTuple):
+    """The map about a scene's origin: the scene's frame, but for scenes of 3D Tiles, whose frame is no map."""
+
+    crs: str
+    """in PROJ's words"""
+    place: Georeference
+
+    def on_map(self, geometries: list[Any]) -> list[Any]:
+        """Shapes of shapely with z in the scene's frame where the map has them; in scenes of 3D Tiles z becomes the height above
+        the WGS 84 ellipsoid."""
+        if not geometries or _core.is_map(self.place):
+            return geometries
+        transform = require("shapely", "geo").transform
+        return [transform(one, lambda points: _core.to_crs(self.place, self.crs, np.ascontiguousarray(points)), include_z=True)
+                for one in geometries]
+
+
+def crs_of(frame: FrameMap | None) -> str | None:
+    """In PROJ's words; None where the place is not known."""
+    return None if frame is None else frame.crs
 
 
 def crs_text(crs: Any) -> str:

@@ -50,7 +50,7 @@ class Region:
         if not isinstance(of, (Result, Volume, Error)):
             raise input_error("wrong-type", f"{name} is a {type(of).__name__}", name, "pass vt.Result or vt.Volume")
         self.mission = of.mission if isinstance(of, Result) else None
-        self.crs = None if isinstance(of, Error) else of.crs
+        self.frame = None if isinstance(of, Error) else of._map
         self.inner = Solid(_core_of(of))
         size = 0.0 if self.inner.is_empty else float(np.linalg.norm(self.inner.high - self.inner.low))
         self.least_depth_m = max(_LEAST_DEPTH * size, self.inner.rounding_m)

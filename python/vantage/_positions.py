@@ -17,6 +17,7 @@ from ._cover import Clock, cp_model, least_cover, most_apart
 from ._errors import Error, input_error
 from ._extras import require
 from ._flight import table_of
+from ._place import FrameMap, crs_of
 from ._position_search import PositionSearch, ProgressReporter, Region
 from ._progress import Progress, listener
 from ._render import html
@@ -80,6 +81,7 @@ class Positions:
     notes: list[str]
     views: list[PositionView] = dataclasses.field(default_factory=list)
     crs: str | None = None
+    _map: FrameMap | None = dataclasses.field(repr=False, default=None)
 
     def to_dict(self) -> dict[str, Any]:
         """The answer in plain lists and numbers, with the `views` by their names."""
@@ -95,7 +97,7 @@ class Positions:
         rows = [{name: float("nan") if value is None and name not in ("obstacle", "is_centred") else value
                  for name, value in _row(view).items()} for view in self.views]
         points = [require("shapely", "geo").Point(view.x, view.y, view.z) for view in self.views]
-        return table_of(rows, points, self.crs, _COLUMNS)
+        return table_of(rows, points, self._map, _COLUMNS)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -342,9 +344,10 @@ def _answer(search: PositionSearch, points: list[Numbers], numbers: list[int], c
         if assigned[number] >= 0:
             depth_m[assigned[number]] = min(depth_m[assigned[number]], depths[row][assigned[number]])
     sees = [[numbers[row] for row in np.flatnonzero(held[:, k])] for k in range(len(positions))]
+    frame = _map(search)
     return Positions(positions, sees, assigned, depth_m, 0, [], 0, np.flatnonzero(assigned < 0).tolist(),
                      float(len(positions)), False, [], _views(search, positions, held, depths, numbers),
-                     _crs(search))
+                     crs_of(frame), frame)
 
 
 def _views(search: PositionSearch, positions: _arrays.Points, held: Any, depths: Numbers,
@@ -366,7 +369,7 @@ def _views(search: PositionSearch, positions: _arrays.Points, held: Any, depths:
     return sorted(views, key=lambda view: (view.position, view.target))
 
 
-def _crs(search: PositionSearch) -> str | None:
+def _map(search: PositionSearch) -> FrameMap | None:
     """Of all regions; None where they are of different places."""
-    known = {region.crs for region in search.regions}
+    known = {region.frame for region in search.regions}
     return known.pop() if len(known) == 1 else None

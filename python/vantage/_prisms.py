@@ -139,8 +139,7 @@ def _in_frame(polygons: Any, crs: Any, place: Georeference | None) -> Any:
     unit = 1 / _METRES_PER_DEGREE if crs.is_geographic else 1 / crs.axis_info[0].unit_conversion_factor
     polygons = shapely.segmentize(polygons, _SIDE_M * unit)
     text = crs_text(crs)
-    return shapely.transform(polygons, lambda corners: _core.from_crs(
-        place.latitude_deg, place.longitude_deg, text, np.ascontiguousarray(corners)))
+    return shapely.transform(polygons, lambda corners: _core.plan_from_crs(place, text, np.ascontiguousarray(corners)))
 
 
 def _triangles(polygon: Any) -> tuple[Numbers, npt.NDArray[np.int64]]:

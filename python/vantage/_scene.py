@@ -424,13 +424,14 @@ class Scene(Triangles):
         """What was read, and what became of it: as `vantage inspect --json` prints it."""
         return json.loads(self._core.report())
 
-    def position(self, latitude: float, longitude: float) -> tuple[float, float]:
-        """x and y of a place on the earth (WGS 84, degrees).
+    def position(self, latitude: float, longitude: float, z: float = 0.0) -> tuple[float, float]:
+        """x and y of a place on the earth (WGS 84, degrees). In scenes of 3D Tiles they depend on `z` of the scene's frame:
+        those of the point at this z that lies at, above or below the place.
 
         Warns of a place outside of the scene that would lie inside with latitude and longitude the other way round.
         """
         north, east = _arrays.number(latitude, "latitude"), _arrays.number(longitude, "longitude")
-        at = _core.scene_position(self._core, north, east)
+        at = _core.scene_position(self._core, north, east, _arrays.number(z, "z"))
         if _core.seems_swapped(self._core, north, east):
             warnings.warn(f"latitude {north} and longitude {east} seem to be swapped: the place lies outside of the scene, and "
                           "inside with them the other way round", stacklevel=2)
@@ -440,11 +441,13 @@ class Scene(Triangles):
         """x and y of places in any CRS: converted as a mesh in this CRS is, by the same operation of PROJ.
 
         Args:
-            points: (n, 2), in the CRS's unit: east and north, or longitude and latitude in degrees, in this order.
+            points: (n, 2), in the CRS's unit: east and north, or longitude and latitude in degrees, in this order; or (n, 3)
+                with heights above the zero of the scene's heights, in metres or the unit of the CRS's vertical axis. In scenes
+                of 3D Tiles heights are above the WGS 84 ellipsoid, and points without are at z = 0.
             crs: 32618, "EPSG:32618", a PROJ or WKT text, or a pyproj.CRS.
 
         Returns:
-            (n, 2) float64, metres in the scene's frame, read-only.
+            (n, 2) or (n, 3) float64, metres in the scene's frame, read-only.
 
         Raises:
             Error: there is no such CRS, a place is more than 100 km from the scene's origin, or it is not known where on the
@@ -459,12 +462,15 @@ class Scene(Triangles):
             111.19
         """
         place = self._placed()
-        return _core.from_crs(place.latitude_deg, place.longitude_deg, crs_text(crs), _arrays.plan(points))
+        given = _arrays.plan_or_points(points)
+        return (_core.plan_from_crs if given.shape[1] == 2 else _core.from_crs)(place, crs_text(crs), given)
 
     def positions_in_crs(self, points: npt.ArrayLike, crs: Any) -> npt.NDArray[np.float64]:
-        """The other way round: x and y of the scene's frame, (n, 2) metres, in a CRS. As `Slice.to_crs` does."""
+        """The other way round: x and y of the scene's frame, (n, 2) metres, or (n, 3) with z, in a CRS. As `Slice.to_crs` does.
+        Heights are metres above the zero of the scene's heights."""
         place = self._placed()
-        return _core.to_crs(place.latitude_deg, place.longitude_deg, crs_text(crs), _arrays.plan(points))
+        given = _arrays.plan_or_points(points)
+        return (_core.plan_to_crs if given.shape[1] == 2 else _core.to_crs)(place, crs_text(crs), given)
 
     def _placed(self) -> Georeference:
         if self.georeference is None:

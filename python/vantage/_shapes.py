@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Protocol, Union
 
@@ -147,14 +146,13 @@ def _mover(of_table: Any, scene: Scene | None, crs: str | None, name: str) -> Ca
         raise no_place(name, "give the scene an origin or a crs; or, for metres of its frame, take the CRS of the table "
                              f"away: {name}.set_crs(None, allow_override=True)")
     text = crs_text(of_table)
-    latitude, longitude = place.latitude_deg, place.longitude_deg
-
-    unit_m = functools.cache(lambda: _core.vertical_unit_m(text))
+    assert scene is not None
+    core = scene._core
 
     def moved(corners: Any) -> list[list[float]]:
-        given = np.asarray(corners, np.float64)
-        plan = _core.from_crs(latitude, longitude, text, np.ascontiguousarray(given[:, :2]))
-        return plan.tolist() if given.shape[1] == 2 else np.column_stack([plan, given[:, 2] * unit_m()]).tolist()
+        given = np.ascontiguousarray(corners, np.float64)
+        placed = _core.from_crs_on_ground(core, text, given) if given.shape[1] == 2 else _core.from_crs(place, text, given)
+        return placed.tolist()
 
     def move(target: Target) -> Target:
         if target.vertices is not None:

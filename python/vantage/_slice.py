@@ -30,7 +30,8 @@ class Slice:
         polygons: for each polygon its rings, (n, 2) float64 arrays, read-only: the outer one counter-clockwise, then its
             holes clockwise. The first corner is not repeated. The largest polygon comes first.
         z_m: the height, metres in the scene's frame; None of a footprint.
-        crs: of the coordinates: the scene's frame in PROJ's words, or that of `to_crs`. None where it is not known.
+        crs: of the coordinates: the scene's frame in PROJ's words, or that of `to_crs`. None where it is not known. The frame of
+            a scene of 3D Tiles is no map: of its slices it is the map nearest to it, into which tables and files are converted.
         area_m2: square metres in the scene's frame, whatever the CRS.
 
     Example:
@@ -46,12 +47,13 @@ class Slice:
     """
 
     def __init__(self, polygons: Sequence[Polygon], z_m: float | None = None, georeference: Georeference | None = None,
-                 crs: str | None = None, frame: Slice | None = None):
+                 crs: str | None = None, frame: Slice | None = None, heights: list[list[Ring]] | None = None):
         self.polygons: list[list[Ring]] = [list(rings) for rings in polygons]
         self.z_m = z_m
         self.crs = crs
         self.georeference = georeference
         self._frame = frame  # the slice that this one was moved from
+        self._heights = heights  # of the corners, where they differ from z_m
         self.area_m2: float = frame.area_m2 if frame is not None else float(sum(
             _area(ring) for rings in self.polygons for ring in rings))
 
@@ -64,8 +66,9 @@ class Slice:
         """The same with its corners in another CRS: east and north, or longitude and latitude in degrees, in this order.
 
         Sides stay straight between their corners: of a side of 300 m at 60 degrees of latitude no point is off by more than
-        0.1 mm in UTM, and 4 mm in degrees; four times that for 600 m. Heights stay those of the scene's frame. Across the
-        antimeridian longitudes go on beyond 180 degrees.
+        0.1 mm in UTM, and 4 mm in degrees; four times that for 600 m. Across the antimeridian longitudes go on beyond 180
+        degrees. Heights stay those of the scene's frame. In scenes of 3D Tiles each corner is converted with its height
+        (`height_range_m`); a footprint, which has none, as if it was at z = 0.
 
         Args:
             crs: 32618, "EPSG:32618", a PROJ or WKT text, or a pyproj.CRS.
@@ -78,9 +81,38 @@ class Slice:
         place = frame.georeference
         if place is None:
             raise no_place("crs", "take a scene with a place: a map, a file with a CRS, or from_arrays with a Georeference")
-        moved = [[_core.to_crs(place.latitude_deg, place.longitude_deg, text, ring) for ring in rings]
-                 for rings in frame.polygons]
-        return Slice(_whole(moved, frame.polygons, place, text), self.z_m, place, text, frame)
+        points = [[_core.to_crs(place, text, _at(ring, frame.z_m or 0.0)) for ring in rings] for rings in frame.polygons]
+        moved = [[_plan(ring) for ring in rings] for rings in points]
+        heights = None if self.z_m is None or _core.is_map(place) else [[ring[:, 2] for ring in rings] for rings in points]
+        return Slice(_whole(moved, frame.polygons, place, text), self.z_m, place, text, frame, heights)
+
+    @property
+    def height_range_m(self) -> tuple[float, float] | None:
+        """The lowest and the highest of its corners above the zero of the scene's heights: `z_m` twice, but in scenes of 3D Tiles
+        above the WGS 84 ellipsoid, which curves away from the plane of the slice: by d * d / 2R, 0.3 m at 2 km from the origin.
+        None of a footprint, and of what is empty."""
+        frame = self._frame or self
+        if self.z_m is None or self.empty:
+            return None
+        if frame.georeference is None or _core.is_map(frame.georeference):
+            return self.z_m, self.z_m
+        place = frame.georeference
+        heights = np.concatenate([_core.to_crs(place, WGS84, _at(rings[0], self.z_m))[:, 2] for rings in frame.polygons])
+        return float(heights.min()), float(heights.max())
+
+    def _on_map(self) -> Slice:
+        """With its corners where its CRS has them."""
+        is_moved = self._frame is not None or self.crs is None
+        return self if is_moved or self.georeference is None or _core.is_map(self.georeference) else self.to_crs(self.crs)
+
+    def _numbers(self) -> dict[str, Any]:
+        """What tables and files say of it."""
+        told = {"z_m": self.z_m, "area_m2": self.area_m2}
+        place = (self._frame or self).georeference
+        if self.z_m is None or place is None or _core.is_map(place):
+            return told
+        low, high = self.height_range_m or (None, None)
+        return {**told, "height_min_m": low, "height_max_m": high}
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
@@ -90,22 +122,34 @@ class Slice:
 
     def to_shapely(self) -> Any:
         """A valid shapely.MultiPolygon: where rounding has made rings cross, they are mended."""
+        return self._shape(self.polygons)
+
+    def _with_heights(self) -> Any:
+        """Likewise with z: the height above the zero of the scene's heights."""
+        if self._heights is None:
+            return require("shapely", "geo").force_3d(self.to_shapely(), self.z_m)
+        return self._shape([[np.column_stack(pair) for pair in zip(*both)] for both in zip(self.polygons, self._heights)])
+
+    @staticmethod
+    def _shape(polygons: Sequence[Polygon]) -> Any:
         shapely = require("shapely", "geo")
-        whole = shapely.MultiPolygon([shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons])
+        whole = shapely.MultiPolygon([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
         if not whole.is_valid:
             whole = shapely.make_valid(whole)
         flat = [part for part in shapely.get_parts(shapely.get_parts(whole)) if part.geom_type == "Polygon"]
         return shapely.MultiPolygon(flat)
 
     def to_geodataframe(self) -> Any:
-        """A geopandas.GeoDataFrame with its CRS: one row, with z_m and area_m2."""
-        row = {"z_m": float("nan") if self.z_m is None else self.z_m, "area_m2": self.area_m2}
-        return require("geopandas", "geo").GeoDataFrame([row], geometry=[self.to_shapely()], crs=self.crs)
+        """A geopandas.GeoDataFrame with its CRS: one row, with z_m and area_m2; in scenes of 3D Tiles also height_min_m and
+        height_max_m (`height_range_m`)."""
+        row = {name: float("nan") if value is None else value for name, value in self._numbers().items()}
+        return require("geopandas", "geo").GeoDataFrame([row], geometry=[self._on_map().to_shapely()], crs=self.crs)
 
     def save(self, path: Path) -> None:
         """Writes .geojson, or .gpkg or .parquet (GeoParquet) in the slice's own CRS; whole or not at all.
 
-        GeoJSON is longitude and latitude, WGS 84 (RFC 7946), whatever the slice's CRS. Its properties are z_m and area_m2.
+        GeoJSON is longitude and latitude, WGS 84 (RFC 7946), whatever the slice's CRS. Its properties are the columns of
+        `to_geodataframe`.
         Across the antimeridian it is cut there, which takes the extra `geo`; in the other formats longitudes go on beyond 180
         degrees. `write_slices` writes several, with their heights.
 
@@ -126,8 +170,7 @@ class Slice:
         geometry = on_earth.__geo_interface__
         if any(ring[:, 0].max() > 180 for rings in on_earth.polygons for ring in rings):
             geometry = _cut_at_antimeridian(on_earth)
-        properties = {"z_m": self.z_m, "area_m2": self.area_m2}
-        feature = {"type": "Feature", "properties": properties, "geometry": geometry}
+        feature = {"type": "Feature", "properties": self._numbers(), "geometry": geometry}
         return {"type": "FeatureCollection", "features": [feature]}
 
     def __repr__(self) -> str:
@@ -137,6 +180,17 @@ class Slice:
 
     def _repr_html_(self) -> str:
         return html(self)
+
+
+def _at(ring: Ring, z_m: float) -> Ring:
+    """(n, 3): the corners at that z."""
+    return np.column_stack([ring, np.full(len(ring), z_m)])
+
+
+def _plan(ring: Ring) -> Ring:
+    flat = np.ascontiguousarray(ring[:, :2])
+    flat.setflags(write=False)
+    return flat
 
 
 def _cut_at_antimeridian(whole: Slice) -> dict[str, Any]:
@@ -163,7 +217,7 @@ def _whole(moved: list[list[Ring]], polygons: list[list[Ring]], place: Georefere
     x, y = np.concatenate(corners).T
     in_frame = np.concatenate([ring for rings in polygons for ring in rings])
     if np.abs(x).max() <= 180.001 and np.abs(y).max() <= 90:  # they may be degrees
-        longitude, latitude = _core.to_crs(place.latitude_deg, place.longitude_deg, WGS84, np.ascontiguousarray(in_frame)).T
+        longitude, latitude = _core.plan_to_crs(place, WGS84, np.ascontiguousarray(in_frame)).T
         shift = x - longitude  # another meridian is zero
         if np.abs(y - latitude).max() < 1 and np.abs((shift - shift[0] + 180) % 360 - 180).max() < 1:
             return [[np.column_stack([ring[:, 0] % 360, ring[:, 1]]) for ring in rings] for rings in moved]
@@ -178,8 +232,8 @@ def write_slices(path: Path, slices: Iterable[Slice], *, names: Sequence[str] | 
     (.parquet), by the path's extension; whole or not at all. Takes the extra `geo`.
 
     A row has a MultiPolygon, z_m, area_m2 (in the scene's frame, whatever the CRS) and, with `names`, name. The corners of
-    slices have z: the height in the scene's frame. Footprints have none, and z_m is missing. Empty slices are rows without
-    polygons.
+    slices have z: the height in the scene's frame, and in scenes of 3D Tiles that above the WGS 84 ellipsoid, which differs
+    from corner to corner. Footprints have none, and z_m is missing. Empty slices are rows without polygons.
 
     Args:
         path: the file.
@@ -218,8 +272,8 @@ def write_slices(path: Path, slices: Iterable[Slice], *, names: Sequence[str] | 
             raise input_error("array-sizes-differ", f"names is not a list of {len(rows)} texts", "names",
                               "pass a name for each slice")
     columns["z_m"] = [float("nan") if z is None else z for z in columns["z_m"]]
-    shapely = require("shapely", "geo")
-    shapes = [one.to_shapely() if one.z_m is None else shapely.force_3d(one.to_shapely(), one.z_m) for one in rows]
+    on_map = [one._on_map() for one in rows]
+    shapes = [one.to_shapely() if one.z_m is None else one._with_heights() for one in on_map]
     table = require("geopandas", "geo").GeoDataFrame(columns, geometry=shapes, crs=rows[0].crs)
     replace_file(file, _writer(table, extension, "slices"))
 

@@ -89,7 +89,7 @@ class Tour:
     def __init__(self, core: _core.Tour, scene_of: Mission):
         self._core = core
         self.mission = scene_of
-        self.flight = Flight(core.flight, scene_of.scene.crs)
+        self.flight = Flight(core.flight, scene_of.scene._map)
         self.length_m: float = core.length_m
         self.time_s: float = core.time_s
         self.targets: list[str] = core.targets
@@ -162,7 +162,7 @@ class Tour:
             sees = [visit.name for visit in self.visits if visit.first_point <= i + 1 <= visit.last_point]
             rows.append({"leg": i, "begin_m": along[i], "end_m": along[i + 1], "hold_s": holds[i + 1], "sees": ", ".join(sees)})
             lines.append(line_of(self.positions[i:i + 2]))
-        return table_of(rows, lines, self.flight.crs, ("leg", "begin_m", "end_m", "hold_s", "sees"))
+        return table_of(rows, lines, self.flight._map, ("leg", "begin_m", "end_m", "hold_s", "sees"))
 
     def __reduce__(self) -> Any:
         raise not_pickled("a tour", "pickle what to_dict returns, or write a plan")

@@ -15,6 +15,7 @@ from ._checks import choice, flag, shown, thread_count, whole
 from ._errors import Error, input_error
 from ._extras import require
 from ._flight import AnyMission, Flight, Numbers, mission_of, table_of
+from ._place import FrameMap, crs_of
 from ._progress import Progress
 from ._result import Mission, Result
 
@@ -135,11 +136,11 @@ class Orbit:
     obstacle_distance_m: float | None
     obstacle: str | None
     _core: _core.Orbit = dataclasses.field(repr=False)
-    _crs: str | None = dataclasses.field(repr=False, default=None)
+    _map: FrameMap | None = dataclasses.field(repr=False, default=None)
 
     def flight(self, chord_error_m: float = 0.1) -> Flight:
         """Once round, along chords whose corners lie on the orbit, inside it and at most so far from it."""
-        return Flight(self._core.flight(_arrays.number(chord_error_m, "chord_error_m")), self._crs)
+        return Flight(self._core.flight(_arrays.number(chord_error_m, "chord_error_m")), self._map)
 
     def to_dict(self) -> dict[str, Any]:
         """All of it, by its names; the centre as a list."""
@@ -174,10 +175,11 @@ class Standpoints(list[Standpoint]):
         crs: of x and y: the scene's frame in PROJ's words; None where its place is not known.
     """
 
-    def __init__(self, found: Sequence[Standpoint], searches: list[Found], crs: str | None):
+    def __init__(self, found: Sequence[Standpoint], searches: list[Found], frame: FrameMap | None):
         super().__init__(found)
         self.searches = searches
-        self.crs = crs
+        self._map = frame
+        self.crs = crs_of(frame)
 
     @property
     def positions(self) -> _arrays.Points:
@@ -194,7 +196,7 @@ class Standpoints(list[Standpoint]):
         columns = ("target", "kind", "value", "bound", "margin_m", *names_of_view())
         rows = [{name: _number_or_nan(name, getattr(one, name)) for name in columns} for one in self]
         points = [require("shapely", "geo").Point(one.x, one.y, one.z) for one in self]
-        return table_of(rows, points, self.crs, columns)
+        return table_of(rows, points, self._map, columns)
 
     def __repr__(self) -> str:
         return f"<vantage.Standpoints: {_counted(self, self.searches)}>"
@@ -208,10 +210,11 @@ class Orbits(list[Orbit]):
         crs: of x and y: the scene's frame in PROJ's words; None where its place is not known.
     """
 
-    def __init__(self, found: Sequence[Orbit], searches: list[Found], crs: str | None):
+    def __init__(self, found: Sequence[Orbit], searches: list[Found], frame: FrameMap | None):
         super().__init__(found)
         self.searches = searches
-        self.crs = crs
+        self._map = frame
+        self.crs = crs_of(frame)
 
     def to_dict(self) -> dict[str, Any]:
         """The searches, each with its orbits."""
@@ -223,7 +226,7 @@ class Orbits(list[Orbit]):
         columns = tuple(field.name for field in dataclasses.fields(Orbit) if field.name[0] != "_" and field.name != "centre")
         rows = [{name: _number_or_nan(name, getattr(one, name)) for name in columns} for one in self]
         lines = [require("shapely", "geo").LineString(one.flight(chord_error_m).positions) for one in self]
-        return table_of(rows, lines, self.crs, columns)
+        return table_of(rows, lines, self._map, columns)
 
     def __repr__(self) -> str:
         return f"<vantage.Orbits: {_counted(self, self.searches)}>"
@@ -323,7 +326,7 @@ def standpoints(mission: Wanted, *, margin_m: float | None = None, tolerance_m: 
     for target, one in rows:
         x, y, z = one.pop("position")
         found.append(Standpoint(target=target, x=x, y=y, z=z, **one))
-    return Standpoints(found, searches, _crs_of(good))
+    return Standpoints(found, searches, _map_of(good))
 
 
 def orbits(mission: Wanted, *, least_radius_m: float = 40.0, most_radius_m: float | None = None,
@@ -370,22 +373,22 @@ def orbits(mission: Wanted, *, least_radius_m: float = 40.0, most_radius_m: floa
     good = [one for one in results if isinstance(one, Result)]
     text, cores = _core.find_orbits([one.mission._core for one in good], [one.volume._core for one in good], *options, count,
                                     progress)
-    left, crs = iter(cores), _crs_of(good)
+    left, frame = iter(cores), _map_of(good)
     rows, searches = _searched(results, names, json.loads(text)["targets"], "orbits")
     found = []
     for target, one in rows:
         place = np.array(one.pop("centre"))
-        found.append(Orbit(target=target, centre=place, _core=next(left), _crs=crs, **one))
-    return Orbits(found, searches, crs)
+        found.append(Orbit(target=target, centre=place, _core=next(left), _map=frame, **one))
+    return Orbits(found, searches, frame)
 
 
 def _nan_or(value: float | None, name: str) -> float:
     return float("nan") if value is None else _arrays.number(value, name)
 
 
-def _crs_of(results: Sequence[Result]) -> str | None:
+def _map_of(results: Sequence[Result]) -> FrameMap | None:
     """Of all of them; None where they are of different places."""
-    known = {one.scene.crs for one in results}
+    known = {one.scene._map for one in results}
     return known.pop() if len(known) == 1 else None
 
 

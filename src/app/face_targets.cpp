@@ -136,20 +136,24 @@ bool is_ground(const SceneObject& object) {
 }
 
 /// The highest object at a place, but for the ground.
-Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, const geo::LocalFrame& frame) {
+Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, const geo::OnGlobe& globe) {
   const Scene& scene = mission.scene();
-  const Vec2 at = frame.to_local({at_deg[1], at_deg[0]});
+  const geo::LonLat place{at_deg[1], at_deg[0]};
+  constexpr double kStepM = 1000;  // along the vertical of the place, which is not z where the frame is no map
+  const Vec2 at = globe.at_z(place, 0), lean = (globe.at_z(place, kStepM) - at) / kStepM;
   std::optional<std::uint32_t> highest, nearest;
   double top = -INFINITY, least = INFINITY;
   for (std::size_t i = 0; i < scene.object_of.size(); ++i) {
     const std::uint32_t object = scene.object_of[i];
     if (is_ground(scene.objects[object])) continue;
-    const auto height = height_at(scene, scene.mesh.triangles[i], at);
+    const Triangle& triangle = scene.mesh.triangles[i];
+    auto height = height_at(scene, triangle, at + scene.mesh.vertices[triangle[0]].z() * lean);
+    if (height && globe.is_cartesian()) height = height_at(scene, triangle, at + *height * lean);
     if (height && *height > top) {
       top = *height;
       highest = object;
     }
-    for (const std::uint32_t vertex : scene.mesh.triangles[i]) {
+    for (const std::uint32_t vertex : triangle) {
       const double distance = (scene.mesh.vertices[vertex].head<2>() - at).norm();
       if (distance >= least) continue;
       least = distance;
@@ -231,8 +235,8 @@ Warning faces_together(const std::vector<Face>& faces, const Target& target, Fac
 }  // namespace
 
 FaceTargets face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
-                         const geo::LocalFrame* frame, bool together) {
-  const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *frame)
+                         const geo::OnGlobe* globe, bool together) {
+  const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *globe)
                           : !wanted.osm.empty() ? of_map(mission, wanted.osm)
                                                 : named(mission, wanted.object);
   std::string name = name_of_objects(mission, wanted, objects);

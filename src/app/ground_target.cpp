@@ -107,8 +107,9 @@ Incline ground_plane(const TriangulatedTerrain& ground, const Ring& ring, const 
   return plane;
 }
 
-Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
-  const Vec2 centre = frame.to_local({(*wanted.center_deg)[1], (*wanted.center_deg)[0]});
+Ring rectangle(const Mission& mission, const GroundTarget& wanted, const geo::OnGlobe& globe) {
+  const geo::LonLat place{(*wanted.center_deg)[1], (*wanted.center_deg)[0]};
+  const Vec2 centre = globe.on_surface(place, above_ground(mission, wanted.above_ground_m));
   const double heading = wanted.heading_deg * std::numbers::pi / 180;
   const Vec2 along(std::sin(heading), std::cos(heading)), across(along.y(), -along.x());
   const Vec2 a = along * wanted.length_m / 2, b = across * wanted.width_m / 2;
@@ -275,11 +276,10 @@ void check_area_of_each(const Mission& mission, const std::vector<TargetOutline>
 
 /// A rectangle that is on the ground only with latitude and longitude the other way round.
 void check_order(const Mission& mission, const GroundTarget& wanted, const TriangulatedTerrain& ground,
-                 const geo::LocalFrame& frame) {
+                 const geo::LocalFrame& map) {
   const auto [latitude, longitude] = *wanted.center_deg;
-  const Vec2 centre = frame.to_local({longitude, latitude});
-  if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(frame.to_local({latitude, longitude})))
-    return;
+  const Vec2 centre = map.to_local({longitude, latitude});
+  if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(map.to_local({latitude, longitude}))) return;
   throw Error(ErrorCode::target_off_ground,
               "the target's centre lies " + std::to_string(std::lround(centre.norm())) +
                   " m from the scene's origin, off its ground",
@@ -318,10 +318,37 @@ void check_outdoors(const Mission& mission) {
 
 }  // namespace
 
-void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
+SurfaceZ above_ground(const Mission& mission, double above_m) {
+  return [&mission, above_m](const Vec2& at) -> std::optional<double> {
+    if (!ground_object(mission.scene())) return std::nullopt;  // what needs it says so
+    const auto height = ground_surface(mission).height(at);
+    return height ? std::optional(*height + above_m) : std::nullopt;
+  };
+}
+
+void place_corners(const geo::OnGlobe& globe, const SurfaceZ& ground, TargetOutline& outline) {
+  std::size_t number = 0;
+  const auto place = [&](Zone::Ring& ring) {
+    for (Vec2& corner : ring) {
+      const geo::LonLat at{corner.x(), corner.y()};
+      if (number < outline.z_m.size()) {
+        const Vec3 placed = globe.to_scene({at, outline.z_m[number]});
+        corner = placed.head<2>();
+        outline.z_m[number] = placed.z();
+      } else {
+        corner = globe.on_surface(at, ground);
+      }
+      ++number;
+    }
+  };
+  place(outline.outer);
+  for (Zone::Ring& hole : outline.holes) place(hole);
+}
+
+void put_on_ground(Mission& mission, const geo::OnGlobe* globe, const Progress& progress) {
   maps(mission);
   auto& wanted = std::get<GroundTarget>(mission.as_written.targets.front().source);
-  if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
+  if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), globe->map());
   const bool is_drawn = !wanted.outlines.empty();
   check_area_of_each(mission, wanted.outlines);
   mission.target.parts.clear();
@@ -332,9 +359,9 @@ void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progres
     if (is_drawn) {
       areas = drawn(wanted.outlines);
     } else if (wanted.osm.empty()) {
-      areas = {{rectangle(wanted, *frame), {}}};
+      areas = {{rectangle(mission, wanted, *globe), {}}};
     } else {
-      NamedArea area = area_of_map(mission, wanted.osm, *frame, progress);
+      NamedArea area = area_of_map(mission, wanted.osm, globe->map(), progress);
       if (mission.target.name == wanted.osm && !area.name.empty()) {
         mission.target.name = area.name + " (" + area.id + ")";
       }

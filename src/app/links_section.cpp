@@ -121,10 +121,12 @@ void place_links(Mission& mission) {
     FlightLink link{given.name, Vec3::Zero(), given.max_range_m, given.radio};
     const PlaceOfFlight place{"the link '" + given.name + "'", "'point: [x, y, z]'", given.place};
     link.point = core::with_place(given.place, [&] {
-      if (given.at_deg) return on_the_ground(mission, *given.at_deg, place);
-      return in_the_frame(mission, given.position.value_or(Vec3::Zero()), place);
+      const double above_m = given.height_m + (given.vlos ? given.vlos->eye_height_m : 0);
+      if (given.at_deg) return on_the_ground(mission, *given.at_deg, place, above_m);
+      Vec3 point = in_the_frame(mission, given.position.value_or(Vec3::Zero()), place);
+      point.z() += above_m;
+      return point;
     });
-    link.point.z() += given.height_m + (given.vlos ? given.vlos->eye_height_m : 0);
     mission.links.push_back(std::move(link));
   }
 }

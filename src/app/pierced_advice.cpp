@@ -9,7 +9,7 @@
 #include "app/scene_warnings.h"
 #include "common/input.h"
 #include "core/format.h"
-#include "geo/local_frame.h"
+#include "geo/on_globe.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -46,7 +46,7 @@ std::string how_to_take_roof(const LoadedScene& loaded, std::uint32_t object, co
   const std::string& name = found.source_id.empty() ? found.name : found.source_id;
   std::string target = "object: " + yaml_text(name);
   if (const auto& place = loaded.scene.georeference) {
-    const geo::LonLat position = geo::LocalFrame({place->longitude_deg, place->latitude_deg}).to_lonlat(at.head<2>());
+    const geo::LonLat position = geo::OnGlobe(*place).to_geodetic(at).place;
     target = core::format("at: [{:.6f}, {:.6f}]", position.latitude_deg, position.longitude_deg);
   } else if (name.empty() || loaded.scene.objects.size() == 1 || objects_named(loaded.scene, name).size() > 1) {
     return "for its roof give the vertices of that: no name tells it from other objects";

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/ground_target.h"
 #include "app/input_file.h"
 #include "app/named_objects.h"
 #include "app/target_section.h"
@@ -32,8 +33,8 @@ using Features = std::map<std::size_t, std::vector<ListedZone>>;
 
 class FeatureOfFile {
  public:
-  FeatureOfFile(const Mission& mission, const TargetFile& from, const geo::LocalFrame& frame)
-      : mission_(mission), from_(from), frame_(frame) {}
+  FeatureOfFile(const Mission& mission, const TargetFile& from, const geo::OnGlobe& globe)
+      : mission_(mission), from_(from), globe_(globe) {}
 
   /// Those of the feature that counts.
   std::vector<ListedZone> polygons(ZoneList list) const;
@@ -49,12 +50,12 @@ class FeatureOfFile {
          "give all of them one height, or heights above the sea level ('absolute')");
   }
   const std::vector<ListedZone>& chosen(const Features& features) const;
-  Zone::Ring in_frame(const Zone::Ring& ring, const std::string& place) const;
+  void check_near(const Zone::Ring& ring, const std::string& place) const;
   std::optional<double> add_heights(const ListedZone& listed, TargetOutline& outline) const;
 
   const Mission& mission_;
   const TargetFile& from_;
-  const geo::LocalFrame& frame_;
+  const geo::OnGlobe& globe_;
 };
 
 std::set<std::string> names_of(const Features& features) {
@@ -112,16 +113,14 @@ std::vector<ListedZone> FeatureOfFile::polygons(ZoneList list) const {
   return polygons;
 }
 
-Zone::Ring FeatureOfFile::in_frame(const Zone::Ring& ring, const std::string& place) const {
-  Zone::Ring placed;
+void FeatureOfFile::check_near(const Zone::Ring& ring, const std::string& place) const {
   double farthest_m = 0;
   for (const Eigen::Vector2d& corner : ring) {
-    placed.push_back(frame_.to_local({corner.x(), corner.y()}));
-    farthest_m = std::max(farthest_m, placed.back().norm());
+    farthest_m = std::max(farthest_m, globe_.map().to_local({corner.x(), corner.y()}).norm());
   }
-  if (farthest_m <= geo::kFarthestM) return placed;
+  if (farthest_m <= geo::kFarthestM) return;
   const bool is_swapped = std::all_of(ring.begin(), ring.end(), [this](const Eigen::Vector2d& corner) {
-    return std::abs(corner.x()) <= 90 && frame_.to_local({corner.y(), corner.x()}).norm() <= geo::kFarthestM;
+    return std::abs(corner.x()) <= 90 && globe_.map().to_local({corner.y(), corner.x()}).norm() <= geo::kFarthestM;
   });
   fail(ErrorCode::too_far_away, place,
        "the target lies " + std::to_string(std::lround(farthest_m / 1000)) + " km from the scene's origin" +
@@ -162,16 +161,18 @@ std::optional<double> FeatureOfFile::add_heights(const ListedZone& listed, Targe
 GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) const {
   GroundTarget target;
   for (const ListedZone& listed : polygons) {
-    TargetOutline outline{in_frame(listed.outer, listed.place), {}, {}};
-    for (const Zone::Ring& hole : listed.holes) outline.holes.push_back(in_frame(hole, listed.place));
+    TargetOutline outline{listed.outer, listed.holes, {}};
+    check_near(outline.outer, listed.place);
+    for (const Zone::Ring& hole : outline.holes) check_near(hole, listed.place);
+    // One on the ground is no metre above it, and not where the others are.
+    const double above_ground_m = add_heights(listed, outline).value_or(0);
+    place_corners(globe_, above_ground(mission_, above_ground_m), outline);
     Zone area;
     area.outer = outline.outer;
     area.holes = outline.holes;
     if (const auto fault = core::fault_of(area)) {
       fail(fault->code, listed.place, fault->problem, advice_for_outline(*fault, listed.corner_z_m));
     }
-    // One on the ground is no metre above it, and not where the others are.
-    const double above_ground_m = add_heights(listed, outline).value_or(0);
     if (!target.outlines.empty() && above_ground_m != target.above_ground_m) fail_for_unlike_heights(listed.place);
     target.above_ground_m = above_ground_m;
     target.outlines.push_back(std::move(outline));
@@ -187,10 +188,10 @@ GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) cons
 
 }  // namespace
 
-void read_target_file(const Mission& mission, const geo::LocalFrame& frame, const core::ProgressReporter& progress,
+void read_target_file(const Mission& mission, const geo::OnGlobe& globe, const core::ProgressReporter& progress,
                       MissionTarget& given) {
   const TargetFile from = std::get<TargetFile>(given.source);
-  const FeatureOfFile reader(mission, from, frame);
+  const FeatureOfFile reader(mission, from, globe);
   const std::vector<ListedZone> polygons =
       reader.polygons(parse_zones(read_text(from.file, "file of the target", kMostZoneBytes), from.file, progress));
   given.source = reader.placed(polygons);

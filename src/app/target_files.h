@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/progress_reporter.h"
-#include "geo/local_frame.h"
+#include "geo/on_globe.h"
 #include "vantage/mission.h"
 
 namespace vantage::internal::app {
@@ -11,7 +11,7 @@ namespace vantage::internal::app {
 /// feature as a GroundTarget, in the frame. A target without a name gets the feature's. Throws Error(input) for what
 /// parse_zones refuses, for a feature that is not there or one of several, for what is no polygon, lies far away, or
 /// has heights that mean nothing in the scene.
-void read_target_file(const Mission& mission, const geo::LocalFrame& frame, const core::ProgressReporter& progress,
+void read_target_file(const Mission& mission, const geo::OnGlobe& globe, const core::ProgressReporter& progress,
                       MissionTarget& given);
 
 /// Reads the closed mesh of `given.source`, a TargetFile, into the frame, as Target::volume in the place of that. A

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/places.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
-#include "vantage/georeference.h"
 #include "vantage/ground.h"
 
 namespace vantage::internal::app {
@@ -21,22 +21,27 @@ const Georeference& earth_of(const Mission& mission, const PlaceOfFlight& place)
 
 }  // namespace
 
-Vec3 on_the_ground(const Mission& mission, const std::array<double, 2>& at_deg, const PlaceOfFlight& place) {
-  const Eigen::Vector2d at = scene_position(earth_of(mission, place), at_deg[1], at_deg[0]);
-  const std::optional<GroundLevels::Range> ground = GroundLevels(ground_of(mission)).at(at.x(), at.y());
+Vec3 on_the_ground(const Mission& mission, const std::array<double, 2>& at_deg, const PlaceOfFlight& place,
+                   double above_m) {
+  const Georeference& earth = earth_of(mission, place);
+  const GroundLevels levels(ground_of(mission));
+  const Eigen::Vector2d at =
+      scene_position(earth, at_deg[1], at_deg[0], [&](const Eigen::Vector2d& p) -> std::optional<double> {
+        const auto there = levels.at(p.x(), p.y());
+        return there ? std::optional(there->highest_m + above_m) : std::nullopt;
+      });
+  const std::optional<GroundLevels::Range> ground = levels.at(at.x(), at.y());
   if (!ground) {
     throw Error(ErrorCode::target_off_ground, "there is no ground under " + place.name, place.where,
                 "check the order: [latitude, longitude]; or give " + place.instead);
   }
-  return {at.x(), at.y(), ground->highest_m};
+  return {at.x(), at.y(), ground->highest_m + above_m};
 }
 
 Vec3 in_the_frame(const Mission& mission, const Vec3& position, const PlaceOfFlight& place) {
   const std::string& crs = mission.as_written.crs;
   if (crs.empty()) return position;
-  const std::vector<Eigen::Vector2d> given = {position.head<2>()};
-  const Eigen::Vector2d at = scene_positions(earth_of(mission, place), crs, given).front();
-  return {at.x(), at.y(), position.z() * vertical_unit_m(crs)};
+  return scene_positions(earth_of(mission, place), crs, {&position, 1}).front();
 }
 
 void place_home(Mission& mission) {

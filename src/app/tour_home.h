@@ -20,8 +20,9 @@ struct PlaceOfFlight {
   std::string where;    ///< in the mission file
 };
 
-/// Of a latitude and a longitude, on the highest ground there. Throws as place_home does.
-Vec3 on_the_ground(const Mission& mission, const std::array<double, 2>& at_deg, const PlaceOfFlight& place);
+/// Of a latitude and a longitude, so high above the highest ground there. Throws as place_home does.
+Vec3 on_the_ground(const Mission& mission, const std::array<double, 2>& at_deg, const PlaceOfFlight& place,
+                   double above_m = 0);
 /// Of coordinates as the mission's `crs` says.
 Vec3 in_the_frame(const Mission& mission, const Vec3& position, const PlaceOfFlight& place);
 

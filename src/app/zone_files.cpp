@@ -20,6 +20,7 @@
 #include "core/progress_reporter.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
+#include "geo/on_globe.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::app {
@@ -28,6 +29,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kCircleMarginM = 0.001;
 constexpr const char* kLonLatAdvice = "check the file: is it of another place, or are longitude and latitude swapped?";
 
 /// No viewpoint is farther from the scene's origin.
@@ -47,8 +49,8 @@ double farthest_viewpoint_m(const Mission& mission) {
 
 class FileZones {
  public:
-  FileZones(Mission& mission, const ZoneFile& file, ZoneUse use, const geo::LocalFrame& frame)
-      : mission_(mission), file_(file), use_(use), frame_(frame) {}
+  FileZones(Mission& mission, const ZoneFile& file, ZoneUse use, const geo::OnGlobe& globe)
+      : mission_(mission), file_(file), use_(use), globe_(globe), walls_(globe, mission) {}
 
   void add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress);
 
@@ -56,8 +58,8 @@ class FileZones {
   bool is_for_use(const ListedZone& listed) const {
     return !listed.is_inclusion || *listed.is_inclusion == (use_ == ZoneUse::keep_in);
   }
-  Zone placed(const ListedZone& listed) const;
-  Zone::Ring circle(const ListedCircle& circle) const;
+  Zone placed(const ListedZone& listed, bool has_none) const;
+  Zone::Ring circle(const ListedCircle& circle, double z_m, double lean_m) const;
   void add_heights(const ListedZone& listed, bool has_none, Zone& zone) const;
   double z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const;
   double distance_m(const ListedZone& listed) const;
@@ -72,7 +74,8 @@ class FileZones {
   Mission& mission_;
   const ZoneFile& file_;
   ZoneUse use_;
-  const geo::LocalFrame& frame_;
+  const geo::OnGlobe& globe_;
+  ZoneWalls walls_;
 };
 
 /// Sides may cross the antimeridian: each is taken the short way round, and all of the ring is turned to be nearest to
@@ -94,7 +97,7 @@ Zone::Ring FileZones::unwrapped(Zone::Ring ring, const std::string& place) const
     fail(ErrorCode::value_unsupported, place, "the zone is wider than 180 degrees of longitude",
          "cut it into parts, at the antimeridian and near the scene");
   }
-  const double middle = (low + high) / 2, origin = frame_.origin().longitude_deg;
+  const double middle = (low + high) / 2, origin = globe_.map().origin().longitude_deg;
   const double turns = origin + std::remainder(middle - origin, 360) - middle;
   for (Point& p : ring) p.x() += turns;
   return ring;
@@ -104,7 +107,7 @@ Zone::Ring FileZones::unwrapped(Zone::Ring ring, const std::string& place) const
 /// 2000 km by 80 km), so there are points on them every 10 km, between which they curve by far less than the slack.
 double FileZones::distance_m(const ListedZone& listed) const {
   constexpr double kStepM = 10e3, kMostSteps = 2000, kSlackM = 2e3;
-  const auto position = [&](const Point& p) { return frame_.to_local({p.x(), p.y()}); };
+  const auto position = [&](const Point& p) { return globe_.map().to_local({p.x(), p.y()}); };
   if (listed.circle) {
     return std::max(position(listed.circle->centre).norm() - listed.circle->radius_m - kSlackM, 0.0);
   }
@@ -126,7 +129,7 @@ double FileZones::distance_m(const ListedZone& listed) const {
 /// Of a zone out of reach: whether all its corners would lie near with longitude and latitude the other way round.
 bool FileZones::seems_swapped(const ListedZone& listed) const {
   const auto is_near = [this](const Point& p) {
-    return std::abs(p.x()) <= 90 && frame_.to_local({p.y(), p.x()}).norm() <= geo::kFarthestM;
+    return std::abs(p.x()) <= 90 && globe_.map().to_local({p.y(), p.x()}).norm() <= geo::kFarthestM;
   };
   if (listed.circle) return is_near(listed.circle->centre);
   return std::all_of(listed.outer.begin(), listed.outer.end(), is_near);
@@ -135,11 +138,12 @@ bool FileZones::seems_swapped(const ListedZone& listed) const {
 /// With so many corners that the sides leave the circle by 5 cm at most, 720 corners at most. They lie on it to stay
 /// in, and a millimetre inside: that is more than the frame bends. To stay out of, the sides touch a circle a
 /// millimetre larger.
-Zone::Ring FileZones::circle(const ListedCircle& circle) const {
-  constexpr double kSagittaM = 0.05, kMarginM = 0.001;
+Zone::Ring FileZones::circle(const ListedCircle& circle, double z_m, double lean_m) const {
+  constexpr double kSagittaM = 0.05;
+  const double margin = kCircleMarginM + lean_m;
   constexpr int kFewest = 32, kMost = 720;
   const bool is_kept = use_ == ZoneUse::keep_in;
-  const double radius = is_kept ? circle.least_radius_m - kMarginM : circle.radius_m + kMarginM;
+  const double radius = is_kept ? circle.least_radius_m - margin : circle.radius_m + margin;
   const double wanted = std::ceil(std::numbers::pi * std::sqrt(std::max(radius, 0.0) / (2 * kSagittaM)));
   const int count = static_cast<int>(std::clamp(wanted, 1.0 * kFewest, 1.0 * kMost));
   const double corner_radius = is_kept ? radius : radius / std::cos(std::numbers::pi / count);
@@ -148,7 +152,7 @@ Zone::Ring FileZones::circle(const ListedCircle& circle) const {
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
     const geo::LonLat corner = about.to_lonlat(corner_radius * Point(std::cos(angle), std::sin(angle)));
-    ring.push_back(frame_.to_local(corner));
+    ring.push_back(globe_.at_z(corner, z_m));
   }
   return ring;
 }
@@ -203,29 +207,43 @@ void FileZones::add_heights(const ListedZone& listed, bool has_none, Zone& zone)
                        {}};
 }
 
-Zone FileZones::placed(const ListedZone& listed) const {
+/// Between its heights, those of the file converted to z.
+Zone FileZones::placed(const ListedZone& listed, bool has_none) const {
   Zone zone;
+  add_heights(listed, has_none, zone);
+  const Heights heights{zone.min_z_m, zone.max_z_m};
+  const double middle = walls_.middle_z_m(heights);
+  const ToFrame to_frame = [&](const Point& p) { return globe_.at_z({p.x(), p.y()}, middle); };
+  Extent extent;
   if (listed.circle) {
     if (listed.circle->radius_m > geo::kFarthestM) {
       fail(ErrorCode::value_out_of_range, listed.place, "the radius of the circle is larger than 100 km",
            "give a polygon instead");
     }
-    if (use_ == ZoneUse::keep_in && listed.circle->least_radius_m <= 0.002) {
+    const double distance = to_frame(listed.circle->centre).norm(), radius = listed.circle->radius_m;
+    extent = {std::max(distance - 1.01 * radius, 0.0), distance + 1.01 * radius};
+    const double lean = walls_.lean_m(heights, extent.farthest_m);
+    if (use_ == ZoneUse::keep_in && listed.circle->least_radius_m <= 2 * kCircleMarginM + lean) {
       fail(ErrorCode::limits_empty, listed.place, "the circle is smaller than 2 mm", "make it larger");
     }
-    zone.outer = circle(*listed.circle);
-    return zone;
+    zone.outer = circle(*listed.circle, middle, lean);
+  } else {
+    zone.outer = unwrapped(listed.outer, listed.place);
+    for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole, listed.place));
+    if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
+    extent = extent_of(zone.outer, to_frame);
+    try {
+      zone = placed_zone(zone, use_, to_frame, kLonLatAdvice, walls_.lean_m(heights, extent.farthest_m));
+    } catch (const Error& error) {
+      const std::string where = error.where().empty() ? "" : ", " + error.where();
+      throw error.with_where(file_.file.string() + ", " + listed.place + where);
+    }
   }
-  zone.outer = unwrapped(listed.outer, listed.place);
-  for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole, listed.place));
-  if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
-  const ToFrame to_frame = [this](const Point& p) { return frame_.to_local({p.x(), p.y()}); };
-  try {
-    return placed_zone(zone, use_, to_frame, kLonLatAdvice);
-  } catch (const Error& error) {
-    const std::string where = error.where().empty() ? "" : ", " + error.where();
-    throw error.with_where(file_.file.string() + ", " + listed.place + where);
-  }
+  if (file_.z_m || file_.any_height) return zone;
+  const Heights z = walls_.z_of(heights, extent, use_);
+  zone.min_z_m = z.low_m;
+  zone.max_z_m = z.high_m;
+  return zone;
 }
 
 void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far,
@@ -278,8 +296,7 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
       swapped += seems_swapped(listed) ? 1 : 0;
       continue;
     }
-    Zone zone = placed(listed);
-    add_heights(listed, list.has_no_heights, zone);
+    Zone zone = placed(listed, list.has_no_heights);
     const std::string name = file_.file.filename().string() + " " + listed.name;
     zone.name = name;
     for (int i = 2; !names.insert(zone.name).second; ++i) zone.name = name + " (" + std::to_string(i) + ")";
@@ -322,14 +339,14 @@ void add_file_zones(Mission& mission, const Progress& callback) {
                 "the scene does not say where on the earth it lies, and files of zones are in longitudes and latitudes",
                 first, "give the zones as polygons in the scene frame, or scene.origin");
   }
-  const geo::LocalFrame frame({georeference->longitude_deg, georeference->latitude_deg});
+  const geo::OnGlobe globe(*georeference);
   const core::ProgressReporter progress(callback);
   progress.begin("zones");
   const auto add = [&](const std::vector<ZoneFile>& files, const std::vector<std::string>& places, ZoneUse use,
                        std::vector<Zone>& zones) {
     for (std::size_t i = 0; i < files.size(); ++i) {
       core::with_place(i < places.size() ? places[i] : "", [&] {
-        FileZones(mission, files[i], use, frame).add_to(zones, progress);
+        FileZones(mission, files[i], use, globe).add_to(zones, progress);
         return 0;
       });
     }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/combine_targets.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
@@ -20,6 +21,38 @@ using Point = Eigen::Vector2d;
 constexpr double kFineM = 0.0001;  // what a part of a side may curve by
 constexpr int kMostParts = 256;
 constexpr double kRoundingM = 1e-6;  // of positions in the frame: 15 nm, and what else is added up
+
+// Of the ellipsoid's curvature and of levels from 20 km below it to 40 km above: along the meridian at the equator, and
+// at the poles.
+constexpr double kLeastRadiusM = 6315e3, kLargestRadiusM = 6440e3;
+
+/// How far a sphere that touches a plane is from it at this distance in plan.
+double drop_m(double distance_m, double radius_m) {
+  const double d = std::min(distance_m, radius_m);
+  return d * d / (radius_m + std::sqrt(radius_m * radius_m - d * d));
+}
+
+Reach reach_of(const Mission& mission) {
+  Box box = bounding_box(mission.scene().mesh);
+  double offset = 0;
+  for (const std::vector<Target>& view : views_of(mission)) {
+    for (const Target& target : view) {
+      offset = std::max(offset, std::abs(target.offset_m));
+      for (const std::vector<Vec3>& part : target.parts) {
+        for (const Vec3& corner : part) box.extend(corner);
+      }
+      if (target.volume) box.extend(bounding_box(target.volume->mesh));
+    }
+  }
+  if (box.empty()) return {};
+  const double range = range_limit_m(mission.sensor) + offset;
+  Reach reach{extent_of(box).farthest_m + range, box.min.z() - range, box.max.z() + range};
+  if (const auto& altitude = mission.navigation.altitude) {
+    reach.lowest_m = std::max(reach.lowest_m, altitude->min_m);
+    reach.highest_m = std::min(reach.highest_m, altitude->max_m);
+  }
+  return reach;
+}
 
 /// A curve in the frame, by points at equal steps of the system.
 struct Curve {
@@ -151,7 +184,55 @@ void check_distance(const Zone::Ring& ring, const char* order_advice) {
 
 }  // namespace
 
-Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const char* order_advice) {
+Extent extent_of(const Box& box) {
+  const Point low = box.min.head<2>(), high = box.max.head<2>();
+  const Point nearest = Point::Zero().cwiseMax(low).cwiseMin(high);
+  return {nearest.norm(), low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm()};
+}
+
+Extent extent_of(const Zone::Ring& ring, const ToFrame& to_frame) {
+  Box box;
+  for (const Point& corner : ring) {
+    const Point at = to_frame(corner);
+    box.extend(Vec3(at.x(), at.y(), 0));
+  }
+  constexpr double kBulge = 0.01;  // sides leave their chords by less: by L / 8R * tan(latitude)
+  const double bulge = kBulge * (box.max - box.min).norm();
+  const Extent corners = extent_of(box);
+  return {std::max(corners.nearest_m - bulge, 0.0), corners.farthest_m + bulge};
+}
+
+ZoneWalls::ZoneWalls(const geo::OnGlobe& globe, const Mission& mission)
+    : is_map_(!globe.is_cartesian()), reach_(is_map_ ? Reach{} : reach_of(mission)) {}
+
+Heights ZoneWalls::within_reach(const Heights& heights) const {
+  const double low = std::max(heights.low_m - drop_m(reach_.farthest_m, kLeastRadiusM), reach_.lowest_m);
+  return {low, std::max(low, std::min(heights.high_m, reach_.highest_m))};
+}
+
+double ZoneWalls::middle_z_m(const Heights& heights) const {
+  if (is_map_) return 0;
+  const Heights z = within_reach(heights);
+  return (z.low_m + z.high_m) / 2;
+}
+
+double ZoneWalls::lean_m(const Heights& heights, double farthest_m) const {
+  if (is_map_) return 0;
+  constexpr double kSlack = 1.05;  // sides bulge, and a tangent is more than its angle
+  const Heights z = within_reach(heights);
+  return kSlack * std::min(farthest_m, reach_.farthest_m) / kLeastRadiusM * (z.high_m - z.low_m) / 2 + kRoundingM;
+}
+
+Heights ZoneWalls::z_of(const Heights& heights, const Extent& extent, ZoneUse use) const {
+  if (is_map_) return heights;
+  // Levels lie between spheres of these radii that touch them above the origin.
+  const double most = drop_m(std::min(extent.farthest_m, reach_.farthest_m), kLeastRadiusM) + kRoundingM;
+  const double least = drop_m(extent.nearest_m, kLargestRadiusM) - kRoundingM;
+  if (use == ZoneUse::keep_out) return {heights.low_m - most, heights.high_m - least};
+  return {heights.low_m - least, heights.high_m - most};
+}
+
+Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const char* order_advice, double lean_m) {
   const SideCutter cutter(to_frame);
   const std::vector<double> curvings = curvings_of(zone, cutter);
   const double fine_m = fineness(curvings);
@@ -170,7 +251,7 @@ Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const c
   placed.outer = cut(zone.outer, true);  // what the zone holds lies to the left of its sides, and so of its holes'
   for (Zone::Ring& hole : placed.holes) hole = cut(hole, false);
   check_distance(placed.outer, order_advice);  // with what its sides curve; one from 179 to -179 degrees goes round
-  const double margin = 2 * bulge + kRoundingM;
+  const double margin = 2 * bulge + kRoundingM + lean_m;
   const double distance = use == ZoneUse::keep_in ? margin : -margin;
   const char* const narrow = "it is too narrow in places to be converted to the scene frame";
   const char* const fix = "leave out the narrow part, simplify the zone, or give it in the scene frame";

@@ -7,6 +7,7 @@
 
 #include "common/input.h"
 #include "common/json.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -235,32 +236,66 @@ Vec3 PointTable::coordinates(const Row& row) {
   return point;
 }
 
+/// Of longitude and latitude; z is right but for heights above the ground.
+Vec3 PointTable::placed(const Vec3& coordinates, const PointFrame& frame) const {
+  const double longitude = coordinates.x(), latitude = coordinates.y(), height = coordinates.z();
+  const auto in_plan = [&](const Eigen::Vector2d& at) { return Vec3(at.x(), at.y(), height); };
+  switch (height_) {
+    case HeightColumn::alt:
+      return vantage::scene_point(*frame.place, longitude, latitude, height + frame.sea_level_m.value());
+    case HeightColumn::agl:
+      return in_plan(
+          scene_position(*frame.place, longitude, latitude, [&](const Eigen::Vector2d& at) -> std::optional<double> {
+            const auto ground = frame.ground->at(at.x(), at.y());
+            return ground ? std::optional(ground->highest_m + height) : std::nullopt;
+          }));
+    default:
+      return in_plan(scene_position(*frame.place, longitude, latitude, height));
+  }
+}
+
 Vec3 PointTable::scene_point(const Vec3& coordinates, const PointFrame& frame, const Row& row) {
-  Eigen::Vector2d at = coordinates.head<2>();
-  if (is_lonlat_ && !frame.place) {
+  if (!is_lonlat_) {
+    const Eigen::Vector2d at = coordinates.head<2>();
+    return {at.x(), at.y(), scene_height(coordinates, at, frame, row)};
+  }
+  if (!frame.place) {
     fail(ErrorCode::not_georeferenced,
          "the points are longitudes and latitudes, but the scene does not say where on the earth it lies", row,
          "give x, y and z in the scene frame, or a scene with a place: a map, CityJSON with a reference system, a "
          "raster, or a mesh with 'crs' or written by 'vantage scene'");
   }
-  if (is_lonlat_) {
-    try {
-      at = scene_position(*frame.place, coordinates.x(), coordinates.y());
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::input) throw;
-      fail(error.code(), error.problem(), row, error.fix());
-    }
-    const Eigen::Array2d low = frame.bounds.min.head<2>(), high = frame.bounds.max.head<2>();
-    const bool is_outside = (at.array() < low).any() || (at.array() > high).any();
-    if (is_outside && seems_swapped(*frame.place, frame.bounds, coordinates.x(), coordinates.y())) ++swapped_;
+  Vec3 point;
+  try {
+    point = placed(coordinates, frame);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    fail(error.code(), error.problem(), row, error.fix());
   }
-  return {at.x(), at.y(), scene_height(coordinates, at, frame, row)};
+  const Eigen::Array2d at = point.head<2>(), low = frame.bounds.min.head<2>(), high = frame.bounds.max.head<2>();
+  const bool is_outside = (at < low).any() || (at > high).any();
+  if (is_outside && seems_swapped(*frame.place, frame.bounds, coordinates.x(), coordinates.y())) ++swapped_;
+  if (height_ == HeightColumn::agl) point.z() = scene_height(coordinates, point.head<2>(), frame, row);
+  return point;
 }
+
+namespace {
+
+/// z of a point with a height above the zero of the scene's heights.
+double z_of_height(double height, const Eigen::Vector2d& at, const PointFrame& frame) {
+  double z = height;
+  if (!frame.place || is_map(*frame.place)) return z;
+  constexpr int kSteps = 3;  // each divides what is off by (R / d)^2
+  for (int i = 0; i < kSteps; ++i) z += height - height_m(*frame.place, {at.x(), at.y(), z});
+  return z;
+}
+
+}  // namespace
 
 double PointTable::scene_height(const Vec3& coordinates, const Eigen::Vector2d& at, const PointFrame& frame,
                                 const Row& row) const {
   if (height_ == HeightColumn::z) return coordinates.z();
-  if (height_ == HeightColumn::alt) return coordinates.z() + frame.sea_level_m.value();
+  if (height_ == HeightColumn::alt) return z_of_height(coordinates.z() + frame.sea_level_m.value(), at, frame);
   constexpr double kSameM = 1e-3;
   const auto ground = frame.ground->at(at.x(), at.y());
   if (!ground) {

@@ -92,6 +92,7 @@ class PointTable {
   std::optional<std::size_t> axis_of(std::size_t column) const;
   void take_height(const Row& row);
   void check_only_one(const std::vector<std::size_t>& columns, const Row& row) const;
+  Vec3 placed(const Vec3& coordinates, const PointFrame& frame) const;
   double scene_height(const Vec3& coordinates, const Eigen::Vector2d& at, const PointFrame& frame,
                       const Row& row) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const;

@@ -9,7 +9,7 @@
 #include "common/input.h"
 #include "core/format.h"
 #include "core/text.h"
-#include "io/on_globe.h"
+#include "geo/on_globe.h"
 #include "vantage/flight_check.h"
 #include "vantage/georeference.h"
 
@@ -38,7 +38,7 @@ class PositionJson {
   }
 
  private:
-  std::optional<internal::io::OnGlobe> globe_;
+  std::optional<internal::geo::OnGlobe> globe_;
 };
 
 Json span_json(const FlightSpan& span, const PositionJson& position) {

@@ -1,7 +1,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "io/on_globe.h"
+#include "geo/on_globe.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
 #include "vantage/flight_check.h"
@@ -14,7 +14,7 @@ namespace {
 /// Longitude and latitude, or x and y for a plan in the scene frame.
 Eigen::Vector2d home_of_tour(bool is_in_scene_frame, const Mission& mission) {
   if (is_in_scene_frame || !mission.scene().georeference) return mission.home->head<2>();
-  const auto place = internal::io::OnGlobe(*mission.scene().georeference).to_geodetic(*mission.home).place;
+  const auto place = internal::geo::OnGlobe(*mission.scene().georeference).to_geodetic(*mission.home).place;
   return {place.longitude_deg, place.latitude_deg};
 }
 

@@ -18,9 +18,9 @@ std::optional<GroundLevels> ground_levels(const Mission& mission) {
   }
 }
 
-std::optional<io::OnGlobe> globe_of(const Mission& mission) {
+std::optional<geo::OnGlobe> globe_of(const Mission& mission) {
   const auto& place = mission.scene().georeference;
-  return place ? std::optional<io::OnGlobe>(std::in_place, *place) : std::nullopt;
+  return place ? std::optional<geo::OnGlobe>(std::in_place, *place) : std::nullopt;
 }
 
 }  // namespace

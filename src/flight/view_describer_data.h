@@ -7,7 +7,7 @@
 #include "flight/obstacles.h"
 #include "flight/target_view.h"
 #include "flight/view_aim.h"
-#include "io/on_globe.h"
+#include "geo/on_globe.h"
 #include "vantage/ground.h"
 #include "vantage/standpoints.h"
 
@@ -19,7 +19,7 @@ struct Surroundings {
 
   Obstacles obstacles;
   std::optional<GroundLevels> ground;
-  std::optional<io::OnGlobe> earth;
+  std::optional<geo::OnGlobe> earth;
   std::optional<double> sea_level_m;
 };
 

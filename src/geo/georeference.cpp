@@ -4,6 +4,8 @@
 
 #include "common/input.h"
 #include "geo/local_frame.h"
+#include "geo/on_globe.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -13,32 +15,92 @@ std::string projection_text(const Georeference& georeference) {
          " +lon_0=" + shortest(georeference.longitude_deg) + " +datum=WGS84 +units=m +type=crs";
 }
 
-Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg) {
-  const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
+namespace {
+
+using internal::geo::LonLat;
+using internal::geo::OnGlobe;
+
+/// Throws for what is not within 100 km of the origin.
+void check_place(const OnGlobe& globe, LonLat at) {
   const auto is_near = [&](double longitude, double latitude) {
     return std::abs(latitude) <= 90 && std::abs(longitude) <= 180 &&
-           frame.to_local({longitude, latitude}).norm() <= internal::geo::kFarthestM;
+           globe.map().to_local({longitude, latitude}).norm() <= internal::geo::kFarthestM;
   };
   const auto refuse = [&](ErrorCode code, const std::string& problem, const std::string& fix) {
-    throw Error(code, "longitude " + shortest(longitude_deg) + ", latitude " + shortest(latitude_deg) + problem,
+    throw Error(code, "longitude " + shortest(at.longitude_deg) + ", latitude " + shortest(at.latitude_deg) + problem,
                 "position", fix);
   };
   constexpr const char* kOrder = "longitude and latitude seem to be swapped: give them the other way round";
-  const bool is_valid = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 180;  // not-a-number is not
+  const bool is_valid = std::abs(at.latitude_deg) <= 90 && std::abs(at.longitude_deg) <= 180;  // not-a-number is not
   if (!is_valid) {
-    refuse(
-        ErrorCode::not_on_earth, " is not a place on the earth",
-        is_near(latitude_deg, longitude_deg) ? kOrder : "give a longitude in -180 to 180 and a latitude in -90 to 90");
+    refuse(ErrorCode::not_on_earth, " is not a place on the earth",
+           is_near(at.latitude_deg, at.longitude_deg) ? kOrder
+                                                      : "give a longitude in -180 to 180 and a latitude in -90 to 90");
   }
-  Eigen::Vector2d position = frame.to_local({longitude_deg, latitude_deg});
-  if (position.norm() > internal::geo::kFarthestM) {
-    refuse(ErrorCode::too_far_away,
-           " lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
-           is_near(latitude_deg, longitude_deg)
-               ? kOrder
-               : "give positions within 100 km of it, in WGS 84: longitude before latitude");
+  const double distance = globe.map().to_local(at).norm();
+  if (distance <= internal::geo::kFarthestM) return;
+  refuse(ErrorCode::too_far_away,
+         " lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
+         is_near(at.latitude_deg, at.longitude_deg)
+             ? kOrder
+             : "give positions within 100 km of it, in WGS 84: longitude before latitude");
+}
+
+/// Points of a coordinate reference system in the scene frame, each by `place(LonLat, index)`.
+template <typename Point, typename Place>
+std::vector<Point> placed(const OnGlobe& globe, const std::string& crs, std::span<const Point> points,
+                          const Place& place) {
+  const internal::geo::CoordinateSystem system(crs, "crs");
+  std::vector<Point> positions;
+  positions.reserve(points.size());
+  for (const Point& point : points) {
+    const std::string where = "point " + std::to_string(positions.size());
+    if (!point.allFinite()) {
+      throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite", where,
+                  "give " + std::string(point.size() == 2 ? "two" : "three") + " numbers");
+    }
+    const LonLat at = system.to_lonlat(point.template head<2>());
+    const double distance = globe.map().to_local(at).norm();
+    if (distance > internal::geo::kFarthestM) {
+      throw Error(ErrorCode::too_far_away,
+                  "the point lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
+                  where,
+                  system.is_geographic() ? "give positions within 100 km of it, longitude before latitude"
+                                         : "give positions within 100 km of it, east before north");
+    }
+    positions.push_back(place(at, point, system));
   }
-  return position;
+  return positions;
+}
+
+}  // namespace
+
+Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg) {
+  return scene_position(georeference, longitude_deg, latitude_deg, 0.0);
+}
+
+Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg,
+                               double z_m) {
+  const OnGlobe globe(georeference);
+  check_place(globe, {longitude_deg, latitude_deg});
+  return globe.at_z({longitude_deg, latitude_deg}, z_m);
+}
+
+Vec3 scene_point(const Georeference& georeference, double longitude_deg, double latitude_deg, double height_m) {
+  const OnGlobe globe(georeference);
+  check_place(globe, {longitude_deg, latitude_deg});
+  return globe.to_scene({{longitude_deg, latitude_deg}, height_m});
+}
+
+double height_m(const Georeference& georeference, const Vec3& position) {
+  return OnGlobe(georeference).to_geodetic(position).height_m;
+}
+
+Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg,
+                               const SurfaceZ& z_at) {
+  const OnGlobe globe(georeference);
+  check_place(globe, {longitude_deg, latitude_deg});
+  return globe.on_surface({longitude_deg, latitude_deg}, z_at);
 }
 
 bool seems_swapped(const Georeference& georeference, const Box& bounds, double longitude_deg, double latitude_deg) {
@@ -53,24 +115,23 @@ bool seems_swapped(const Georeference& georeference, const Box& bounds, double l
 
 std::vector<Eigen::Vector2d> scene_positions(const Georeference& georeference, const std::string& crs,
                                              std::span<const Eigen::Vector2d> points) {
-  const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
-  const internal::geo::CoordinateSystem system(crs, "crs");
-  std::vector<Eigen::Vector2d> positions;
-  positions.reserve(points.size());
-  for (const Eigen::Vector2d& point : points) {
-    const std::string place = "point " + std::to_string(positions.size());
-    if (!point.allFinite()) {
-      throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite", place, "give two numbers");
-    }
-    const Eigen::Vector2d& position = positions.emplace_back(frame.to_local(system.to_lonlat(point)));
-    if (position.norm() <= internal::geo::kFarthestM) continue;
-    throw Error(ErrorCode::too_far_away,
-                "the point lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
-                place,
-                system.is_geographic() ? "give positions within 100 km of it, longitude before latitude"
-                                       : "give positions within 100 km of it, east before north");
-  }
-  return positions;
+  return scene_positions(georeference, crs, points, SurfaceZ{});
+}
+
+std::vector<Eigen::Vector2d> scene_positions(const Georeference& georeference, const std::string& crs,
+                                             std::span<const Eigen::Vector2d> points, const SurfaceZ& z_at) {
+  const OnGlobe globe(georeference);
+  return placed(globe, crs, points, [&](LonLat at, const Eigen::Vector2d&, const auto&) {
+    return z_at ? globe.on_surface(at, z_at) : globe.at_z(at, 0);
+  });
+}
+
+std::vector<Vec3> scene_positions(const Georeference& georeference, const std::string& crs,
+                                  std::span<const Vec3> points) {
+  const OnGlobe globe(georeference);
+  return placed(globe, crs, points, [&](LonLat at, const Vec3& point, const auto& system) {
+    return globe.to_scene({at, point.z() * system.vertical_unit_m().value_or(1)});
+  });
 }
 
 double vertical_unit_m(const std::string& crs) {
@@ -79,12 +140,30 @@ double vertical_unit_m(const std::string& crs) {
 
 std::vector<Eigen::Vector2d> positions_in_crs(const Georeference& georeference, const std::string& crs,
                                               std::span<const Eigen::Vector2d> points) {
-  const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
+  const OnGlobe globe(georeference);
   const internal::geo::CoordinateSystem system(crs, "crs");
   std::vector<Eigen::Vector2d> positions;
   positions.reserve(points.size());
-  for (const Eigen::Vector2d& point : points) positions.push_back(system.from_lonlat(frame.to_lonlat(point)));
+  for (const Eigen::Vector2d& point : points) {
+    positions.push_back(system.from_lonlat(globe.to_geodetic({point.x(), point.y(), 0}).place));
+  }
   return positions;
 }
+
+std::vector<Vec3> positions_in_crs(const Georeference& georeference, const std::string& crs,
+                                   std::span<const Vec3> points) {
+  const OnGlobe globe(georeference);
+  const internal::geo::CoordinateSystem system(crs, "crs");
+  std::vector<Vec3> positions;
+  positions.reserve(points.size());
+  for (const Vec3& point : points) {
+    const internal::geo::Geodetic place = globe.to_geodetic(point);
+    const Eigen::Vector2d at = system.from_lonlat(place.place);
+    positions.emplace_back(at.x(), at.y(), place.height_m);
+  }
+  return positions;
+}
+
+bool is_map(const Georeference& georeference) { return !OnGlobe(georeference).is_cartesian(); }
 
 }  // namespace vantage

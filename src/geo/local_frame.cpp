@@ -75,11 +75,4 @@ void check_origin(LonLat origin, LonLat middle, const std::string& where) {
                          : "give an origin nearby, or none: then it is the middle");
 }
 
-bool move_origin(std::vector<Vec3>& points, const Georeference& from, const Georeference& to) {
-  if (from.latitude_deg == to.latitude_deg && from.longitude_deg == to.longitude_deg) return false;
-  const LocalFrame old_frame({from.longitude_deg, from.latitude_deg}), new_frame({to.longitude_deg, to.latitude_deg});
-  for (Vec3& point : points) point.head<2>() = new_frame.to_local(old_frame.to_lonlat(point.head<2>()));
-  return true;
-}
-
 }  // namespace vantage::internal::geo

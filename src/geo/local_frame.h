@@ -66,9 +66,9 @@ double geodesic_m(LonLat from, LonLat to);
 /// Throws Error(input) for an origin farther than kFarthestM from `middle`, that of what is to lie about it.
 VANTAGE_INTERNAL_API void check_origin(LonLat origin, LonLat middle, const std::string& where);
 
-/// x and y of points of the frame about `from`'s origin into that about `to`'s; the same origin leaves every bit as it
-/// is. z is left alone. Returns whether the origins differ. Throws Error(input) for one that is not a place on the
-/// earth.
+/// Points of the frame about `from`'s origin into that about `to`'s; the same frame leaves every bit as it is. Between
+/// maps z is left alone; one from a tileset is no map (OnGlobe). Returns whether the frames differ. Throws Error(input)
+/// for an origin that is not a place on the earth.
 bool move_origin(std::vector<Vec3>& points, const Georeference& from, const Georeference& to);
 
 /// From a coordinate reference system to WGS 84 and back: "EPSG:4326", "EPSG:28992", "EPSG:7415" (of a compound one

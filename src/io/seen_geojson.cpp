@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/text.h"
+#include "geo/on_globe.h"
 #include "io/antimeridian.h"
 #include "io/georeference_text.h"
-#include "io/on_globe.h"
 #include "vantage/fraction.h"
 
 namespace vantage {
@@ -55,7 +55,7 @@ class Positions {
     return json;
   }
 
-  std::optional<internal::io::OnGlobe> globe_;
+  std::optional<internal::geo::OnGlobe> globe_;
 };
 
 /// Twice the area of a ring as seen from above, positive where it runs counter-clockwise.

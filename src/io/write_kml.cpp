@@ -13,9 +13,9 @@
 #include "common/output.h"
 #include "core/xml_text.h"
 #include "geo/local_frame.h"
+#include "geo/on_globe.h"
 #include "io/antimeridian.h"
 #include "io/kind_colours.h"
-#include "io/on_globe.h"
 #include "io/write_zip.h"
 #include "io/writers.h"
 #include "io/written_marks.h"
@@ -195,7 +195,7 @@ class KmlVolume {
   const Volume& volume_;
   const StoredMesh& stored_;
   const Georeference& place_;
-  OnGlobe globe_;
+  geo::OnGlobe globe_;
   double sea_level_z_m_;
 };
 

@@ -9,8 +9,8 @@
 
 #include "common/input.h"
 #include "geo/ellipsoid.h"
+#include "geo/on_globe.h"
 #include "io/georeference_text.h"
-#include "io/on_globe.h"
 #include "io/tile_content.h"
 #include "vantage/error.h"
 #include "vantage/version.h"
@@ -23,7 +23,7 @@ using TilesetJson = nlohmann::ordered_json;
 /// The axes of the tile: x east, y north, z up where the target is (its frame's origin).
 class TileFrame {
  public:
-  TileFrame(const OnGlobe& globe, const Vec3& scene_origin)
+  TileFrame(const geo::OnGlobe& globe, const Vec3& scene_origin)
       : globe_(globe),
         axes_(geo::TangentFrame(globe.to_geodetic(scene_origin).place).axes),
         origin_(globe.to_earth(scene_origin)) {}
@@ -43,7 +43,7 @@ class TileFrame {
   }
 
  private:
-  const OnGlobe& globe_;
+  const geo::OnGlobe& globe_;
   Eigen::Matrix3d axes_;  // its rows are east, north and up
   Vec3 origin_;
 };
@@ -139,7 +139,7 @@ StagedVolume stage_tiles(const Volume& volume, const std::filesystem::path& fold
     throw Error(ErrorCode::format_too_small, "there is no volume, and a tileset has something to show", folder.string(),
                 "write another format, which can say that there is none");
   }
-  const OnGlobe globe(*volume.georeference);
+  const geo::OnGlobe globe(*volume.georeference);
   const TileFrame frame(globe, volume.frame.origin);
   Volume placed;  // what rounding needs
   placed.mesh.triangles = volume.mesh.triangles;

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from .. import _core
 from .._errors import Error, input_error
 from .._extras import require
+from .._place import Georeference
 from .._requests import Target
 from .._scene import Scene
 from ._table import KINDS, Row
@@ -52,7 +53,6 @@ class CrsTransform:
     def __init__(self, scene: Scene, crs: str | None):
         self._scene = scene
         self._lonlat = _converter(crs, LONLAT) if crs is not None and crs != "scene" else None
-        self._back: Any = None
         self._crs = crs
         self._unit_m: float | None = None
 
@@ -66,28 +66,38 @@ class CrsTransform:
         return z * self._unit_m
 
     def to_scene(self, corners: Corners) -> Corners:
-        """(n, 2) of the table's CRS into the frame."""
+        """(n, 2) of the table's CRS on the ground of the scene, or (n, 3), into the frame."""
         if self._lonlat is None:
             return corners
+        on_earth, heights = self._degrees(corners), self.heights(corners[:, 2:])
+        if not heights.size:
+            return _core.from_crs_on_ground(self._scene._core, LONLAT, on_earth)
+        return _core.from_crs(self._place(), LONLAT, np.column_stack([on_earth, heights]))
+
+    def _place(self) -> Georeference:
+        assert self._scene.georeference is not None
+        return self._scene.georeference
+
+    def _degrees(self, corners: Corners) -> Corners:
+        assert self._lonlat is not None
         longitudes, latitudes = self._lonlat.transform(corners[:, 0], corners[:, 1])
         if not (np.isfinite(longitudes).all() and np.isfinite(latitudes).all()):
             raise input_error("not-on-earth", "the geometry is not on the earth", "geometry", "check its CRS")
-        return np.array([self._scene.position(latitude, longitude)
-                         for latitude, longitude in zip(latitudes, longitudes)]).reshape(-1, 2)
+        return np.column_stack([longitudes, latitudes])
 
     def to_output(self, corners: Corners) -> Corners:
-        """(n, 2) of the table's CRS as results have them: longitude and latitude, if the scene is on the earth."""
+        """(n, 2) or (n, 3) of the table's CRS as results have them: longitude and latitude, if the scene is on the earth."""
         if self._lonlat is not None:
-            return np.column_stack(self._lonlat.transform(corners[:, 0], corners[:, 1]))
+            flat = np.column_stack(self._lonlat.transform(corners[:, 0], corners[:, 1]))
+            return np.column_stack([flat, self.heights(corners[:, 2:])])
         return self.from_scene(corners)
 
     def from_scene(self, corners: Corners) -> Corners:
-        """(n, 2) of the frame as results have them."""
-        if self._scene.crs is None:
+        """(n, 2) or (n, 3) of the frame as results have them. Heights are above the zero of the scene's heights."""
+        if self._scene.georeference is None:
             return corners
-        if self._back is None:
-            self._back = _converter(self._scene.crs, LONLAT)
-        return np.column_stack(self._back.transform(corners[:, 0], corners[:, 1]))
+        move = _core.plan_to_crs if corners.shape[1] == 2 else _core.to_crs
+        return move(self._scene.georeference, LONLAT, np.ascontiguousarray(corners))
 
 
 def targets_of(row: Row, transform: CrsTransform) -> list[Target]:
@@ -140,8 +150,7 @@ def _of_part(part: Any, keys: dict[str, Any], transform: CrsTransform) -> list[T
     if part.geom_type == "Point":
         if not part.has_z:
             raise input_error("missing-key", "the point has no height", "geometry", "give it a z")
-        x, y = transform.to_scene(np.array([[part.x, part.y]]))[0]
-        return [Target(**keys, point=[x, y, float(transform.heights(np.array(part.z)))])]
+        return [Target(**keys, point=transform.to_scene(np.array([[part.x, part.y, part.z]]))[0].tolist())]
     rings = [_ring(ring, transform) for ring in (part.exterior, *part.interiors)]
     if not part.has_z:
         holes = [ring.tolist() for ring in rings[1:]] or None
@@ -159,7 +168,7 @@ def _ring(ring: Any, transform: CrsTransform) -> Corners:
                           "write finite numbers")
     kept = (corners != np.roll(corners, 1, axis=0)).any(axis=1)
     corners = corners[kept] if kept.any() else corners[:1]
-    return np.column_stack([transform.to_scene(corners[:, :2]), transform.heights(corners[:, 2:])])
+    return transform.to_scene(corners)
 
 
 def _turns_one_way(ring: Corners) -> bool:
@@ -198,15 +207,10 @@ def footprint(row: Row, parts: list[Corners] | None, transform: CrsTransform) ->
     assert parts is not None
     shapes = []
     for part in parts:
-        corners = np.column_stack([transform.from_scene(part[:, :2]), part[:, 2]])
+        corners = transform.from_scene(part)
         shapes.append(shapely.Point(corners[0]) if len(corners) == 1 else shapely.Polygon(corners))
     return bytes(shapely.to_wkb(shapes[0] if len(shapes) == 1 else shapely.MultiPolygon(shapes)))
 
 
 def _moved(geometry: Any, transform: CrsTransform) -> Any:
-    shapely = require("shapely", "geo")
-
-    def of(corners: Corners) -> Corners:
-        return np.column_stack([transform.to_output(corners[:, :2]), transform.heights(corners[:, 2:])])
-
-    return shapely.transform(geometry, of, include_z=geometry.has_z)
+    return require("shapely", "geo").transform(geometry, transform.to_output, include_z=geometry.has_z)

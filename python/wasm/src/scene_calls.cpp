@@ -3,9 +3,9 @@
 
 #include "common/json.h"
 #include "held.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
 #include "vantage/geometry.h"
-#include "vantage/georeference.h"
 
 namespace vantage::wasm {
 namespace {
@@ -19,6 +19,10 @@ Json load(const Json& a) {
   return keep(std::move(scene));
 }
 
+Georeference place_of(const Json& row) {
+  return {row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<std::string>(), row.at(3).get<std::string>()};
+}
+
 Json from_arrays(const Json& a) {
   LoadedScene loaded;
   loaded.scene.mesh = mesh_of(a);
@@ -27,10 +31,7 @@ Json from_arrays(const Json& a) {
     loaded.scene.objects.push_back(
         {row.at(0).get<std::string>(), row.at(1).get<std::string>(), static_cast<ObjectKind>(row.at(2).get<int>())});
   }
-  if (const Json& place = a.at("place"); !place.is_null()) {
-    loaded.scene.georeference = Georeference{place.at(0).get<double>(), place.at(1).get<double>(),
-                                             place.at(2).get<std::string>(), place.at(3).get<std::string>()};
-  }
+  if (const Json& place = a.at("place"); !place.is_null()) loaded.scene.georeference = place_of(place);
   loaded.scene.attribution = a.at("attribution").get<std::string>();
   if (auto& known = loaded.scene.georeference) known->attribution = attribution_of(loaded.scene);  // for files
   if (const Json& whole = a.at("whole"); !whole.is_null()) {
@@ -76,10 +77,12 @@ Json position(const Json& a) {
     throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", "",
                 "use positions in the scene's frame, or give the scene an origin");
   }
-  const Eigen::Vector2d at =
-      scene_position(*place, a.at("longitude_deg").get<double>(), a.at("latitude_deg").get<double>());
+  const Eigen::Vector2d at = scene_position(*place, a.at("longitude_deg").get<double>(),
+                                            a.at("latitude_deg").get<double>(), a.at("z_m").get<double>());
   return {at.x(), at.y()};
 }
+
+Json frame_is_map(const Json& a) { return is_map(place_of(a.at("place"))); }
 
 Json is_swapped(const Json& a) {
   const auto scene = held<HeldScene>(a, "scene");
@@ -112,6 +115,7 @@ void add_scene_calls(Calls& calls) {
     return write_scene(held<HeldScene>(a, "scene")->scene(), a.at("file").get<std::string>());
   };
   calls["scene_position"] = &position;
+  calls["is_map"] = &frame_is_map;
   calls["seems_swapped"] = &is_swapped;
   calls["free_scene"] = [](const Json& a) -> Json { return table<HeldScene>().erase(a.at("object").get<Handle>()); };
 }

@@ -14,7 +14,7 @@
 #include "flight/plans/ground_profile.h"
 #include "flight/plans/levels.h"
 #include "geo/local_frame.h"
-#include "io/on_globe.h"
+#include "geo/on_globe.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
 
@@ -50,7 +50,7 @@ class Locator {
            "give a scene of a map, or its place: 'origin' under 'scene'");
     }
     frame_.emplace(geo::LonLat{options.georeference->longitude_deg, options.georeference->latitude_deg});
-    const internal::io::OnGlobe globe(*options.georeference);
+    const internal::geo::OnGlobe globe(*options.georeference);
     if (globe.is_cartesian()) globe_.emplace(*options.georeference);
   }
 
@@ -97,8 +97,8 @@ class Locator {
   const FlightPlan& plan_;
   const LocateOptions& options_;
   plans::Levels levels_;
-  std::optional<geo::LocalFrame> frame_;        ///< none: the plan is in the scene frame
-  std::optional<internal::io::OnGlobe> globe_;  ///< of a scene whose frame is no map: from a tileset
+  std::optional<geo::LocalFrame> frame_;         ///< none: the plan is in the scene frame
+  std::optional<internal::geo::OnGlobe> globe_;  ///< of a scene whose frame is no map: from a tileset
   std::optional<GroundLevels> ground_;
   std::optional<plans::GroundProfile> profile_;
   std::optional<double> home_z_;

@@ -10,8 +10,8 @@
 
 #include "core/xml_text.h"
 #include "flight/plans/levels.h"
+#include "geo/on_globe.h"
 #include "io/antimeridian.h"
-#include "io/on_globe.h"
 #include "vantage/flight.h"
 
 namespace vantage::internal::flight::plans {
@@ -81,7 +81,7 @@ class PlanWriter {
 
   const FlightOut& flight_;
   Levels levels_;
-  std::optional<io::OnGlobe> globe_;
+  std::optional<geo::OnGlobe> globe_;
   HeightDatum heights_;
 };
 

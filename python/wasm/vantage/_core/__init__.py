@@ -131,9 +131,14 @@ def object_kinds() -> list[str]:
     return list(engine().call("object_kinds"))
 
 
-def scene_position(scene: Scene, latitude_deg: float, longitude_deg: float) -> tuple[float, float]:
-    east, north = scene.engine.call("scene_position", scene=scene, latitude_deg=latitude_deg, longitude_deg=longitude_deg)
+def scene_position(scene: Scene, latitude_deg: float, longitude_deg: float, z_m: float = 0.0) -> tuple[float, float]:
+    east, north = scene.engine.call("scene_position", scene=scene, latitude_deg=latitude_deg, longitude_deg=longitude_deg,
+                                    z_m=z_m)
     return east, north
+
+
+def is_map(place: tuple[float, float, str, str]) -> bool:
+    return bool(engine().call("is_map", place=list(place)))
 
 
 def seems_swapped(scene: Scene, latitude_deg: float, longitude_deg: float) -> bool:

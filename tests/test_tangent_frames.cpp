@@ -1,0 +1,341 @@
+// Scenes from tilesets on the earth: their frame touches the ellipsoid, and is no map. What a mission gives in a
+// coordinate reference system, or by longitude and latitude, lies there all the same.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/mission_parser.h"
+#include "core/format.h"
+#include "geo/ellipsoid.h"
+#include "geo/on_globe.h"
+#include "support/internals.h"
+#include "support/random.h"
+#include "support/temporary_directory.h"
+#include "support/tile_files.h"
+#include "support/zone_texts.h"
+#include "vantage/earth.h"
+#include "vantage/mission.h"
+
+namespace vantage::testing {
+namespace {
+
+constexpr double kExactM = 1e-6, kGroundM = 40;
+/// What is laid on the ground is rounded to 2^-13 m in x and in y.
+constexpr double kLaidM = 0.71 / 8192 + kExactM;
+constexpr double kMetresPerDegree = 111.2e3;
+const std::vector<double> kDistancesM = {0, 400, 2000, 10000};
+
+struct Origin {
+  double latitude_deg, longitude_deg;
+};
+const std::vector<Origin> kOrigins = {{0, 12}, {48.1, 11.5}, {-33.9, 151.2}, {69.6, 18.9}, {35.67, -179.999}};
+
+Georeference georeference_of(const Origin& origin) {
+  return {origin.latitude_deg, origin.longitude_deg, internal::geo::kEllipsoidalHeight, internal::geo::kEarthCentred};
+}
+
+struct Place {
+  double longitude_deg, latitude_deg, height_m;
+};
+
+/// So far from the origin, to the north-east. Longitudes stay in -180 to 180.
+Place place_at(const Origin& origin, double east_m, double north_m, double height_m) {
+  const double scale = std::cos(origin.latitude_deg * internal::geo::kDegree);
+  return {std::remainder(origin.longitude_deg + east_m / kMetresPerDegree / scale, 360),
+          origin.latitude_deg + north_m / kMetresPerDegree, height_m};
+}
+
+/// A frame that touches the earth, by the formulas of the tests.
+struct Frame {
+  explicit Frame(double latitude_deg, double longitude_deg) {
+    const nlohmann::json numbers = transform_at(latitude_deg, longitude_deg);
+    for (Eigen::Index i = 0; i < 16; ++i) into_earth(i % 4, i / 4) = numbers[static_cast<std::size_t>(i)];
+  }
+  Vec3 origin() const { return into_earth.col(3).head<3>(); }
+  Vec3 up() const { return into_earth.col(2).head<3>(); }
+  Eigen::Matrix4d into_earth;
+};
+
+/// In the scene frame.
+Vec3 exact(const Origin& origin, const Place& place) {
+  const Frame scene(origin.latitude_deg, origin.longitude_deg), there(place.latitude_deg, place.longitude_deg);
+  const Vec3 earth = there.origin() + place.height_m * there.up();
+  return scene.into_earth.topLeftCorner<3, 3>().transpose() * (earth - scene.origin());
+}
+
+/// On the vertical of a place at this z of the scene frame.
+Vec3 exact_at_z(const Origin& origin, Place place, double z_m) {
+  place.height_m = 0;
+  const Vec3 low = exact(origin, place);
+  place.height_m = 1000;
+  const Vec3 up = exact(origin, place) - low;
+  return low + up * ((z_m - low.z()) / up.z());
+}
+
+/// Ground 25 km across, and a tower whose western side is 5 mm from a place.
+std::shared_ptr<const LoadedScene> scene_at(const Origin& origin, const Vec3& tower) {
+  auto loaded = std::make_shared<LoadedScene>();
+  Scene& scene = loaded->scene;
+  scene.georeference = georeference_of(origin);
+  constexpr double kHalf = 12.5e3;
+  scene.mesh.vertices = {
+      {-kHalf, -kHalf, kGroundM}, {kHalf, -kHalf, kGroundM}, {kHalf, kHalf, kGroundM}, {-kHalf, kHalf, kGroundM}};
+  scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.object_of = {0, 0};
+  scene.objects = {{"ground", "", ObjectKind::ground}, {"tower", "", ObjectKind::building}};
+  const double top = kGroundM + 400;
+  for (const double x : {-5e-3, 1.5}) {
+    for (const double y : {-1.0, 1.0}) scene.mesh.vertices.emplace_back(tower.x() + x, tower.y() + y, top);
+  }
+  scene.mesh.triangles.push_back({4, 6, 7});
+  scene.mesh.triangles.push_back({4, 7, 5});
+  scene.object_of.insert(scene.object_of.end(), {1, 1});
+  return loaded;
+}
+
+Mission resolved(const std::string& text, const std::shared_ptr<const LoadedScene>& scene,
+                 const std::filesystem::path& folder = "/data") {
+  return resolve_mission(app::parse_mission("scene: {mesh: city.obj}\n" + text, folder / "mission.yaml"), scene);
+}
+
+std::string text_of(const Place& place, bool has_height = true) {
+  const std::string flat = core::format("[{:.17g}, {:.17g}", place.longitude_deg, place.latitude_deg);
+  return flat + (has_height ? core::format(", {:.17g}]", place.height_m) : "]");
+}
+
+void for_each_place(const std::function<void(const Origin&, double)>& check) {
+  for (const Origin& origin : kOrigins) {
+    for (const double distance : kDistancesM) {
+      SCOPED_TRACE(core::format("{} m at {}", distance, origin.latitude_deg));
+      check(origin, distance);
+    }
+  }
+}
+
+TEST(TangentFrames, PositionsAreWhereTheEarthHasThem) {
+  for_each_place([](const Origin& origin, double distance) {
+    const Georeference place = georeference_of(origin);
+    for (const double height : {-20.0, 0.0, 120.0, 900.0}) {
+      const Place at = place_at(origin, 0.6 * distance, -0.8 * distance, height);
+      const Vec3 there = exact(origin, at);
+      const std::vector<Vec3> given = {{at.longitude_deg, at.latitude_deg, height}};
+      EXPECT_LT((scene_positions(place, "EPSG:4979", given).at(0) - there).norm(), kExactM);
+      EXPECT_LT((scene_point(place, at.longitude_deg, at.latitude_deg, height) - there).norm(), kExactM);
+      EXPECT_NEAR(height_m(place, there), height, kExactM);
+      const Eigen::Vector2d flat = scene_position(place, at.longitude_deg, at.latitude_deg, there.z());
+      EXPECT_LT((flat - there.head<2>()).norm(), kExactM);
+      const Vec3 back = positions_in_crs(place, "EPSG:4326", std::vector<Vec3>{there}).at(0);
+      EXPECT_LT((exact(origin, {back.x(), back.y(), back.z()}) - there).norm(), kExactM);
+    }
+    // A slope of the ground, and z = 0 where there is no height.
+    const Place at = place_at(origin, distance, 0, 0);
+    const auto slope = [](const Eigen::Vector2d& p) -> std::optional<double> { return 300 + 0.5 * p.x(); };
+    const Eigen::Vector2d on_slope = scene_position(place, at.longitude_deg, at.latitude_deg, slope);
+    const Vec3 wanted = exact_at_z(origin, at, *slope(on_slope));
+    EXPECT_LT((on_slope - wanted.head<2>()).norm(), kExactM);
+    const std::vector<Eigen::Vector2d> flat = {{at.longitude_deg, at.latitude_deg}};
+    const Eigen::Vector2d at_zero = scene_positions(place, "EPSG:4326", flat).at(0);
+    EXPECT_LT((at_zero - exact_at_z(origin, at, 0).head<2>()).norm(), kExactM);
+    const Eigen::Vector2d back = positions_in_crs(place, "EPSG:4326", std::vector<Eigen::Vector2d>{at_zero}).at(0);
+    EXPECT_NEAR(back.y(), at.latitude_deg, kExactM / kMetresPerDegree);
+  });
+}
+
+// A volume computed about one origin, in the frame about another: turned as a whole.
+TEST(TangentFrames, MovesMeshesFromFrameToFrame) {
+  for_each_place([](const Origin& origin, double distance) {
+    const Place other = place_at(origin, distance, distance, 0), at = place_at(origin, -300, 900, 70);
+    std::vector<Vec3> points = {exact(origin, at)};
+    const Origin there{other.latitude_deg, other.longitude_deg};
+    EXPECT_EQ(internal::geo::move_origin(points, georeference_of(origin), georeference_of(there)), distance > 0);
+    EXPECT_LT((points[0] - exact(there, at)).norm(), kExactM);
+    // And into a map, where z is the height.
+    points = {exact(origin, at)};
+    EXPECT_TRUE(internal::geo::move_origin(
+        points, georeference_of(origin), {there.latitude_deg, there.longitude_deg, "ellipsoidal height", "EPSG:4326"}));
+    EXPECT_NEAR(points[0].z(), 70, kExactM);
+  });
+}
+
+TEST(TangentFrames, TargetsOfACrsLieWhereTheyAreSaidTo) {
+  for_each_place([](const Origin& origin, double distance) {
+    const double height = 120;
+    const std::vector<Place> corners = {place_at(origin, distance, 0, height),
+                                        place_at(origin, distance + 9, 0, height),
+                                        place_at(origin, distance, 9, height + 3)};
+    const auto scene = scene_at(origin, {0, 0, 0});
+    const std::string sensor = "sensor: {max_range: 300}\ncrs: EPSG:4326\n";
+    std::string list, flat;
+    for (const Place& corner : corners) {
+      list += (list.empty() ? "" : ", ") + text_of(corner);
+      flat += (flat.empty() ? "" : ", ") + text_of(corner, false);
+    }
+    const Mission given = resolved(sensor + "target: {vertices: [" + list + "]}\n", scene);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LT((given.target.parts.at(0).at(i) - exact(origin, corners[i])).norm(), kExactM) << i;
+    }
+    // Without heights on the ground, or as far above it as they are asked to be.
+    const Mission laid = resolved(sensor + "target: {outline: [" + flat + "]}\n", scene);
+    for (const Vec3& corner : laid.target.parts.at(0)) {
+      EXPECT_NEAR(corner.z(), kGroundM, 1e-9);
+      const bool is_one = std::any_of(corners.begin(), corners.end(), [&](const Place& place) {
+        return (corner - exact_at_z(origin, place, corner.z())).norm() < kLaidM;
+      });
+      EXPECT_TRUE(is_one) << corner.transpose();
+    }
+  });
+}
+
+TEST(TangentFrames, PlacesByLatitudeAndLongitudeAreOnTheirVerticals) {
+  for_each_place([](const Origin& origin, double distance) {
+    const Place at = place_at(origin, distance, 50, 0);
+    const double top = kGroundM + 400;
+    const auto scene = scene_at(origin, exact_at_z(origin, at, top));
+    const std::string place = core::format("[{:.17g}, {:.17g}]", at.latitude_deg, at.longitude_deg);
+    const std::string sensor = "sensor: {max_range: 300}\n";
+    // The map has it 14 cm farther west, 2 km from the origin: on the tower all the same.
+    EXPECT_EQ(resolved(sensor + "target: {at: " + place + ", part: roof}\n", scene).target.parts.at(0).at(0).z(), top);
+    const Mission mission =
+        resolved(sensor + "target: {center: " + place + ", width: 6, length: 4}\n" +
+                     "links: [{name: mast, at: " + place + ", height: 300}]\n" + "tour: {home: " + place + "}\n",
+                 scene);
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& corner : mission.target.parts.at(0)) centre += corner / 4;
+    EXPECT_LT((centre - exact_at_z(origin, at, kGroundM)).norm(), kLaidM);
+    EXPECT_LT((mission.links.at(0).point - exact_at_z(origin, at, kGroundM + 300)).norm(), kExactM);
+    EXPECT_LT((mission.home.value() - exact_at_z(origin, at, kGroundM)).norm(), kExactM);
+  });
+}
+
+bool holds(const Zone& zone, const Vec3& at) {
+  bool inside = false;
+  for (std::size_t i = 0; i < zone.outer.size(); ++i) {
+    const Eigen::Vector2d &a = zone.outer[i], &b = zone.outer[(i + 1) % zone.outer.size()];
+    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
+    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside && at.z() >= zone.min_z_m && at.z() <= zone.max_z_m;
+}
+
+struct BoxInDegrees {
+  Place low, high;
+  bool has_heights = true;  ///< else it holds all heights, and is asked about those between the two
+  bool holds(const Place& at) const {
+    return at.longitude_deg >= low.longitude_deg && at.longitude_deg <= high.longitude_deg &&
+           at.latitude_deg >= low.latitude_deg && at.latitude_deg <= high.latitude_deg &&
+           (!has_heights || (at.height_m >= low.height_m && at.height_m <= high.height_m));
+  }
+};
+
+/// Points near the border of the box, on both sides of it.
+void expect_safe(const Origin& origin, const BoxInDegrees& box, const Zone& kept, const Zone& out, double loss_m,
+                 Random& random) {
+  const double scale = std::cos(origin.latitude_deg * internal::geo::kDegree);
+  for (int i = 0; i < 600; ++i) {
+    Place at{random.uniform(box.low.longitude_deg, box.high.longitude_deg),
+             random.uniform(box.low.latitude_deg, box.high.latitude_deg),
+             random.uniform(box.low.height_m, box.high.height_m)};
+    const bool is_low = random.chance(0.5);
+    const Place& side = is_low ? box.low : box.high;
+    const double off_m = std::pow(10, random.uniform(-5, 0.3)) * (random.chance(0.5) ? 1 : -1);
+    const double inward_m = is_low ? off_m : -off_m;
+    switch (random.integer(0, box.has_heights ? 2 : 1)) {
+      case 0:
+        at.longitude_deg = side.longitude_deg + off_m / kMetresPerDegree / scale;
+        break;
+      case 1:
+        at.latitude_deg = side.latitude_deg + off_m / kMetresPerDegree;
+        break;
+      default:
+        at.height_m = side.height_m + off_m;
+    }
+    const Vec3 there = exact(origin, at);
+    const bool is_held = box.holds(at);
+    EXPECT_TRUE(is_held || !holds(kept, there)) << off_m << " m, " << there.transpose();
+    EXPECT_TRUE(holds(out, there) || !is_held) << off_m << " m, " << there.transpose();
+    const double corner_m = 3 * loss_m;  // of a side that is cut, too
+    if (inward_m > corner_m && at.height_m > box.low.height_m + corner_m &&
+        at.height_m < box.high.height_m - corner_m) {
+      const double east_m =
+          std::min(at.longitude_deg - box.low.longitude_deg, box.high.longitude_deg - at.longitude_deg);
+      const double north_m = std::min(at.latitude_deg - box.low.latitude_deg, box.high.latitude_deg - at.latitude_deg);
+      if (std::min(east_m * scale, north_m) * kMetresPerDegree > corner_m) {
+        EXPECT_TRUE(holds(kept, there)) << off_m;
+      }
+    }
+    if (inward_m < -corner_m) {
+      EXPECT_FALSE(holds(out, there)) << off_m << " m, " << there.transpose();
+    }
+  }
+}
+
+TEST(TangentFrames, ZonesOfACrsAreOnTheSafeSide) {
+  Random random(71);
+  for_each_place([&](const Origin& origin, double distance) {
+    if (origin.longitude_deg < -179 || distance > 9000) return;  // a box in degrees; and no farther than the tower
+    const BoxInDegrees box{place_at(origin, distance - 90, -80, 60), place_at(origin, distance + 70, 110, 160)};
+    const Place low = box.low, high = box.high;
+    const auto scene = scene_at(origin, {0, 0, 0});
+    const Place target = place_at(origin, distance, 0, 50), east = place_at(origin, distance + 5, 0, 50),
+                north = place_at(origin, distance, 5, 50);
+    const std::string ring = "polygon: [" + text_of({low.longitude_deg, low.latitude_deg, 0}, false) + ", " +
+                             text_of({high.longitude_deg, low.latitude_deg, 0}, false) + ", " +
+                             text_of({high.longitude_deg, high.latitude_deg, 0}, false) + ", " +
+                             text_of({low.longitude_deg, high.latitude_deg, 0}, false) + "], z: [60, 160]";
+    const Mission mission =
+        resolved("sensor: {max_range: 300}\ncrs: EPSG:4326\ntarget: {vertices: [" + text_of(target) + ", " +
+                     text_of(east) + ", " + text_of(north) + "]}\nnavigation:\n  keep_in: [{" + ring +
+                     "}]\n  keep_out: [{" + ring + "}, {min: " + text_of(low) + ", max: " + text_of(high) + "}]\n",
+                 scene);
+    // By d / R of half the height, and the level's fall over the zone.
+    const double loss = 60 * (distance + 200) / 6.3e6 + (distance + 200) * (distance + 200) / 2 / 6.3e6 + 1e-3;
+    expect_safe(origin, box, mission.navigation.keep_in.at(0), mission.navigation.keep_out.at(0), loss, random);
+    // A box of the frame round an askew one is larger.
+    expect_safe(origin, box, mission.navigation.keep_in.at(0), mission.navigation.keep_out.at(1), loss + 160 * 0.02,
+                random);
+  });
+}
+
+TEST(TangentFrames, ZonesWithoutHeightsAreSafeWithinTheReach) {
+  const Origin origin{48.1, 11.5};
+  const double distance = 2000;
+  const BoxInDegrees box{place_at(origin, distance - 90, -80, -200), place_at(origin, distance + 70, 110, 700), false};
+  TemporaryDirectory folder;
+  const auto corner = [](double longitude, double latitude) {
+    return core::format("[{:.17g}, {:.17g}]", longitude, latitude);
+  };
+  const std::string ring = "[" + corner(box.low.longitude_deg, box.low.latitude_deg) + ", " +
+                           corner(box.high.longitude_deg, box.low.latitude_deg) + ", " +
+                           corner(box.high.longitude_deg, box.high.latitude_deg) + ", " +
+                           corner(box.low.longitude_deg, box.high.latitude_deg) + ", " +
+                           corner(box.low.longitude_deg, box.low.latitude_deg) + "]";
+  write_bytes(folder / "zone.geojson", "{\"type\": \"Polygon\", \"coordinates\": [" + ring + "]}");
+  const Place middle = place_at(origin, distance, 0, 0);
+  const auto scene = scene_at(origin, exact_at_z(origin, middle, 440));
+  const std::string place = core::format("[{:.17g}, {:.17g}]", middle.latitude_deg, middle.longitude_deg);
+  const Mission mission = resolved("sensor: {max_range: 300}\ntarget: {center: " + place +
+                                       ", width: 6, length: 4}\nnavigation:\n  keep_in: [{file: zone.geojson, heights: "
+                                       "any}]\n  keep_out: [{file: zone.geojson, heights: any}]\n",
+                                   scene, folder.path());
+  const Zone &kept = mission.navigation.keep_in.at(0), &out = mission.navigation.keep_out.at(0);
+  EXPECT_EQ(kept.max_z_m, INFINITY);
+  Random random(72);
+  const double lean = (440 + 300 - (40 - 300)) / 2.0 * 2500 / 6.3e6;  // half the reach in height, by d / R
+  expect_safe(origin, box, kept, out, INFINITY, random);
+  const auto middle_of = [](const Zone& zone, bool is_west) {
+    double x = is_west ? INFINITY : -INFINITY;
+    for (const Eigen::Vector2d& p : zone.outer) x = is_west ? std::min(x, p.x()) : std::max(x, p.x());
+    return x;
+  };
+  EXPECT_LT(middle_of(kept, true) - middle_of(out, true), 2.5 * lean);
+  EXPECT_GT(middle_of(kept, true) - middle_of(out, true), 0.5 * lean);
+}
+
+}  // namespace
+}  // namespace vantage::testing
