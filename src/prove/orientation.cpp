@@ -73,14 +73,14 @@ Whole minor_of(const Whole& ax, const Whole& ay, const Whole& bx, const Whole& b
 /// Whether the sign of what a predicate returned stands: the products of very small coordinates underflow, those of
 /// very large ones overflow. What underflow loses is less by far than what is asked of the result.
 bool is_sure(double result, std::initializer_list<const double*> points, std::size_t dimension) {
-  constexpr double kLost = 0x1p-900, kSmallest = 0x1p-250, kLargest = 0x1p+300;
+  constexpr double kLost = 0x1p-900, kSmallestCubed = 0x1p-250, kLargestCubed = 0x1p+300;
   if (std::abs(result) > kLost && std::isfinite(result)) return true;
   bool is_sure = true;
   for (const double* point : points) {
     for (std::size_t k = 0; k < dimension; ++k) {
       const double size = std::abs(point[k]);
       if (!std::isfinite(size)) return true;  // nothing else tells more
-      is_sure = is_sure && (size == 0 || (size >= kSmallest && size <= kLargest));
+      is_sure = is_sure && (size == 0 || (size >= kSmallestCubed && size <= kLargestCubed));
     }
   }
   return is_sure;
