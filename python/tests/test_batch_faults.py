@@ -378,11 +378,12 @@ def test_where_workers_look_for_modules(tmp_path, monkeypatch):
 def test_workers_end_with_their_driver(tmp_path):
     rows = "[{**row, 'id': i} for i, row in enumerate(triangles() * 4000)]"  # minutes for one shard
     process = driver(tmp_path / "out", rows, max_range=60, shard_rows=100_000, workers=1, volumes="ply")
-    # A walk by pathlib fails where a folder goes meanwhile.
-    wait_until(lambda: any(name.endswith(".ply") for _, _, names in os.walk(tmp_path / "out") for name in names))
-    workers = children(process.pid)
-    process.kill()
-    process.wait()
+    try:  # a walk by pathlib fails where a folder goes meanwhile
+        wait_until(lambda: any(name.endswith(".ply") for _, _, names in os.walk(tmp_path / "out") for name in names))
+        workers = children(process.pid)
+    finally:
+        process.kill()
+        process.wait()
     assert workers, "it was to be in the middle of its shard"
     try:
         wait_until(lambda: not any(map(is_alive, workers)), 60)
