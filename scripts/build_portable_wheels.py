@@ -95,7 +95,7 @@ def build_module(target: str, python: str, folder: pathlib.Path, build: pathlib.
          f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}", "-DBUILD_SHARED_LIBS=OFF", "-DVANTAGE_CCACHE=OFF",
          "-DVANTAGE_BUILD_PYTHON=ON", "-DVANTAGE_BUILD_TESTS=OFF", "-DVANTAGE_BUILD_BENCHMARKS=OFF", "-DVANTAGE_INSTALL=OFF",
          "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_WHEEL=ON", f"-DVANTAGE_WHEEL_PREFIX={folder / 'prefix'}",
-         "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_WITH_DRACO=OFF", "-DVANTAGE_WITH_MESHOPT=OFF",
+         "-DVANTAGE_LINK_PROJ=ON",
          "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
          f"-Dfmt_DIR={folder / 'prefix' / 'lib' / 'any' / 'cmake' / 'fmt'}", f"-DPython_EXECUTABLE={tools}",
          f"-DVANTAGE_PYTHON_HEADERS={';'.join(map(str, headers))}", f"-DVANTAGE_PYTHON_SOABI={soabi}",

@@ -78,8 +78,8 @@ def build(target: str, work: pathlib.Path, jobs: int, libraries: dict) -> pathli
          f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}", f"-DCMAKE_EXE_LINKER_FLAGS={link}",
          "-DBUILD_SHARED_LIBS=OFF", "-DVANTAGE_CCACHE=OFF", "-DVANTAGE_BUILD_TESTS=OFF", "-DVANTAGE_BUILD_BENCHMARKS=OFF",
          "-DVANTAGE_BUILD_PYTHON=OFF",
-         "-DVANTAGE_INSTALL=OFF", "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_LINK_PROJ=ON", "-DVANTAGE_WITH_DRACO=OFF",
-         "-DVANTAGE_WITH_MESHOPT=OFF", "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={prefix}",
+         "-DVANTAGE_INSTALL=OFF", "-DVANTAGE_JOIN_SOURCES=ON", "-DVANTAGE_LINK_PROJ=ON",
+         "-DPKG_CONFIG_ARGN=--static", f"-DCMAKE_PREFIX_PATH={prefix}",
          f"-Dfmt_DIR={prefix / 'lib' / 'any' / 'cmake' / 'fmt'}", *options],
         PROJECT, log, PKG_CONFIG_LIBDIR=str(prefix / "lib" / "pkgconfig"))
     unlink_older(zig, [build_folder / "bin" / "vantage"])

@@ -149,7 +149,17 @@ class Builder:
             log, **self.environment)
         for to, origin in library.get("before_install", {}).items():
             shutil.copyfile(origin, build / to)
-        run(["cmake", "--install", str(build), "--prefix", str(self.prefix)], work, log)
+        self.install(library["name"], build, work, log)
+
+    def install(self, name: str, build: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
+        """By way of a folder of its own: a library whose places are absolute would write over this system."""
+        stage = work / "stage"
+        run(["cmake", "--install", str(build), "--prefix", str(self.prefix)], work, log, DESTDIR=str(stage))
+        made = stage / self.prefix.relative_to("/")
+        outside = [file for file in stage.rglob("*") if not file.is_dir() and made not in file.parents]
+        if outside:
+            raise Failure(f"{name} installs /{outside[0].relative_to(stage)}, outside of the prefix")
+        shutil.copytree(made, self.prefix, symlinks=True, dirs_exist_ok=True)
 
     def with_configure(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
         build = work / "build"

@@ -28,8 +28,9 @@ import time
 
 import debian_archive
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "python" / "wheel"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent.parent / folder) for folder in ("python/wheel", "tests/hostile")]
 import same_bytes  # noqa: E402
+import tilesets  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
@@ -67,6 +68,11 @@ def tour_by_pairs() -> str:
 
 
 # ---- roots
+
+def packed_meshes() -> dict[str, bytes]:
+    """A tetrahedron in glTF, compressed by Draco and by meshoptimizer."""
+    return {"draco.glb": tilesets.draco(tilesets.DRACO[1]), "meshopt.glb": tilesets.meshopt()}
+
 
 class Debian:
     """Packages of a release of Debian, apart from what apt knows for this machine."""
@@ -131,6 +137,8 @@ def make_root(root: pathlib.Path, tarball: pathlib.Path, debian: Debian | None, 
     (root / "trial/far_apart.yaml").write_text(tour_by_pairs(), encoding="utf-8")
     (root / "trial/tiles.yaml").write_text(TILES, encoding="utf-8")
     shutil.copy(PROJECT / "python/wheel/dutch_cube.city.json", root / "trial/cube.city.json")
+    for name, file in packed_meshes().items():
+        (root / "trial" / name).write_bytes(file)
     return f"{len(names)} packages of Debian" + (f": {' '.join(names)}" if 0 < len(names) < 8 else "")
 
 
@@ -184,6 +192,9 @@ def check_everywhere(program: Program, version: str) -> None:
     place = json.loads(program.run("inspect", "/trial/cube.city.json", "--json"))["georeference"]
     if abs(place["latitude_deg"] - 52.155217) > 1e-4 or abs(place["longitude_deg"] - 5.387277) > 1e-4:
         raise Fault(f"a scene in the Dutch system lies at {place['latitude_deg']}, {place['longitude_deg']}")
+    for name in packed_meshes():
+        if json.loads(program.run("inspect", f"/trial/{name}", "--json"))["triangles"] != 4:
+            raise Fault(f"{name} has not the four triangles of a tetrahedron")
     program.run("report", "/trial/examples/plaza/mission.yaml", "-o", "/trial/report.html")
     subprocess.run([sys.executable, str(PROJECT / "tools" / "check_tour.py"), str(program.root / "trial/tour.cert")],
                    stdout=subprocess.DEVNULL, check=True)

@@ -148,6 +148,9 @@ def main() -> int:
         check_volumes(arguments.expected)
     check_tour()
     check_page()
+    for name in ("draco", "meshopt"):
+        packed = vt.Scene.from_mesh(HERE / f"{name}.glb")
+        expect(len(packed.faces) == 4, f"glTF compressed by {name}")
     cube = vt.Scene.from_bytes((HERE / "dutch_cube.city.json").read_bytes(), "json")
     place = cube.georeference
     assert place is not None

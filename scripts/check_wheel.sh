@@ -81,6 +81,9 @@ make_root() {
   "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-deps --no-index "$wheel"
   cp -r "$here/../examples" "$here/check_wheel.py" "$here/read_elf.py" "$here/../python/wheel/same_bytes.py" \
     "$here/../python/wheel/dutch_cube.city.json" "$folder/expected" "$root/check/"
+  PYTHONPATH=$here/../tests/hostile "$python" -c 'import pathlib, sys, tilesets
+pathlib.Path(sys.argv[1], "draco.glb").write_bytes(tilesets.draco(tilesets.DRACO[1]))
+pathlib.Path(sys.argv[1], "meshopt.glb").write_bytes(tilesets.meshopt())' "$root/check"
   if [ -n "$emulator" ]; then cp "$(command -v "$emulator")" "$root/usr/bin/"; fi
   echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: ${names//$'\n'/ }"
 }
