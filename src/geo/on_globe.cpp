@@ -26,7 +26,7 @@ Vec3 OnGlobe::to_scene(const Geodetic& place) const {
 }
 
 Eigen::Vector2d OnGlobe::at_z(LonLat place, double z_m) const {
-  const Eigen::Vector2d at = map_.to_local(place);
+  Eigen::Vector2d at = map_.to_local(place);
   if (!tangent_ || at.norm() > kFarthestNormalM) return at;
   const Vec3 foot = tangent_->to_local(to_ecef({place, 0}));
   const Vec3 up = tangent_->to_local(to_ecef({place, 1000})) - foot;  // along the normal, which is straight
