@@ -224,7 +224,9 @@ Zone FileZones::placed(const ListedZone& listed, bool has_none) const {
     extent = {std::max(distance - 1.01 * radius, 0.0), distance + 1.01 * radius};
     const double lean = walls_.lean_m(heights, extent.farthest_m);
     if (use_ == ZoneUse::keep_in && listed.circle->least_radius_m <= 2 * kCircleMarginM + lean) {
-      fail(ErrorCode::limits_empty, listed.place, "the circle is smaller than 2 mm", "make it larger");
+      fail(ErrorCode::limits_empty, listed.place,
+           lean == 0 ? "the circle is smaller than 2 mm" : "the circle is smaller than what its walls lean by there",
+           "make it larger");
     }
     zone.outer = circle(*listed.circle, middle, lean);
   } else {

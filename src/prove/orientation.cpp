@@ -75,15 +75,15 @@ Whole minor_of(const Whole& ax, const Whole& ay, const Whole& bx, const Whole& b
 bool is_sure(double result, std::initializer_list<const double*> points, std::size_t dimension) {
   constexpr double kLost = 0x1p-900, kSmallestCubed = 0x1p-250, kLargestCubed = 0x1p+300;
   if (std::abs(result) > kLost && std::isfinite(result)) return true;
-  bool is_sure = true;
+  bool all_moderate = true;
   for (const double* point : points) {
     for (std::size_t k = 0; k < dimension; ++k) {
       const double size = std::abs(point[k]);
       if (!std::isfinite(size)) return true;  // nothing else tells more
-      is_sure = is_sure && (size == 0 || (size >= kSmallestCubed && size <= kLargestCubed));
+      all_moderate = all_moderate && (size == 0 || (size >= kSmallestCubed && size <= kLargestCubed));
     }
   }
-  return is_sure;
+  return all_moderate;
 }
 
 int sign_of(double number) { return (number > 0) - (number < 0); }
