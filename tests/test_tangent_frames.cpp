@@ -20,6 +20,7 @@
 #include "support/tile_files.h"
 #include "support/zone_texts.h"
 #include "vantage/earth.h"
+#include "vantage/error.h"
 #include "vantage/mission.h"
 
 namespace vantage::testing {
@@ -300,6 +301,72 @@ TEST(TangentFrames, ZonesOfACrsAreOnTheSafeSide) {
     expect_safe(origin, box, mission.navigation.keep_in.at(0), mission.navigation.keep_out.at(1), loss + 160 * 0.02,
                 random);
   });
+}
+
+Mission with_zones(const std::string& zone, const std::shared_ptr<const LoadedScene>& scene, const Origin& origin) {
+  const Place target = place_at(origin, 0, 0, 50), east = place_at(origin, 5, 0, 50),
+              north = place_at(origin, 0, 5, 50);
+  return resolved("sensor: {max_range: 300}\ncrs: EPSG:4326\ntarget: {vertices: [" + text_of(target) + ", " +
+                      text_of(east) + ", " + text_of(north) + "]}\nnavigation:\n  " + zone + "\n",
+                  scene);
+}
+
+/// A polygon of degrees round an origin, and beyond.
+std::string ring_text(double west_deg, double south_deg, double east_deg, double north_deg) {
+  return core::format(
+      "polygon: [[{0:.17g}, {1:.17g}], [{2:.17g}, {1:.17g}], [{2:.17g}, {3:.17g}], [{0:.17g}, {3:.17g}]]", west_deg,
+      south_deg, east_deg, north_deg);
+}
+
+// Along a parallel a side of 1100 km is 42 km from the chord of its ends.
+TEST(TangentFrames, LongZonesAlongParallelsKeepTheirHeights) {
+  for (const Origin& origin : {Origin{60, 12}, Origin{-70, 12}, Origin{89, 12}, Origin{0.5, 12}}) {
+    const double reach_deg = std::abs(origin.latitude_deg) > 80 ? 45 : 10;
+    const std::string zone = ring_text(origin.longitude_deg - reach_deg, origin.latitude_deg - 0.03,
+                                       origin.longitude_deg + reach_deg, origin.latitude_deg + 0.02) +
+                             ", z: [0, 120]";
+    const Mission mission =
+        with_zones("{keep_in: [{" + zone + "}], keep_out: [{" + zone + "}]}", scene_at(origin, {0, 0, 0}), origin);
+    const Zone &kept = mission.navigation.keep_in.at(0), &out = mission.navigation.keep_out.at(0);
+    for (const double off_m : {-1e-6, 1e-6}) {
+      const Vec3 top = exact(origin, place_at(origin, 0, 0, 120 + off_m)),
+                 low = exact(origin, place_at(origin, 0, 0, off_m));
+      EXPECT_TRUE(holds(out, off_m < 0 ? top : low)) << origin.latitude_deg;
+      EXPECT_FALSE(holds(kept, off_m < 0 ? low : top)) << origin.latitude_deg;
+    }
+  }
+}
+
+// Where no viewpoint can be the fall of a zone's levels is nothing to it.
+TEST(TangentFrames, ZonesBeyondTheReachAreNoErrors) {
+  const Origin origin{48.1, 11.5};
+  const auto scene = scene_at(origin, {0, 0, 0});
+  const double north = origin.latitude_deg + 0.8;  // 89 km, where the ellipsoid is 620 m lower
+  const std::string zone =
+      ring_text(origin.longitude_deg, north, origin.longitude_deg + 0.01, north + 0.01) + ", z: [0, 120]";
+  const Mission mission = with_zones("{keep_in: [{" + zone + "}], keep_out: [{" + zone + "}]}", scene, origin);
+  for (const Zone& one : {mission.navigation.keep_in.at(0), mission.navigation.keep_out.at(0)}) {
+    EXPECT_GT(one.max_z_m - one.min_z_m, 60);
+    EXPECT_FALSE(holds(one, {0, 0, 60}));
+  }
+}
+
+TEST(TangentFrames, ZonesToStayInThatHoldNothingLevelAreErrors) {
+  const Origin origin{48.1, 11.5};
+  const std::string zone = ring_text(origin.longitude_deg - 0.1, origin.latitude_deg - 0.1, origin.longitude_deg + 0.1,
+                                     origin.latitude_deg + 0.1);
+  const auto scene = scene_at(origin, {0, 0, 0});
+  const auto code_of = [&](const std::string& list, const std::string& heights) -> std::optional<ErrorCode> {
+    try {
+      with_zones(list + ": [{" + zone + heights + "}]", scene, origin);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return std::nullopt;
+  };
+  EXPECT_EQ(code_of("keep_in", ", z: [60, 61]"), ErrorCode::limits_empty);  // 11 km away it is 8 m lower
+  EXPECT_EQ(code_of("keep_in", ", z: [60, 90]"), std::nullopt);
+  EXPECT_EQ(code_of("keep_out", ", z: [60, 61]"), std::nullopt);
 }
 
 TEST(TangentFrames, ZonesWithoutHeightsAreSafeWithinTheReach) {

@@ -70,6 +70,16 @@ class FileZones {
                          const std::string& fix) const {
     fail_in_zones(code, file_.file, place, problem, fix);
   }
+  /// What `convert` returns; its errors say where in the file.
+  template <typename Convert>
+  auto in_file(const ListedZone& listed, const Convert& convert) const {
+    try {
+      return convert();
+    } catch (const Error& error) {
+      const std::string where = error.where().empty() ? "" : ", " + error.where();
+      throw error.with_where(file_.file.string() + ", " + listed.place + where);
+    }
+  }
 
   Mission& mission_;
   const ZoneFile& file_;
@@ -234,15 +244,12 @@ Zone FileZones::placed(const ListedZone& listed, bool has_none) const {
     for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole, listed.place));
     if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
     extent = extent_of(zone.outer, to_frame);
-    try {
-      zone = placed_zone(zone, use_, to_frame, kLonLatAdvice, walls_.lean_m(heights, extent.farthest_m));
-    } catch (const Error& error) {
-      const std::string where = error.where().empty() ? "" : ", " + error.where();
-      throw error.with_where(file_.file.string() + ", " + listed.place + where);
-    }
+    zone = in_file(listed, [&] {
+      return placed_zone(zone, use_, to_frame, kLonLatAdvice, walls_.lean_m(heights, extent.farthest_m));
+    });
   }
   if (file_.z_m || file_.any_height) return zone;
-  const Heights z = walls_.z_of(heights, extent, use_);
+  const Heights z = in_file(listed, [&] { return walls_.z_of(heights, extent, use_); });
   zone.min_z_m = z.low_m;
   zone.max_z_m = z.high_m;
   return zone;

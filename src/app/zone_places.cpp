@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/combine_targets.h"
+#include "core/text.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
@@ -75,9 +76,21 @@ class SideCutter {
 
   /// What a side curves by, times the square of the parts that it would be cut into.
   double curving(const Point& from, const Point& to) const {
-    const double length = (to_frame_(to) - to_frame_(from)).norm();
-    const int steps = static_cast<int>(std::clamp(std::ceil(length / kProbeM), 4.0, 1.0 * kMostParts));
-    return curve(from, to, steps).bulge() * steps * steps;
+    const Curve side = probe(from, to);
+    const auto steps = static_cast<double>(side.points.size() - 1);
+    return side.bulge() * steps * steps;
+  }
+
+  /// What a side takes up, z aside: one along a parallel leaves its ends' chord by far.
+  Box around(const Point& from, const Point& to) const {
+    const Curve side = probe(from, to);
+    const double bulge = side.bulge();
+    Box box;
+    for (const Point& p : side.points) {
+      box.extend(Vec3(p.x() - bulge, p.y() - bulge, 0));
+      box.extend(Vec3(p.x() + bulge, p.y() + bulge, 0));
+    }
+    return box;
   }
 
   /// Appends the side without its end. Returns how far the curve may be from the parts.
@@ -89,6 +102,11 @@ class SideCutter {
 
  private:
   static constexpr double kProbeM = 500;
+
+  Curve probe(const Point& from, const Point& to) const {
+    const double length = (to_frame_(to) - to_frame_(from)).norm();
+    return curve(from, to, static_cast<int>(std::clamp(std::ceil(length / kProbeM), 4.0, 1.0 * kMostParts)));
+  }
 
   Curve curve(const Point& from, const Point& to, int steps) const {
     Curve result;
@@ -191,15 +209,10 @@ Extent extent_of(const Box& box) {
 }
 
 Extent extent_of(const Zone::Ring& ring, const ToFrame& to_frame) {
+  const SideCutter cutter(to_frame);
   Box box;
-  for (const Point& corner : ring) {
-    const Point at = to_frame(corner);
-    box.extend(Vec3(at.x(), at.y(), 0));
-  }
-  constexpr double kBulge = 0.01;  // sides leave their chords by less: by L / 8R * tan(latitude)
-  const double bulge = kBulge * (box.max - box.min).norm();
-  const Extent corners = extent_of(box);
-  return {std::max(corners.nearest_m - bulge, 0.0), corners.farthest_m + bulge};
+  for_each_side_of(ring, [&](const Point& from, const Point& to) { box.extend(cutter.around(from, to)); });
+  return extent_of(box);
 }
 
 ZoneWalls::ZoneWalls(const geo::OnGlobe& globe, const Mission& mission)
@@ -227,9 +240,14 @@ Heights ZoneWalls::z_of(const Heights& heights, const Extent& extent, ZoneUse us
   if (is_map_) return heights;
   // Levels lie between spheres of these radii that touch them above the origin.
   const double most = drop_m(std::min(extent.farthest_m, reach_.farthest_m), kLeastRadiusM) + kRoundingM;
-  const double least = drop_m(extent.nearest_m, kLargestRadiusM) - kRoundingM;
+  const double least = drop_m(std::min(extent.nearest_m, reach_.farthest_m), kLargestRadiusM) - kRoundingM;
   if (use == ZoneUse::keep_out) return {heights.low_m - most, heights.high_m - least};
-  return {heights.low_m - least, heights.high_m - most};
+  const Heights z{heights.low_m - least, heights.high_m - most};
+  if (z.low_m < z.high_m || !(heights.low_m < heights.high_m)) return z;  // else the caller says what is wrong
+  throw Error(ErrorCode::limits_empty,
+              "it is " + core::metres_text(heights.high_m - heights.low_m) + " high, and its floor falls away by " +
+                  core::metres_text(most - least) + " there, so that nothing level is within it",
+              "", "make it higher, cut it into smaller parts, or give it in the scene frame");
 }
 
 Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const char* order_advice, double lean_m) {

@@ -60,7 +60,7 @@ class ZoneWalls {
   /// `heights`: of the zone, above the zero of the scene's heights; they may be infinite.
   double middle_z_m(const Heights& heights) const;
   double lean_m(const Heights& heights, double farthest_m) const;
-  /// The lower one may be above the other where a zone to stay in is too low to hold a level.
+  /// Throws Error(input) where a zone to stay in is too low to hold a level; `where` is empty.
   Heights z_of(const Heights& heights, const Extent& extent, ZoneUse use) const;
 
  private:
