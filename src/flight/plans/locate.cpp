@@ -61,13 +61,13 @@ class Locator {
   Point local(const Point& horizontal, const std::string& where) const;
   Vec3 scene_of(const Vec3& at) const;
   double level_of(const Point& at, double scene_z) const;
-  double home_level(double scene_z) const;
+  double home_level(double scene_z);
   std::optional<Point> home_position() const;
   std::optional<double> known_home_z();
   double home_z(const std::string& where);
   std::optional<double> ground_level(const Point& at);
   double ground_z(const Point& at, const std::string& where);
-  double stated_home_z(const std::string& where) const;
+  double stated_home_z(const std::string& where);
   double z_of(const PlanPosition& position, const Point& at, const std::string& where);
   Corner corner_of(std::size_t item);
   void add(Corner corner) { corners_.push_back(std::move(corner)); }
@@ -153,9 +153,17 @@ double Locator::level_of(const Point& at, double scene_z) const {
   return level;
 }
 
-double Locator::home_level(double scene_z) const {
-  const auto at = globe_ ? home_position() : std::nullopt;
-  return at ? level_of(*at, scene_z) : scene_z;
+/// Asked once: it is kept in home_z_. Where a z lies depends on the place; where the home's is not known, that where
+/// the plan begins is taken.
+double Locator::home_level(double scene_z) {
+  if (!globe_) return scene_z;
+  if (const auto at = home_position()) return level_of(*at, scene_z);
+  for (const PlanItem& item : plan_.items) {
+    if (!item.position.horizontal.allFinite()) continue;
+    note("the home's z is taken for the height at the plan's first position, as it does not say where the home is");
+    return level_of(local(item.position.horizontal, item.place), scene_z);
+  }
+  return scene_z;
 }
 
 std::optional<Point> Locator::home_position() const {
@@ -194,7 +202,7 @@ double Locator::ground_z(const Point& at, const std::string& where) {
        "take a scene that reaches so far");
 }
 
-double Locator::stated_home_z(const std::string& where) const {
+double Locator::stated_home_z(const std::string& where) {
   const PlanPosition& home = *plan_.home;
   switch (home.datum) {
     case HeightDatum::scene_z:
