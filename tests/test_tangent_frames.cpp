@@ -21,6 +21,7 @@
 #include "support/zone_texts.h"
 #include "vantage/earth.h"
 #include "vantage/error.h"
+#include "vantage/flight.h"
 #include "vantage/mission.h"
 
 namespace vantage::testing {
@@ -100,9 +101,12 @@ std::shared_ptr<const LoadedScene> scene_at(const Origin& origin, const Vec3& to
   return loaded;
 }
 
+constexpr double kSeaM = 36.7;
+
 Mission resolved(const std::string& text, const std::shared_ptr<const LoadedScene>& scene,
                  const std::filesystem::path& folder = "/data") {
-  return resolve_mission(app::parse_mission("scene: {mesh: city.obj}\n" + text, folder / "mission.yaml"), scene);
+  const std::string city = core::format("scene: {{mesh: city.obj, sea_level: {}}}\n", kSeaM);
+  return resolve_mission(app::parse_mission(city + text, folder / "mission.yaml"), scene);
 }
 
 std::string text_of(const Place& place, bool has_height = true) {
@@ -292,13 +296,14 @@ TEST(TangentFrames, ZonesOfACrsAreOnTheSafeSide) {
     const Mission mission =
         resolved("sensor: {max_range: 300}\ncrs: EPSG:4326\ntarget: {vertices: [" + text_of(target) + ", " +
                      text_of(east) + ", " + text_of(north) + "]}\nnavigation:\n  keep_in: [{" + ring +
-                     "}]\n  keep_out: [{" + ring + "}, {min: " + text_of(low) + ", max: " + text_of(high) + "}]\n",
+                     "}, {min: " + text_of(low) + ", max: " + text_of(high) + "}]\n  keep_out: [{" + ring +
+                     "}, {min: " + text_of(low) + ", max: " + text_of(high) + "}]\n",
                  scene);
     // By d / R of half the height, and the level's fall over the zone.
     const double loss = 60 * (distance + 200) / 6.3e6 + (distance + 200) * (distance + 200) / 2 / 6.3e6 + 1e-3;
     expect_safe(origin, box, mission.navigation.keep_in.at(0), mission.navigation.keep_out.at(0), loss, random);
-    // A box of the frame round an askew one is larger.
-    expect_safe(origin, box, mission.navigation.keep_in.at(0), mission.navigation.keep_out.at(1), loss + 160 * 0.02,
+    // A box of the frame round an askew one is larger, and one inside smaller.
+    expect_safe(origin, box, mission.navigation.keep_in.at(1), mission.navigation.keep_out.at(1), loss + 160 * 0.02,
                 random);
   });
 }
@@ -309,6 +314,34 @@ Mission with_zones(const std::string& zone, const std::shared_ptr<const LoadedSc
   return resolved("sensor: {max_range: 300}\ncrs: EPSG:4326\ntarget: {vertices: [" + text_of(target) + ", " +
                       text_of(east) + ", " + text_of(north) + "]}\nnavigation:\n  " + zone + "\n",
                   scene);
+}
+
+// Which height a z of the home has depends on where the home is: where the plan begins, if nobody says.
+TEST(TangentFrames, HomesWithoutAPlaceAreWhereThePlanBegins) {
+  const Origin origin{48.1, 11.5};
+  FlightPlan plan;
+  plan.file = "a.csv";
+  LocateOptions options;
+  options.georeference = georeference_of(origin);
+  const double home_z = 40, above = 60;
+  options.home_z_m = home_z;
+  std::vector<Place> places;
+  for (const double east_m : {3000.0, 3050.0}) {
+    places.push_back(place_at(origin, east_m, 0, 0));
+    PlanItem item;
+    item.position = {{places.back().longitude_deg, places.back().latitude_deg}, above, HeightDatum::home};
+    plan.items.push_back(item);
+  }
+  const double home_m = height_m(*options.georeference, exact_at_z(origin, places[0], home_z));
+  const LocatedPlan located = locate_flight(plan, options);
+  ASSERT_EQ(located.flight.points.size(), 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    places[i].height_m = home_m + above;
+    EXPECT_LT((located.flight.points[i].position - exact(origin, places[i])).norm(), kExactM);
+  }
+  EXPECT_EQ(located.notes.size(), 1);
+  options.home = Eigen::Vector2d(places[0].longitude_deg, places[0].latitude_deg);
+  EXPECT_TRUE(locate_flight(plan, options).notes.empty());
 }
 
 /// A polygon of degrees round an origin, and beyond.
@@ -351,6 +384,31 @@ TEST(TangentFrames, ZonesBeyondTheReachAreNoErrors) {
   }
 }
 
+// Ten kilometres away a level is 8 m lower in the frame, so that verticals meet it elsewhere.
+TEST(TangentFrames, ThinZonesFarAwayHaveTheirWallsWhereTheirLevelsAre) {
+  for (const Origin& origin : {Origin{48.1, 11.5}, Origin{-33.9, 151.2}}) {
+    const double distance = 10e3, low = 60, high = 61;
+    const Place a = place_at(origin, distance - 90, -80, low), b = place_at(origin, distance + 70, 110, high);
+    const Place target = place_at(origin, distance, 0, 50);
+    const std::string zone =
+        ring_text(a.longitude_deg, a.latitude_deg, b.longitude_deg, b.latitude_deg) + ", z: [60, 61]";
+    const Mission mission = resolved("sensor: {max_range: 300}\ncrs: EPSG:4326\ntarget: {point: " + text_of(target) +
+                                         "}\nnavigation: {keep_out: [{" + zone + "}]}\n",
+                                     scene_at(origin, {0, 0, 0}));
+    const Zone& out = mission.navigation.keep_out.at(0);
+    for (const double share : {0.1, 0.5, 0.9}) {
+      for (const double height : {low, high}) {
+        const double longitude = a.longitude_deg + share * (b.longitude_deg - a.longitude_deg);
+        const double latitude = a.latitude_deg + share * (b.latitude_deg - a.latitude_deg);
+        for (const Place& at : {Place{longitude, a.latitude_deg, height}, Place{longitude, b.latitude_deg, height},
+                                Place{a.longitude_deg, latitude, height}, Place{b.longitude_deg, latitude, height}}) {
+          EXPECT_TRUE(holds(out, exact(origin, at)));
+        }
+      }
+    }
+  }
+}
+
 TEST(TangentFrames, ZonesToStayInThatHoldNothingLevelAreErrors) {
   const Origin origin{48.1, 11.5};
   const std::string zone = ring_text(origin.longitude_deg - 0.1, origin.latitude_deg - 0.1, origin.longitude_deg + 0.1,
@@ -367,6 +425,104 @@ TEST(TangentFrames, ZonesToStayInThatHoldNothingLevelAreErrors) {
   EXPECT_EQ(code_of("keep_in", ", z: [60, 61]"), ErrorCode::limits_empty);  // 11 km away it is 8 m lower
   EXPECT_EQ(code_of("keep_in", ", z: [60, 90]"), std::nullopt);
   EXPECT_EQ(code_of("keep_out", ", z: [60, 61]"), std::nullopt);
+}
+
+/// Upright on the earth: of a radius of 150 m the chord through the ellipsoid is shorter by 4 nm.
+double from_axis_m(const Place& centre, const Place& at) {
+  return (Frame(at.latitude_deg, at.longitude_deg).origin() - Frame(centre.latitude_deg, centre.longitude_deg).origin())
+      .norm();
+}
+
+TEST(TangentFrames, CirclesOfFilesWithHeightsAboveTheSeaAreOnTheSafeSide) {
+  constexpr double kRadiusM = 150, kLow = 60, kHigh = 160, kSagittaM = 0.06;
+  Random random(73);
+  for_each_place([&](const Origin& origin, double distance) {
+    const Place centre = place_at(origin, distance, 0, 0);
+    TemporaryDirectory folder;
+    const std::string projection =
+        core::format("{{\"type\": \"Circle\", \"center\": [{:.17g}, {:.17g}], \"radius\": {}}}", centre.longitude_deg,
+                     centre.latitude_deg, kRadiusM);
+    const std::string heights = core::format(
+        "\"uomDimensions\": \"M\", \"lowerLimit\": {}, \"lowerVerticalReference\": \"AMSL\", \"upperLimit\": {}, "
+        "\"upperVerticalReference\": \"AMSL\"",
+        kLow, kHigh);
+    write_bytes(folder / "zone.json", zone_texts::volume(projection, heights));
+    const std::string place = core::format("[{:.17g}, {:.17g}]", centre.latitude_deg, centre.longitude_deg);
+    const Mission mission = resolved("sensor: {max_range: 300}\ntarget: {center: " + place +
+                                         ", width: 6, length: 4}\nnavigation:\n  keep_in: [{file: zone.json}]\n"
+                                         "  keep_out: [{file: zone.json}]\n",
+                                     scene_at(origin, {0, 0, 0}), folder.path());
+    const Zone &kept = mission.navigation.keep_in.at(0), &out = mission.navigation.keep_out.at(0);
+    const double far = distance + 200, loss = 60 * far / 6.3e6 + 2 * 150 * far / 6.3e6 + kSagittaM;
+    for (int i = 0; i < 300; ++i) {
+      const double angle = random.uniform(0, 7), off_m = std::pow(10, random.uniform(-5, 0.5)) * (i % 2 == 0 ? 1 : -1);
+      const bool is_at_wall = random.chance(0.5);
+      const double radius = is_at_wall ? kRadiusM + off_m : random.uniform(0, kRadiusM - 4);
+      const double low = kLow + kSeaM, high = kHigh + kSeaM;
+      Place at = place_at(origin, distance + radius * std::cos(angle), radius * std::sin(angle), 0);
+      at.height_m = is_at_wall ? random.uniform(low, high) : (random.chance(0.5) ? low : high) + off_m;
+      const double inward_m = kRadiusM - from_axis_m(centre, at);
+      const double within_m = std::min({inward_m, at.height_m - low, high - at.height_m});
+      const Vec3 there = exact(origin, at);
+      EXPECT_TRUE(within_m >= 0 ? holds(out, there) : !holds(kept, there)) << within_m;
+      if (within_m > loss) {
+        EXPECT_TRUE(holds(kept, there)) << within_m;
+      }
+      if (within_m < -loss) {
+        EXPECT_FALSE(holds(out, there)) << within_m;
+      }
+    }
+  });
+}
+
+TEST(TangentFrames, TargetsOfFilesLieWhereTheyAreSaidTo) {
+  TemporaryDirectory folder;
+  for_each_place([&](const Origin& origin, double distance) {
+    const double height = 120;
+    const std::vector<Place> corners = {place_at(origin, distance, 0, height),
+                                        place_at(origin, distance + 9, 0, height),
+                                        place_at(origin, distance, 9, height)};
+    std::string json, kml;
+    for (const std::size_t i : {0, 1, 2, 0}) {
+      const Place& at = corners[i];
+      json += (json.empty() ? "" : ", ") + text_of(at);
+      kml += core::format("{:.17g},{:.17g},{:.17g} ", at.longitude_deg, at.latitude_deg, at.height_m);
+    }
+    write_bytes(folder / "a.geojson", "{\"type\": \"Polygon\", \"coordinates\": [[" + json + "]]}");
+    for (const std::string mode : {"absolute", "relativeToGround"}) {
+      write_bytes(folder / (mode + ".kml"),
+                  zone_texts::kml("<Placemark><name>park</name><Polygon><altitudeMode>" + mode +
+                                  "</altitudeMode><outerBoundaryIs><LinearRing><coordinates>" + kml +
+                                  "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>"));
+    }
+    const auto scene = scene_at(origin, {0, 0, 0});
+    const auto part_of = [&](const std::string& file) {
+      return resolved("sensor: {max_range: 300}\ntarget: {file: " + file + "}\n", scene, folder.path())
+          .target.parts.at(0);
+    };
+    const auto farthest_m = [&](const std::vector<Vec3>& part,
+                                const std::function<Vec3(const Vec3&, const Place&)>& at) {
+      double farthest = part.size() == 3 ? 0 : INFINITY;
+      for (const Vec3& corner : part) {
+        double nearest = INFINITY;
+        for (const Place& place : corners) nearest = std::min(nearest, (corner - at(corner, place)).norm());
+        farthest = std::max(farthest, nearest);
+      }
+      return farthest;
+    };
+    EXPECT_LT(farthest_m(part_of("a.geojson"), [&](const Vec3&, const Place& place) { return exact(origin, place); }),
+              kExactM);
+    EXPECT_LT(farthest_m(part_of("absolute.kml"),
+                         [&](const Vec3&, Place place) {
+                           place.height_m += kSeaM;
+                           return exact(origin, place);
+                         }),
+              kExactM);
+    const std::vector<Vec3> above = part_of("relativeToGround.kml");
+    EXPECT_NEAR(above.at(0).z(), kGroundM + height, 1e-9);
+    EXPECT_LT(farthest_m(above, [&](const Vec3& c, const Place& place) { return exact_at_z(origin, place, c.z()); }),
+              kLaidM);
+  });
 }
 
 TEST(TangentFrames, ZonesWithoutHeightsAreSafeWithinTheReach) {
