@@ -109,6 +109,8 @@ def test_slices_lie_where_proj_has_them(origin, distance_m, tmp_path):
     cut.save(tmp_path / "a.geojson")
     feature = json.loads((tmp_path / "a.geojson").read_text())["features"][0]
     assert feature["properties"]["height_max_m"] == high
+    for written in (ring for polygon in feature["geometry"]["coordinates"] for ring in polygon):
+        assert min_distance(proj, np.array(written[:-1]), exact, len(written) - 1) < EXACT_M
 
 
 def min_distance(proj, degrees, exact, count):
@@ -171,6 +173,11 @@ def test_batches_and_missions_with_a_crs_agree_with_proj(origin, distance_m):
     assert np.abs(parts_of(scene, batch_geometry.targets_of(row, transform)[0]) - corners).max() < EXACT_M
     shown = transform.from_scene(corners)
     assert np.abs(proj.frame(shown) - corners).max() < EXACT_M
+    # Without heights on the ground, which is 40 m above z = 0.
+    on_ground = corners * [1, 1, 0] + [0, 0, 40]
+    (flat,) = batch_table.read([{"id": 1, "geometry": shapely.Polygon(proj.degrees(on_ground)[:, :2])}]).rows
+    for corner in parts_of(scene, batch_geometry.targets_of(flat, transform)[0]):
+        assert np.abs(on_ground - corner).max(axis=1).min() < EXACT_M
 
 
 @CASES
