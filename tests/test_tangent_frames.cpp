@@ -185,6 +185,18 @@ TEST(TangentFrames, TargetsOfACrsLieWhereTheyAreSaidTo) {
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_LT((given.target.parts.at(0).at(i) - exact(origin, corners[i])).norm(), kExactM) << i;
     }
+    // An outline with heights in US survey feet.
+    constexpr double kFootM = 1200.0 / 3937;
+    std::string feet;
+    for (Place corner : corners) {
+      corner.height_m /= kFootM;
+      feet += (feet.empty() ? "" : ", ") + text_of(corner);
+    }
+    const Mission drawn =
+        resolved("sensor: {max_range: 300}\ncrs: EPSG:4326+6360\ntarget: {outline: [" + feet + "]}\n", scene);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LT((drawn.target.parts.at(0).at(i) - exact(origin, corners[i])).norm(), kExactM) << i;
+    }
     // Without heights on the ground, or as far above it as they are asked to be.
     const Mission laid = resolved(sensor + "target: {outline: [" + flat + "]}\n", scene);
     for (const Vec3& corner : laid.target.parts.at(0)) {
