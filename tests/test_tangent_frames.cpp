@@ -370,8 +370,8 @@ TEST(TangentFrames, LongZonesAlongParallelsKeepTheirHeights) {
     const std::string zone = ring_text(origin.longitude_deg - reach_deg, origin.latitude_deg - 0.03,
                                        origin.longitude_deg + reach_deg, origin.latitude_deg + 0.02) +
                              ", z: [0, 120]";
-    const Mission mission =
-        with_zones("{keep_in: [{" + zone + "}], keep_out: [{" + zone + "}]}", scene_at(origin, {0, 0, 0}), origin);
+    const Mission mission = with_zones(core::format("{{keep_in: [{{{0}}}], keep_out: [{{{0}}}]}}", zone),
+                                       scene_at(origin, {0, 0, 0}), origin);
     const Zone &kept = mission.navigation.keep_in.at(0), &out = mission.navigation.keep_out.at(0);
     for (const double off_m : {-1e-6, 1e-6}) {
       const Vec3 top = exact(origin, place_at(origin, 0, 0, 120 + off_m)),
@@ -503,9 +503,10 @@ TEST(TangentFrames, TargetsOfFilesLieWhereTheyAreSaidTo) {
     write_bytes(folder / "a.geojson", "{\"type\": \"Polygon\", \"coordinates\": [[" + json + "]]}");
     for (const std::string mode : {"absolute", "relativeToGround"}) {
       write_bytes(folder / (mode + ".kml"),
-                  zone_texts::kml("<Placemark><name>park</name><Polygon><altitudeMode>" + mode +
-                                  "</altitudeMode><outerBoundaryIs><LinearRing><coordinates>" + kml +
-                                  "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>"));
+                  zone_texts::kml(core::format("<Placemark><name>park</name><Polygon><altitudeMode>{}</altitudeMode>"
+                                               "<outerBoundaryIs><LinearRing><coordinates>{}</coordinates></LinearRing>"
+                                               "</outerBoundaryIs></Polygon></Placemark>",
+                                               mode, kml)));
     }
     const auto scene = scene_at(origin, {0, 0, 0});
     const auto part_of = [&](const std::string& file) {
