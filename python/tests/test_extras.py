@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from importlib import metadata
 
 import pytest
 from conftest import PROJECT
@@ -13,6 +14,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import vantage as vt
+from vantage._extras import advice
 
 # Packages whose modules have other names.
 PACKAGES = {"skimage": "scikit-image"}
@@ -114,7 +116,20 @@ def test_missing_extra_is_named(module, call):
             "except vt.Error as error: print(error.code, error.fix)")
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False,
                           env={"PYTHONPATH": ":".join(sys.path)})
-    assert told.stdout.strip() == f"component-missing pip install 'vantage[{extra}]'", told.stderr
+    assert told.stdout.strip() == f"component-missing {advice(extra)}", told.stderr
+
+
+def test_advice_names_the_index_only_where_this_package_is_installed(monkeypatch):
+    """The index has another project of that name."""
+    def none(name):
+        raise metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(metadata, "version", none)
+    assert "'vantage[geo]'" not in advice("geo") and "'geo'" in advice("geo")
+    monkeypatch.setattr(metadata, "version", lambda name: "0.3.0a5")
+    assert "'vantage[geo]'" not in advice("geo")
+    monkeypatch.setattr(metadata, "version", lambda name: vt.__version__)
+    assert advice("geo") == "pip install 'vantage[geo]'"
 
 
 def test_what_is_required_is_the_module_itself():

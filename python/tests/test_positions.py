@@ -11,6 +11,7 @@ from conftest import PROJECT, SQUARE, box
 import vantage as vt
 from vantage import _core
 from vantage._common_points import Solid, deepest, surely_apart
+from vantage._extras import advice
 
 pytest.importorskip("ortools")
 
@@ -374,7 +375,7 @@ def test_without_or_tools_the_extra_is_named():
             "except vt.Error as error:\n    print(error.code, error.fix)")
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True,
                           env={"PYTHONPATH": ":".join(sys.path)})
-    assert told.stdout.strip() == "component-missing pip install 'vantage[positions]'"
+    assert told.stdout.strip() == f"component-missing {advice('positions')}"
 
 
 def test_progress_is_told_and_stops():

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import importlib
+from importlib import metadata
 from typing import Any
 
+from ._core import version
 from ._errors import input_error
 
 
@@ -22,7 +24,19 @@ def require(module: str, extra: str) -> Any:
         name = module.split(".")[0]
         is_missing = isinstance(error, ModuleNotFoundError)
         raise input_error("component-missing", f"{name} is not installed" if is_missing else f"{name} is broken: {error}",
-                          name, f"pip install 'vantage[{extra}]'") from None
+                          name, advice(extra)) from None
+
+
+def advice(extra: str) -> str:
+    """How to install the packages of an extra. The package index has another project of the name vantage, which pip takes
+    where this package is not installed, but found by PYTHONPATH."""
+    try:
+        is_installed = metadata.version("vantage") == version
+    except metadata.PackageNotFoundError:
+        is_installed = False
+    if is_installed:
+        return f"pip install 'vantage[{extra}]'"
+    return f"install what pyproject.toml lists for the extra '{extra}', or a wheel of vantage: pip install 'WHEEL[{extra}]'"
 
 
 def _was_interrupted(error: BaseException | None) -> bool:
