@@ -41,6 +41,8 @@ GLIBC = re.compile(r"(libc|libm|libdl|libpthread|librt|ld-linux-[\w-]+)\.so\.\d+
 ZIG_ARCHIVES = {"libc++.a", "libc++abi.a", "libunwind.a", "libcompiler_rt.a"}
 """Those that zig made of its own sources: the list has these under its name."""
 PAGES = ("index.html", "report.html")  # of `vantage view` and `vantage report`
+DOCUMENTS = ("LICENSE", "THIRD-PARTY-NOTICES.txt", "CHANGELOG.md", "README.md", "docs/*.md", "examples/plaza", "examples/town",
+             "tools/check_certificate.py", "tools/check_tour.py")
 STACK_BYTES = 8 << 20
 """Of each thread, as glibc gives it; musl gives 128 KiB where a program does not ask for more, and never more than this."""
 
@@ -240,17 +242,19 @@ def put_together(target: str, build_folder: pathlib.Path, start: list[str]) -> p
     for shell, file in (("bash", "bash-completion/completions/vantage"), ("zsh", "zsh/site-functions/_vantage"),
                         ("fish", "fish/vendor_completions.d/vantage.fish")):
         subprocess.run([*command, "docs", "completion", shell, "-o", str(share / file)], check=True)
-    for name in ("LICENSE", "THIRD-PARTY-NOTICES.txt", "CHANGELOG.md"):
-        shutil.copy(PROJECT / name, doc)
-    for name in ("plaza", "town"):
-        tracked = subprocess.run(["git", "ls-files", "-z", f"examples/{name}"], cwd=PROJECT, capture_output=True, text=True,
-                                 check=True).stdout.split("\0")
-        (doc / "examples" / name).mkdir(parents=True)
-        for file in filter(None, tracked):
-            shutil.copy(PROJECT / file, doc / "examples" / name)
+    copy_documents(doc)
     count = write_licences(target, build_folder, doc / "third-party")
     print(f"licences: {count} libraries, all listed")
     return root
+
+
+def copy_documents(folder: pathlib.Path) -> None:
+    """What the help of the program names: the documents, without their pictures, two examples, and what judges
+    certificates."""
+    tracked = subprocess.run(["git", "ls-files", "-z", *DOCUMENTS], cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+    for file in filter(None, tracked.split("\0")):
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(PROJECT / file, folder / file)
 
 
 def pack(root: pathlib.Path, tarball: pathlib.Path) -> None:

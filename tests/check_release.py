@@ -10,6 +10,7 @@ import hashlib
 import os
 import pathlib
 import platform
+import re
 import shutil
 import subprocess
 import sys
@@ -99,6 +100,14 @@ class Release(unittest.TestCase):
         with tarfile.open(self.dist / "a.tar.xz") as archive:
             self.assertEqual([(member.name, member.mode, member.uid) for member in archive],
                              [("vantage", 0o755, 0), ("vantage/bin", 0o755, 0), ("vantage/bin/vantage", 0o755, 0)])
+
+    def test_tarballs_have_what_the_help_of_the_program_names(self):
+        build_program.copy_documents(self.dist / "doc")
+        named = set()
+        for source in (build_program.PROJECT / "src" / "cli").glob("*.cpp"):
+            named |= set(re.findall(r"\b(?:docs|tools)/[\w-]+\.(?:md|py)\b", source.read_text(encoding="utf-8")))
+        self.assertGreater(len(named), 5)
+        self.assertEqual([name for name in sorted(named) if not (self.dist / "doc" / name).is_file()], [])
 
     def test_what_is_no_program_for_the_target_is_refused(self):
         text = self.dist / "text"
