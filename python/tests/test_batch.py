@@ -438,7 +438,7 @@ def test_the_command(tmp_path):
     pandas.DataFrame({"id": [1], "vertices": [square]}).to_parquet(tmp_path / "t.parquet")
     code, out, err = command(tmp_path / "t.parquet", "--scene", PLAZA, "--max-range", 70, "-o", tmp_path / "out",
                              "--workers", 1)
-    assert code == 0 and "1 targets, 0 errors" in out and "results.parquet" in out and "100.0 %" in err
+    assert code == 0 and "0 failed" in out and "results.parquet" in out and "100.0 %" in err
     alone = vt.compute(vt.Scene.from_mesh(PLAZA), square, max_range=70)
     assert batch.results(tmp_path / "out")["volume_hash"].tolist() == [alone.volume.hash]
     ran = subprocess.run([sys.executable, "-m", "vantage", "batch", tmp_path / "t.parquet", "--scene", PLAZA, "--sensor",

@@ -124,6 +124,9 @@ def test_rows_that_are_wrong_are_named():
                            (shapely.LineString([(0, 0), (1, 1)]), "wrong-type"), (bow, "zone-not-simple")):
         error = refused(rows([boxes[0], geometry]))
         assert error.code == code and "row b" in error.problem and "geometry" in error.where, error
+    for size, crs in ((1e-6, None), (1e-9, 4326)):  # degrees for metres, and what has no area in degrees
+        error = refused(rows([shapely.box(11, 48, 11 + size, 48 + size)] * 2, crs=crs))
+        assert error.code == "nothing-given" and ("set_crs" in error.fix) == (crs is None), error
     for height in (float("nan"), None, float("inf"), 0.0, -3.0):
         error = refused(rows(boxes, (5.0, height)))
         assert error.code == "value-out-of-range" and "row b" in error.problem and "height" in error.where, error

@@ -212,7 +212,9 @@ def prisms_of(gdf: Any, height: Column, base: Column | None, ground: bool | floa
     footprints = _in_frame(np.asarray(gdf.geometry.array, dtype=object), gdf.crs, place)
     flat = shapely.area(footprints) < _LEAST_AREA_M2
     if flat.any():
-        raise _refused("nothing-given", "the geometry has no area", list(gdf.index[flat]), "leave the rows out")
+        raise _refused("nothing-given", "the geometry has no area", list(gdf.index[flat]),
+                       "leave the rows out" if gdf.crs else
+                       "without a CRS coordinates are metres: for degrees gdf.set_crs(4326)")
     solids, objects, of = [], [], []
     for row, (footprint, low, tall, label) in enumerate(zip(footprints, bases, heights, _labels(gdf, name))):
         objects.append(SceneObject(label, f"row {gdf.index[row]}", kind))

@@ -107,7 +107,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _summary(report: Any) -> str:
-    lines = [f"{report.rows:,} targets, {report.errors:,} errors; {report.computed:,} computed in {report.seconds:.1f} s"
+    lines = [f"{report.rows:,} targets, {report.errors:,} failed; {report.computed:,} done by this run in {report.seconds:.1f} s"
              f" ({report.rows_per_s:.2f} a second)"]
     lines += [f"  {name}: {worker.rows:,} targets, {worker.peak_mib:.0f} MiB" for name, worker in
               sorted(report.workers.items())]
