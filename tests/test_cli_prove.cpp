@@ -222,7 +222,7 @@ TEST_F(CliProve, TellsWhereALimitIsBroken) {
 
 TEST_F(CliProve, RefusesWhatItCannotJudge) {
   write("open.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
-  expect_bad({"prove", "mission.yaml", "open.obj"}, "volume");
+  expect_bad({"prove", "mission.yaml", "open.obj"}, "open.obj");
   expect_bad({"prove", "mission.yaml", "missing.ply"}, "missing.ply");
   expect_bad({"prove", "mission.yaml", "city.obj", "--shrink", "2"});
 }

@@ -77,6 +77,9 @@ TEST_F(MissionFiles, ThatAreMissing) {
   expect_refusal_of(file, ErrorCode::file_not_found, "mission.yaml:7:23 (" + folder_.path().string());
   fs::create_directory(folder_ / "zone.obj");
   expect_refusal_of(file, ErrorCode::not_a_file, "mission.yaml:7:23");
+  fs::create_directory(folder_ / "town");
+  write("town/tileset.json", "{}");
+  expect_refusal_of(write("tiles.yaml", text_of("", "scene: {tiles: town}\n")), ErrorCode::not_a_file, "tiles.yaml:");
 }
 
 TEST_F(MissionFiles, ThatAreTooLarge) {

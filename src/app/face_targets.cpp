@@ -88,8 +88,9 @@ Objects of_map(const Mission& mission, const std::string& asked) {
   const auto& map =
       looked_up<MapObjects>(*mission.loaded, [&] { return std::make_shared<const MapObjects>(*mission.loaded); });
   const bool is_id = map.knows(asked) || is_map_id(asked);
-  const std::string id =
-      is_id ? asked : id_of_name(map.named, asked, "object of the scene", mission.as_written.places.target);
+  const std::string id = is_id ? asked
+                               : id_of_name(map.named, asked, "object of the scene", mission.as_written.places.target,
+                                            uses_part_of_map(mission));
   std::set<std::string> wanted{id};
   if (const auto parts = map.parts.find(id); parts != map.parts.end()) {
     wanted.insert(parts->second.begin(), parts->second.end());

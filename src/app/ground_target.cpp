@@ -117,7 +117,7 @@ Ring rectangle(const Mission& mission, const GroundTarget& wanted, const geo::On
 }
 
 /// The id of the area with that name; areas count before streets around them.
-std::string id_of_area(const OutlineFinder& find, const std::string& name, const std::string& place) {
+std::string id_of_area(const OutlineFinder& find, const std::string& name, const std::string& place, bool is_part) {
   std::vector<NamedId> areas, lines;
   for (NamedOutline& one : find.named()) {
     NamedId known{io::clean_name(one.name), std::move(one.id)};
@@ -127,7 +127,7 @@ std::string id_of_area(const OutlineFinder& find, const std::string& name, const
   if (std::none_of(areas.begin(), areas.end(), has_name)) {
     std::move(lines.begin(), lines.end(), std::back_inserter(areas));
   }
-  return id_of_name(areas, name, "area of the map", place);
+  return id_of_name(areas, name, "area of the map", place, is_part);
 }
 
 struct NamedArea {
@@ -147,10 +147,10 @@ NamedArea area_of_map(const Mission& mission, const std::string& asked, const ge
   });
   const std::string& place = mission.as_written.places.target;
   const bool is_id = find.of(asked, frame).has_value();
-  const std::string name = is_id ? asked : id_of_area(find, asked, place);
+  const bool is_part = uses_part_of_map(mission);
+  const std::string name = is_id ? asked : id_of_area(find, asked, place, is_part);
   const auto found = find.of(name, frame);
   if (!found->is_area) {
-    const bool is_part = source.city.region.center_deg || source.city.region.bbox_deg;
     throw Error(ErrorCode::map_object_missing,
                 (is_part ? "the scene's part of the map has no area " : "the map has no area ") + name, place,
                 "name a tagged closed way or a multipolygon of " + source.file.filename().string() +
@@ -269,7 +269,7 @@ void check_area_of_each(const Mission& mission, const std::vector<TargetOutline>
     const bool has_heights = !outlines[i].z_m.empty();
     throw Error(ErrorCode::target_without_area, "the target's outline" + which + " has hardly any area",
                 mission.as_written.places.target,
-                std::string("draw it wider than 1 cm and larger than 0.01 m2") +
+                std::string("draw it wider than 1 cm and larger than 0.01 m2; without a 'crs' coordinates are metres") +
                     (has_heights ? std::string("; if it stands upright, ") + kUprightAdvice : ""));
   }
 }

@@ -41,6 +41,11 @@ std::string yaml_text(const std::string& text) {
   return is_word && std::all_of(text.begin(), text.end(), is_plain) ? text : json_text(std::string_view{text});
 }
 
+bool uses_part_of_map(const Mission& mission) {
+  const CityRegion& region = mission.as_written.scene.city.region;
+  return region.center_deg || region.bbox_deg;
+}
+
 bool is_same_name(const std::string& a, const std::string& b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   return a.size() == b.size() &&
@@ -48,7 +53,7 @@ bool is_same_name(const std::string& a, const std::string& b) {
 }
 
 std::string id_of_name(const std::vector<NamedId>& known, const std::string& name, const std::string& what,
-                       const std::string& where) {
+                       const std::string& where, bool is_part) {
   constexpr std::size_t kMost = 8;
   for (const bool as_written : {true, false}) {
     std::set<std::string> ids;
@@ -70,7 +75,8 @@ std::string id_of_name(const std::vector<NamedId>& known, const std::string& nam
   std::set<std::string> names;
   for (const NamedId& one : known) names.insert(one.name);
   throw Error(ErrorCode::map_object_missing, "there is no " + what + " with the name " + in_quotes(name), where,
-              advice_for_name(name, names, "write its id, 'way/123'"));
+              advice_for_name(name, names, "write its id, 'way/123'") +
+                  (is_part ? "; or use a larger part of the map: 'radius' or 'bbox' of the scene" : ""));
 }
 
 std::string advice_for_name(const std::string& word, const std::set<std::string>& names, const std::string& otherwise) {

@@ -137,6 +137,7 @@ std::string table_text(const ProofReport& report, const std::string& file, bool 
   return table.text();
 }
 
+/// What is wrong with the mesh is told of its file.
 ProofReport prove(const JudgedVolume& judged, const ProveArguments& options, const Progress& progress) {
   const VerifyOptions known = verify_options(judged.read, judged.mission);
   const ProveOptions asked{.shrink = options.shrink,
@@ -145,7 +146,12 @@ ProofReport prove(const JudgedVolume& judged, const ProveArguments& options, con
                            .maximal = options.maximal,
                            .tolerance_m = known.tolerance_m,
                            .certificate = !options.certificate.empty()};
-  return prove_volume(judged.mission, judged.read.volume.mesh, asked, progress);
+  try {
+    return prove_volume(judged.mission, judged.read.volume.mesh, asked, progress);
+  } catch (const Error& error) {
+    if (error.where() != "volume") throw;
+    throw error.with_where(options.volume_file);
+  }
 }
 
 /// Whether there is one. Where there is none that is told, whoever reads the rest.

@@ -26,7 +26,9 @@ void check_readable(const fs::path& file, const std::string& what, const std::st
   if (error)
     throw Error(ErrorCode::file_unreadable, what + " cannot be reached: " + error.message(), place, "check the path");
   if (fs::is_directory(status)) {
-    throw Error(ErrorCode::not_a_file, what + " is a folder", place, "name a file in it");
+    const fs::path tileset = file / "tileset.json";
+    throw Error(ErrorCode::not_a_file, what + " is a folder", place,
+                fs::exists(tileset, error) ? "name the file in it: " + tileset.string() : "name a file in it");
   }
   if (!fs::is_regular_file(status)) {
     throw Error(ErrorCode::not_a_file, what + " is not a regular file", place,

@@ -103,6 +103,14 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
   }
 }
 
+bool are_on_one_line(const std::vector<Vec3>& polygon, double extent) {
+  const auto from_first = [&](const Vec3& v) { return Vec3(v - polygon[0]); };
+  const auto farther = [&](const Vec3& a, const Vec3& b) { return from_first(a).norm() < from_first(b).norm(); };
+  const Vec3 along = from_first(*std::max_element(polygon.begin(), polygon.end(), farther)).normalized();
+  return std::all_of(polygon.begin(), polygon.end(),
+                     [&](const Vec3& v) { return from_first(v).cross(along).norm() <= 1e-9 * extent; });
+}
+
 Vec3 front_normal(const Target& target, const Vec3& normal) {
   if (target.front) {
     const double side = unit(*target.front).dot(normal);
@@ -232,8 +240,12 @@ TargetFrame make_target_frame(const Target& target, std::size_t part) {
   const double extent = extent_of(target.parts[0]);
   check_repeats(target, extent);
   const Vec3 area = area_vector(target.parts[0]);
-  if (area.norm() <= 1e-9 * extent * extent)
-    refuse(ErrorCode::target_without_area, target, "the polygon has no area", "its vertices must not lie on one line");
+  if (area.norm() <= 1e-9 * extent * extent) {
+    refuse(ErrorCode::target_without_area, target, "the polygon has no area",
+           are_on_one_line(target.parts[0], extent)
+               ? "its vertices must not lie on one line"
+               : "its sides cross each other: give the vertices in order round it");
+  }
   const Vec3 own_normal = area.normalized();
   check_planar(target, own_normal, extent);
 

@@ -25,8 +25,13 @@ std::vector<std::string> notes_on(const internal::osm::Extract& extract) {
     nodes += problem.kind == internal::osm::Problem::Kind::missing_nodes;
     members += problem.kind == internal::osm::Problem::Kind::missing_members;
   }
-  if (nodes > 0) notes.push_back(std::to_string(nodes) + " ways refer to nodes that are not in the file");
-  if (members > 0) notes.push_back(std::to_string(members) + " relations refer to ways that are not in the file");
+  const auto tell = [&](std::size_t count, const char* what, const char* missing) {
+    if (count == 0) return;
+    notes.push_back(std::to_string(count) + what + (count == 1 ? " refers to " : "s refer to ") + missing +
+                    " that are not in the file");
+  };
+  tell(nodes, " way", "nodes");
+  tell(members, " relation", "ways");
   if (!extract.sorted) notes.emplace_back("the file is not sorted by type and id; it was sorted in memory");
   return notes;
 }
