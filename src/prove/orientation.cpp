@@ -16,9 +16,9 @@ namespace {
 
 /// A sum of products of doubles in units of the smallest one, or of its square or cube: two's complement, with room for
 /// the determinants below.
-class Whole {
+class WideInteger {
  public:
-  explicit Whole(double number) {
+  explicit WideInteger(double number) {
     constexpr int kDigits = std::numeric_limits<double>::digits, kUnit = -1074;
     int exponent = 0;
     auto digits = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(number), &exponent), kDigits));
@@ -31,7 +31,7 @@ class Whole {
       const int place = shift + bit;
       words_[static_cast<std::size_t>(place / 32)] |= static_cast<std::uint32_t>(digits >> bit & 1) << place % 32;
     }
-    if (number < 0) *this = Whole(0) - *this;
+    if (number < 0) *this = WideInteger(0) - *this;
   }
 
   int sign() const {
@@ -39,8 +39,8 @@ class Whole {
     return std::any_of(words_.begin(), words_.end(), [](std::uint32_t word) { return word != 0; }) ? 1 : 0;
   }
 
-  Whole operator-(const Whole& other) const {
-    Whole result(0);
+  WideInteger operator-(const WideInteger& other) const {
+    WideInteger result(0);
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < kWords; ++i) {
       const std::uint64_t word = std::uint64_t{words_[i]} - other.words_[i] - borrow;
@@ -50,8 +50,8 @@ class Whole {
     return result;
   }
 
-  Whole operator*(const Whole& other) const {
-    Whole result(0);
+  WideInteger operator*(const WideInteger& other) const {
+    WideInteger result(0);
     for (std::size_t i = 0; i < kWords; ++i) {
       std::uint64_t carry = 0;
       for (std::size_t k = 0; words_[i] != 0 && i + k < kWords; ++k) {
@@ -68,7 +68,9 @@ class Whole {
   std::array<std::uint32_t, kWords> words_{};
 };
 
-Whole minor_of(const Whole& ax, const Whole& ay, const Whole& bx, const Whole& by) { return ax * by - ay * bx; }
+WideInteger minor_of(const WideInteger& ax, const WideInteger& ay, const WideInteger& bx, const WideInteger& by) {
+  return ax * by - ay * bx;
+}
 
 /// Whether the sign of what a predicate returned stands: the products of very small coordinates underflow, those of
 /// very large ones overflow. What underflow loses is less by far than what is asked of the result.
@@ -89,16 +91,19 @@ bool is_sure(double result, std::initializer_list<const double*> points, std::si
 int sign_of(double number) { return (number > 0) - (number < 0); }
 
 int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const auto difference = [&](const Vec3& point, int axis) { return Whole(point[axis]) - Whole(d[axis]); };
-  const Whole bx = difference(b, 0), by = difference(b, 1), bz = difference(b, 2);
-  const Whole cx = difference(c, 0), cy = difference(c, 1), cz = difference(c, 2);
-  const Whole first = difference(a, 0) * minor_of(by, bz, cy, cz), second = difference(a, 1) * minor_of(bx, bz, cx, cz);
-  const Whole third = difference(a, 2) * minor_of(bx, by, cx, cy);
+  const auto difference = [&](const Vec3& point, int axis) { return WideInteger(point[axis]) - WideInteger(d[axis]); };
+  const WideInteger bx = difference(b, 0), by = difference(b, 1), bz = difference(b, 2);
+  const WideInteger cx = difference(c, 0), cy = difference(c, 1), cz = difference(c, 2);
+  const WideInteger first = difference(a, 0) * minor_of(by, bz, cy, cz),
+                    second = difference(a, 1) * minor_of(bx, bz, cx, cz);
+  const WideInteger third = difference(a, 2) * minor_of(bx, by, cx, cy);
   return (first - (second - third)).sign();
 }
 
 int exact_turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  const auto difference = [&](const Eigen::Vector2d& point, int axis) { return Whole(point[axis]) - Whole(c[axis]); };
+  const auto difference = [&](const Eigen::Vector2d& point, int axis) {
+    return WideInteger(point[axis]) - WideInteger(c[axis]);
+  };
   return minor_of(difference(a, 0), difference(a, 1), difference(b, 0), difference(b, 1)).sign();
 }
 
