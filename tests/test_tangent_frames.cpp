@@ -22,6 +22,7 @@
 #include "vantage/earth.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
+#include "vantage/flight_check.h"
 #include "vantage/mission.h"
 
 namespace vantage::testing {
@@ -419,6 +420,37 @@ TEST(TangentFrames, ThinZonesFarAwayHaveTheirWallsWhereTheirLevelsAre) {
       }
     }
   }
+}
+
+// Tours fly home, and plans that are checked go where they go.
+TEST(TangentFrames, ZonesAreSafeAsFarAsTheHome) {
+  const Origin origin{48.1, 11.5};
+  const auto scene = scene_at(origin, {0, 0, 0});
+  const Place home = place_at(origin, 20000, 0, 30);  // the scene ends at 9 km
+  const std::string zone = "{keep_out: [{" +
+                           ring_text(origin.longitude_deg, origin.latitude_deg - 0.02, origin.longitude_deg + 0.4,
+                                     origin.latitude_deg + 0.02) +
+                           ", z: [50, 120]}]}";
+  const Mission without = with_zones(zone, scene, origin);
+  const Mission with = with_zones(zone + "\ntour: {home: " + text_of(home) + "}", scene, origin);
+  const Vec3 inside = exact(origin, place_at(origin, 19990, 0, 50.001));
+  EXPECT_TRUE(holds(with.navigation.keep_out.at(0), inside));
+  EXPECT_FALSE(holds(without.navigation.keep_out.at(0), inside));  // or this says nothing of the home
+  FlightPlan plan;
+  plan.file = "far.csv";
+  plan.is_in_scene_frame = true;
+  for (const double x : {0.0, inside.x()}) {
+    PlanItem item;
+    item.position = {{x, 0}, inside.z(), HeightDatum::scene_z};
+    plan.items.push_back(item);
+  }
+  const auto is_told = [&](const Mission& mission) {
+    const std::vector<Warning> notes = locate_flight(mission, plan).notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [](const Warning& note) { return note.code == WarningCode::plan_beyond_zones; });
+  };
+  EXPECT_TRUE(is_told(without));
+  EXPECT_FALSE(is_told(with));
 }
 
 TEST(TangentFrames, ZonesToStayInThatHoldNothingLevelAreErrors) {

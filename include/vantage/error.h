@@ -242,6 +242,7 @@ enum class WarningCode {
   plan_left_out,       ///< a plan of a flight holds what is not flown here
   plan_joined,         ///< several tracks of a plan are flown one after the other
   plan_assumed,        ///< a plan leaves something open, and it says what was taken
+  plan_beyond_zones,   ///< a flight goes where zones of the earth may be off: far from a scene of 3D Tiles
   volume_small,        ///< the volume is smaller than a cubic metre, far less than the range allows
   tiles_missing,       ///< files of a tileset are missing or cannot be read: what they hold hides nothing
   // of a volume's file

@@ -416,7 +416,12 @@ void georeference(Mission& mission, const Progress& progress) {
     for (std::vector<Target>& pilot : targets) pilot[0].parts[0][0].z() += file.vlos->eye_height_m;
   }
   combine_targets(given, std::move(targets), mission);
-  if (converter) convert_limits(mission.navigation, *converter, ZoneWalls(*globe, mission), file);
+}
+
+void georeference_limits(Mission& mission) {
+  if (mission.as_written.crs.empty()) return;
+  const geo::OnGlobe globe = globe_of(mission);
+  convert_limits(mission.navigation, CrsConverter(mission, globe), ZoneWalls(globe, mission), mission.as_written);
 }
 
 }  // namespace vantage::internal::app

@@ -55,10 +55,11 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   mission.navigation = file.navigation;
   mission.navigation.meshes = internal::app::placed_navigation_meshes(meshes, mission.scene());
   internal::app::georeference(mission, progress);
+  internal::app::place_home(mission);
+  internal::app::georeference_limits(mission);
   internal::app::add_file_zones(mission, progress);
   internal::app::find_ground(mission);
   internal::app::find_obstacles(mission);
-  internal::app::place_home(mission);
   internal::app::place_links(mission);
   return mission;
 }

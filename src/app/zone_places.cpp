@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/combine_targets.h"
 #include "core/text.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
@@ -31,28 +30,6 @@ constexpr double kLeastRadiusM = 6315e3, kLargestRadiusM = 6440e3;
 double drop_m(double distance_m, double radius_m) {
   const double d = std::min(distance_m, radius_m);
   return d * d / (radius_m + std::sqrt(radius_m * radius_m - d * d));
-}
-
-Reach reach_of(const Mission& mission) {
-  Box box = bounding_box(mission.scene().mesh);
-  double offset = 0;
-  for (const std::vector<Target>& view : views_of(mission)) {
-    for (const Target& target : view) {
-      offset = std::max(offset, std::abs(target.offset_m));
-      for (const std::vector<Vec3>& part : target.parts) {
-        for (const Vec3& corner : part) box.extend(corner);
-      }
-      if (target.volume) box.extend(bounding_box(target.volume->mesh));
-    }
-  }
-  if (box.empty()) return {};
-  const double range = range_limit_m(mission.sensor) + offset;
-  Reach reach{extent_of(box).farthest_m + range, box.min.z() - range, box.max.z() + range};
-  if (const auto& altitude = mission.navigation.altitude) {
-    reach.lowest_m = std::max(reach.lowest_m, altitude->min_m);
-    reach.highest_m = std::min(reach.highest_m, altitude->max_m);
-  }
-  return reach;
 }
 
 /// A curve in the frame, by points at equal steps of the system.
@@ -216,7 +193,7 @@ Extent extent_of(const Zone::Ring& ring, const ToFrame& to_frame) {
 }
 
 ZoneWalls::ZoneWalls(const geo::OnGlobe& globe, const Mission& mission)
-    : is_map_(!globe.is_cartesian()), reach_(is_map_ ? Reach{} : reach_of(mission)) {}
+    : is_map_(!globe.is_cartesian()), reach_(is_map_ ? geo::ZoneReach{} : geo::zone_reach(mission)) {}
 
 Heights ZoneWalls::within_reach(const Heights& heights) const {
   const double low = std::max(heights.low_m - drop_m(reach_.farthest_m, kLeastRadiusM), reach_.lowest_m);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "geo/on_globe.h"
+#include "geo/zone_reach.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 
@@ -29,12 +30,6 @@ using ToFrame = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 /// empty. `order_advice`: what to do about coordinates that lead far away.
 Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const char* order_advice, double lean_m = 0);
 
-/// Where positions may be that zones are asked about.
-struct Reach {
-  double farthest_m = 0;               ///< from the origin, in plan
-  double lowest_m = 0, highest_m = 0;  ///< z
-};
-
 struct Heights {
   double low_m = 0, high_m = 0;
 };
@@ -49,9 +44,8 @@ Extent extent_of(const Zone::Ring& ring, const ToFrame& to_frame);
 /// Zones are upright on the earth, and level. In the frame of a scene from a tileset their walls lean, by d / R at the
 /// distance d from the origin, and their floors and ceilings fall away, by d * d / 2R. They become upright and level
 /// there: with walls where the zone is in the middle of the heights that positions may have, moved to the safe side by
-/// what it leans by from there, and floors and ceilings at the safe one of their bounds. That is so within the reach:
-/// no farther from the box about the scene and the targets than the sensor's range, and between the altitudes. In a map
-/// all is as it is.
+/// what it leans by from there, and floors and ceilings at the safe one of their bounds. That is so within the
+/// reach (geo::ZoneReach). In a map all is as it is.
 class ZoneWalls {
  public:
   /// `mission`: with its targets in the frame.
@@ -67,7 +61,7 @@ class ZoneWalls {
   Heights within_reach(const Heights& heights) const;
 
   bool is_map_;
-  Reach reach_;
+  geo::ZoneReach reach_;
 };
 
 /// The frame's distances are no longer good there.

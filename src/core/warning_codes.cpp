@@ -30,6 +30,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::plan_left_out, "plan-left-out"},
     WarningRow{WarningCode::plan_joined, "plan-joined"},
     WarningRow{WarningCode::plan_assumed, "plan-assumed"},
+    WarningRow{WarningCode::plan_beyond_zones, "plan-beyond-zones"},
     WarningRow{WarningCode::volume_small, "volume-small"},
     WarningRow{WarningCode::tiles_missing, "tiles-missing"},
     WarningRow{WarningCode::volume_changed, "volume-changed"},

@@ -1,7 +1,10 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/format.h"
 #include "geo/on_globe.h"
+#include "geo/zone_reach.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
 #include "vantage/flight.h"
 #include "vantage/flight_check.h"
@@ -37,6 +40,28 @@ std::optional<Ground> ground_if_known(const Mission& mission) {
   }
 }
 
+bool has_zones_of_the_earth(const Mission& mission) {
+  const MissionFile& file = mission.as_written;
+  const bool has_zones = !mission.navigation.keep_in.empty() || !mission.navigation.keep_out.empty();
+  return has_zones && !(file.crs.empty() && file.keep_in_files.empty() && file.keep_out_files.empty());
+}
+
+/// In a Cartesian frame such zones are on the safe side within their reach alone.
+std::optional<Warning> beyond_zones(const Mission& mission, const Flight& flight, const std::string& plan) {
+  const std::optional<Georeference>& georeference = mission.scene().georeference;
+  if (!georeference || is_map(*georeference) || !has_zones_of_the_earth(mission)) return std::nullopt;
+  const internal::geo::ZoneReach reach = internal::geo::zone_reach(mission);
+  for (const FlightPoint& point : flight.points) {
+    if (reach.holds(point.position)) continue;
+    return Warning{
+        WarningCode::plan_beyond_zones,
+        internal::core::format("{} leaves the region where zones are kept with certainty, within {:.0f} m of "
+                               "the scene's origin and from z {:.0f} to {:.0f}: farther away they may be off",
+                               plan, reach.farthest_m, reach.lowest_m, reach.highest_m)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 LocatedPlan locate_flight(const Mission& mission, const FlightPlan& plan, LocateOptions options) {
@@ -51,7 +76,9 @@ LocatedPlan locate_flight(const Mission& mission, const FlightPlan& plan, Locate
     if (!plan.home) options.home = home_of_tour(plan.is_in_scene_frame, mission);
     if (!options.home_z_m) options.home_z_m = mission.home->z();
   }
-  return locate_flight(plan, options);
+  LocatedPlan located = locate_flight(plan, options);
+  if (auto note = beyond_zones(mission, located.flight, plan.file)) located.notes.push_back(*std::move(note));
+  return located;
 }
 
 }  // namespace vantage
