@@ -453,6 +453,22 @@ TEST(TangentFrames, ZonesAreSafeAsFarAsTheHome) {
   EXPECT_FALSE(is_told(with));
 }
 
+// A mission of volumes alone has no range, and so no bound of where it may be flown.
+TEST(TangentFrames, ZonesWithoutHeightsSuitMissionsOfVolumes) {
+  const Origin origin{48.1, 11.5};
+  TemporaryDirectory folder;
+  write_bytes(folder / "region.obj", "v 0 0 60\nv 20 0 60\nv 0 20 60\nv 5 5 80\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const std::string ring = ring_text(origin.longitude_deg + 0.02, origin.latitude_deg, origin.longitude_deg + 0.021,
+                                     origin.latitude_deg + 0.001);
+  const Mission mission = resolved(
+      "targets: [{volume: region.obj}]\ncrs: EPSG:4326\nnavigation: {keep_out: [{" + ring + ", heights: any}]}\n",
+      scene_at(origin, {0, 0, 0}), folder.path());
+  const Zone& zone = mission.navigation.keep_out.at(0);
+  const Place corner{origin.longitude_deg + 0.02, origin.latitude_deg, 100};
+  EXPECT_TRUE(holds(zone, exact(origin, corner)));
+  EXPECT_FALSE(holds(zone, exact(origin, corner) - Vec3(3, 3, 0)));  // walls move by far less
+}
+
 TEST(TangentFrames, ZonesToStayInThatHoldNothingLevelAreErrors) {
   const Origin origin{48.1, 11.5};
   const std::string zone = ring_text(origin.longitude_deg - 0.1, origin.latitude_deg - 0.1, origin.longitude_deg + 0.1,

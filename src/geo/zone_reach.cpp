@@ -24,7 +24,8 @@ ZoneReach zone_reach(const Mission& mission) {
   for (const std::vector<Target>& view : mission.views) std::for_each(view.begin(), view.end(), add);
   if (mission.home) box.extend(*mission.home);
   if (box.empty()) return {};
-  const double range = range_limit_m(mission.sensor) + offset;
+  const double limit = range_limit_m(mission.sensor);
+  const double range = (std::isfinite(limit) ? limit : ZoneReach::kAboutVolumesM) + offset;
   const double farthest = box.min.head<2>().cwiseAbs().cwiseMax(box.max.head<2>().cwiseAbs()).norm();
   ZoneReach reach{farthest + range, box.min.z() - range, box.max.z() + range};
   if (const auto& altitude = mission.navigation.altitude) {

@@ -7,10 +7,13 @@
 namespace vantage::internal::geo {
 
 /// Where positions may be that a mission's limits are asked about: no farther from the box about the scene, the targets
-/// and the home of a tour than the sensor's range, and below the highest altitude. Nothing is in an empty one.
+/// and the home of a tour than the sensor's range, and below the highest altitude. Nothing is in an empty one. A
+/// mission of volumes alone has no range.
 struct ZoneReach {
   double farthest_m = 0;               ///< from the origin, in plan
   double lowest_m = 0, highest_m = 0;  ///< z
+
+  static constexpr double kAboutVolumesM = 500;  ///< in place of that range
 
   bool holds(const Vec3& position) const;
 };
