@@ -530,7 +530,7 @@ TEST(Tileset, MissionsWarnOfMissingTiles) {
         tiles.path() / "mission.yaml");
     const std::vector<Warning> warnings = mission_warnings(resolve_mission(file));
     return std::any_of(warnings.begin(), warnings.end(),
-                       [](const Warning& one) { return one.code == WarningCode::tiles_missing; });
+                       [](const Warning& one) { return one.code == WarningCode::scene_incomplete; });
   };
   EXPECT_TRUE(has_warning());
   tiles.add("b.glb", box_glb({{{3, 0, 3}}}));

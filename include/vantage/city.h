@@ -111,6 +111,7 @@ struct CityOptions {
   BuildingDefaults defaults;
   Occluders occluders;
   OccluderDefaults occluder_defaults;
+  MissingPolicy missing = MissingPolicy::block;  ///< what cannot be built as it is drawn: Scene::ledger
 };
 
 /// A number of BuildingDefaults or OccluderDefaults by its name: for command lines, missions and the table in

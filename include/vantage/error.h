@@ -119,6 +119,7 @@ enum class ErrorCode {
   map_empty,           ///< a map holds nothing that can be built
   map_object_missing,  ///< a map has no such area
   ground_missing,      ///< a scene has no ground to put a target on, or to be above
+  scene_incomplete,    ///< the source says that more stands there than can be built, and that is to be refused
   object_missing,      ///< a scene has no object of that name, or none at that place
   face_missing,        ///< an object has no roof or no wall of the sort that is asked for
   region_invalid,      ///< a region is not valid: reversed, without extent or too large
@@ -244,7 +245,7 @@ enum class WarningCode {
   plan_assumed,        ///< a plan leaves something open, and it says what was taken
   plan_beyond_zones,   ///< a flight goes where zones of the earth may be off: far from a scene of 3D Tiles
   volume_small,        ///< the volume is smaller than a cubic metre, far less than the range allows
-  tiles_missing,       ///< files of a tileset are missing or cannot be read: what they hold hides nothing
+  scene_incomplete,    ///< what the source says stands within reach is not built as it stands: Scene::ledger
   // of a volume's file
   volume_changed,           ///< the mesh is not the one that the file was written with
   volume_of_other_scene,    ///< the volume was computed in another scene

@@ -96,6 +96,7 @@ struct RasterOptions {
   /// post: two triangles for each square of four.
   double max_error_m = 0.25;
   std::optional<std::array<double, 2>> origin_deg;  ///< of the scene frame: latitude, longitude; else the middle
+  MissingPolicy missing = MissingPolicy::block;     ///< how posts without a height are filled: docs/terrain.md
 };
 
 struct RasterReport {

@@ -31,6 +31,7 @@ enum class ObjectKind : std::uint8_t {
   tower,  ///< mast, chimney, tank too
   bridge,
   tree,
+  stand_in,  ///< a blocker that holds the place of what was not built as it stands (Scene::ledger); no target
 };
 
 /// Who an object is.
@@ -47,6 +48,34 @@ VANTAGE_API std::string display_name(const SceneObject& object);
 
 /// "building part", "wall", ...; "other".
 VANTAGE_API const char* name_of(ObjectKind kind);
+
+/// Something that the source of a scene says stands there, and that was not built as it stands: docs/scene.md, "The
+/// ledger".
+struct LedgerEntry {
+  SceneObject object;  ///< its name and id as far as the source has them; the kind that it would have had
+  std::string what;    ///< in the words of the source: "power=tower", "relation", "posts without a height"
+  std::string reason;  ///< why it was not built as it stands: "its ring is open at 7.41, 1.11"
+  /// Where, scene frame, metres; z as far as heights are known, else from -inf to inf. Nothing: the source does not
+  /// say, or what it says cannot be read.
+  std::optional<Box> box = std::nullopt;
+  std::vector<std::vector<std::array<double, 2>>> outlines = {};  ///< x, y of rings round it, open; may be empty
+  std::optional<double> height_m = std::nullopt;                  ///< above the ground, where the source says it
+  /// The object of the scene that holds its place: an index into Scene::objects. Nothing: nothing holds it, so that
+  /// it hides nothing, and nothing keeps clear of it.
+  std::optional<std::uint32_t> stand_in = std::nullopt;
+  std::string instead = {};    ///< what the stand-in is: "its outline without holes, 45 m high"; empty without one
+  bool may_be_larger = false;  ///< what stands there may reach beyond the stand-in
+};
+
+/// What is done about what a source says stands there and that cannot be built as it stands.
+enum class MissingPolicy : std::uint8_t {
+  block,   ///< what has a place becomes a blocker that holds it
+  warn,    ///< nothing holds its place; warnings tell of it
+  refuse,  ///< Error(input), ErrorCode::scene_incomplete, where there is any
+};
+
+/// "block", "warn", "refuse".
+VANTAGE_API const char* name_of(MissingPolicy policy);
 
 /// Any triangle soup with names. Open, non-manifold, doubled, intersecting or mis-oriented triangles are all fine: they
 /// are opaque from both sides.
@@ -79,6 +108,10 @@ struct Scene {
 
   /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.
   std::vector<std::string> notes;
+
+  /// What the source says stands there, and that is not built as it stands; each with what holds its place. Empty: all
+  /// that was read is in the mesh.
+  std::vector<LedgerEntry> ledger = {};
 };
 
 /// Whom pictures and pages of a scene have to name: Scene::attribution, and what its georeference says, or without that
@@ -102,6 +135,8 @@ struct SceneReadOptions {
   /// Latitude and longitude (WGS 84, degrees) of the scene frame's origin. Empty: the centre of the scene where the
   /// file or `crs` says where it lies. For a file that does not, its x and y are taken as metres east and north of it.
   std::optional<std::array<double, 2>> origin_deg = std::nullopt;
+
+  MissingPolicy missing = MissingPolicy::block;  ///< what cannot be built as the file has it: Scene::ledger
 };
 
 /// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb, and CityJSON 1.0 to 2.0

@@ -31,6 +31,8 @@ struct TilesetOptions {
   /// The coordinate reference system of a tileset in projected metres: "EPSG:3946"; or "none": metres of no known
   /// place. Empty: as the tileset says, on the earth (ECEF, EPSG:4978) or nowhere.
   std::string crs = {};
+
+  MissingPolicy missing = MissingPolicy::block;  ///< what cannot be built as the tiles have it: Scene::ledger
 };
 
 /// What reading found.

@@ -135,7 +135,7 @@ void bind_scene(nb::module_& module) {
              "attribution"_a = "");
   module.def("object_kinds", [] {
     std::vector<std::string> names;
-    for (int i = 0; i <= static_cast<int>(ObjectKind::tree); ++i)
+    for (int i = 0; i <= static_cast<int>(ObjectKind::stand_in); ++i)
       names.emplace_back(name_of(static_cast<ObjectKind>(i)));
     return names;
   });

@@ -201,7 +201,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                             shortfall.fix});
   }
   if (const auto& tileset = mission.loaded->tileset; tileset && tileset->holes > 0) {
-    warnings.push_back({WarningCode::tiles_missing,
+    warnings.push_back({WarningCode::scene_incomplete,
                         std::to_string(tileset->holes) +
                             " files of the tileset are missing or cannot be read: what they hold hides nothing, and "
                             "the volume may claim too much; the first: " +

@@ -88,6 +88,7 @@ constexpr std::array kRows = {
     Row{ErrorCode::map_empty, ErrorKind::input, "map-empty"},
     Row{ErrorCode::map_object_missing, ErrorKind::input, "map-object-missing"},
     Row{ErrorCode::ground_missing, ErrorKind::input, "ground-missing"},
+    Row{ErrorCode::scene_incomplete, ErrorKind::input, "scene-incomplete"},
     Row{ErrorCode::object_missing, ErrorKind::input, "object-missing"},
     Row{ErrorCode::face_missing, ErrorKind::input, "face-missing"},
     Row{ErrorCode::region_invalid, ErrorKind::input, "region-invalid"},

@@ -72,6 +72,20 @@ const char* name_of(ObjectKind kind) {
       return "bridge";
     case ObjectKind::tree:
       return "tree";
+    case ObjectKind::stand_in:
+      return "stand-in";
+  }
+  return "unknown";
+}
+
+const char* name_of(MissingPolicy policy) {
+  switch (policy) {
+    case MissingPolicy::block:
+      return "block";
+    case MissingPolicy::warn:
+      return "warn";
+    case MissingPolicy::refuse:
+      return "refuse";
   }
   return "unknown";
 }

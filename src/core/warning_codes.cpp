@@ -32,7 +32,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::plan_assumed, "plan-assumed"},
     WarningRow{WarningCode::plan_beyond_zones, "plan-beyond-zones"},
     WarningRow{WarningCode::volume_small, "volume-small"},
-    WarningRow{WarningCode::tiles_missing, "tiles-missing"},
+    WarningRow{WarningCode::scene_incomplete, "scene-incomplete"},
     WarningRow{WarningCode::volume_changed, "volume-changed"},
     WarningRow{WarningCode::volume_of_other_scene, "volume-of-other-scene"},
     WarningRow{WarningCode::volume_of_other_mission, "volume-of-other-mission"},

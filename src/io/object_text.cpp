@@ -13,7 +13,8 @@ constexpr std::string_view kObjectMark = "vantage object:";
 
 constexpr std::array kObjectKinds = {ObjectKind::other,    ObjectKind::ground,        ObjectKind::surface,
                                      ObjectKind::building, ObjectKind::building_part, ObjectKind::wall,
-                                     ObjectKind::tower,    ObjectKind::bridge,        ObjectKind::tree};
+                                     ObjectKind::tower,    ObjectKind::bridge,        ObjectKind::tree,
+                                     ObjectKind::stand_in};
 
 std::optional<ObjectKind> object_kind_named(std::string_view name) {
   for (const ObjectKind kind : kObjectKinds) {
