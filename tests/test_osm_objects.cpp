@@ -126,9 +126,12 @@ TEST(OsmWays, WithTooFewNodesAreLost) {
       osm_way(12, {1}, kBuilding) + osm_way(13, {1, 2}, kBuilding) + osm_way(14, {1, 2, 1}, kBuilding) +
       osm_way(15, {1, 9, 2, 1}, kBuilding) + osm_way(16, {1, 1, 1, 1}, kBuilding) + osm_way(17, {1, 10, 1}, kBuilding) +
       osm_way(21, {}, osm_tag("barrier", "wall")) + osm_way(22, {1, 10}, osm_tag("barrier", "wall")));
-  EXPECT_TRUE(extract.areas.empty() && extract.lines.empty());
+  EXPECT_TRUE(extract.lines.empty());
   EXPECT_EQ(extract.problems.size(), 9u);
-  for (long id = 11; id <= 17; ++id) expect_problem(extract, way_id(id), Kind::degenerate, true, "bound no area");
+  expect_problem(extract, way_id(11), Kind::degenerate, true, "bound no area");  // no place at all
+  for (long id = 12; id <= 17; ++id) expect_problem(extract, way_id(id), Kind::degenerate, false, "bound no area");
+  ASSERT_EQ(extract.areas.size(), 6u);
+  for (const Area& area : extract.areas) EXPECT_TRUE(area.polygons.at(0).incomplete);
   expect_problem(extract, way_id(22), Kind::degenerate, true, "no two different positions");
 }
 
@@ -139,12 +142,14 @@ TEST(OsmWays, AreBuiltFromTheNodesThatAreThere) {
                  osm_way(15, {1, 99, 2}, osm_tag("barrier", "wall")));
   expect_problem(extract, way_id(11), Kind::missing_nodes, false, "1 of 6 nodes is not in the file");
   expect_problem(extract, way_id(12), Kind::missing_nodes, false, "2 of 5 nodes are not in the file");
-  expect_problem(extract, way_id(13), Kind::missing_nodes, true, "3 of 4 nodes are not in the file");
+  expect_problem(extract, way_id(13), Kind::missing_nodes, false, "3 of 4 nodes are not in the file");
   expect_problem(extract, way_id(14), Kind::missing_nodes, true, "bound no area");
   expect_problem(extract, way_id(15), Kind::missing_nodes, false, "1 of 3 nodes");
-  ASSERT_EQ(extract.areas.size(), 2u);
+  ASSERT_EQ(extract.areas.size(), 3u);
   EXPECT_EQ(extract.areas[0].polygons[0].outer.size(), 4u);
   EXPECT_EQ(extract.areas[1].polygons[0].outer.size(), 3u);
+  EXPECT_EQ(extract.areas[2].polygons[0].outer.size(), 1u);
+  for (const Area& area : extract.areas) EXPECT_TRUE(area.polygons[0].incomplete);
   ASSERT_EQ(extract.lines.size(), 1u);
   EXPECT_EQ(extract.lines[0].points.size(), 2u);
 }
@@ -154,8 +159,8 @@ TEST(OsmWays, AnOpenBuildingIsClosed) {
                                      osm_way(12, {1, 2, 3}, osm_tag("area", "yes") + osm_tag("landuse", "grass")));
   // 0.001 degrees of latitude at 47 degrees north: 111.2 m.
   expect_problem(extract, way_id(11), Kind::open_outline, false, "a straight side of 111.2 m closes it");
-  expect_problem(extract, way_id(12), Kind::open_outline, true, "not closed");
-  ASSERT_EQ(extract.areas.size(), 1u);
+  expect_problem(extract, way_id(12), Kind::open_outline, false, "closes it");
+  ASSERT_EQ(extract.areas.size(), 2u);
   EXPECT_NEAR(doubled_area(extract.areas[0].polygons[0].outer), 2e-6, 1e-12);
 }
 
@@ -255,13 +260,14 @@ TEST(OsmMultipolygons, JoinPiecesOfRings) {
   ASSERT_EQ(old_style.areas.size(), 1u) << testing::describe(old_style);
   EXPECT_EQ(old_style.areas[0].tags.get("building"), "yes");
   EXPECT_EQ(old_style.problems.size(), 0u);
-  // With a piece missing nothing is assembled; the other one stands for itself.
+  // With a piece missing what encloses the other one stands in.
   const Extract broken = extract_of(kNodes + osm_way(11, {1, 2, 3}, kBuilding) +
                                     osm_relation(20, {"way 11 outer", "way 12 outer"}, kMultipolygon));
-  expect_problem(broken, relation_id(20), Kind::missing_members, true,
+  expect_problem(broken, relation_id(20), Kind::missing_members, false,
                  "1 of 2 ways is not in the file; the ring is open");
-  expect_problem(broken, way_id(11), Kind::open_outline, false, "closes it");
-  EXPECT_EQ(broken.areas.size(), 1u);
+  ASSERT_EQ(broken.areas.size(), 1u);
+  EXPECT_EQ(broken.areas[0].id, relation_id(20));
+  EXPECT_TRUE(broken.areas[0].polygons.at(0).incomplete);
   // The relation has the tags: its pieces have nothing to add.
   const Extract repeated =
       extract_of(kNodes + pieces + osm_relation(20, {"way 11 outer", "way 12 outer"}, kMultipolygon + kBuilding));
@@ -280,18 +286,22 @@ TEST(OsmMultipolygons, SayWhatIsBroken) {
       osm_relation(26, {"way 11 outer", "way 99 inner"}, tags) +
       osm_relation(27, {"way 11 outer"}, osm_tag("type", "site") + kBuilding) +
       osm_relation(28, {"way 11 outer"}, kBuilding) + osm_relation(29, {"way 11 "}, osm_tag("type", "route")));
-  expect_problem(extract, relation_id(20), Kind::broken_multipolygon, true, " crosses way/1");
-  expect_problem(extract, relation_id(21), Kind::broken_multipolygon, true, "the ring is open at 8.0");
+  expect_problem(extract, relation_id(20), Kind::broken_multipolygon, false, " crosses way/1");
+  expect_problem(extract, relation_id(21), Kind::broken_multipolygon, false, "the ring is open at 8.0");
   expect_problem(extract, relation_id(22), Kind::broken_multipolygon, true, "none of its members is a way");
   expect_problem(extract, relation_id(23), Kind::broken_multipolygon, true, "none of its members is a way");
   expect_problem(extract, relation_id(24), Kind::broken_multipolygon, true, "do not bound an area");
   expect_problem(extract, relation_id(25), Kind::missing_members, true, "1 of 1 ways is not in the file");
   expect_problem(extract, relation_id(26), Kind::missing_members, false, "1 of 2 ways is not in the file");
   expect_problem(extract, relation_id(27), Kind::broken_multipolygon, true, "its type is site, not multipolygon");
-  expect_problem(extract, relation_id(28), Kind::broken_multipolygon, true, "without a type");
+  expect_problem(extract, relation_id(28), Kind::broken_multipolygon, false, "without a type");
   EXPECT_EQ(extract.problems.size(), 9u);
-  ASSERT_EQ(extract.areas.size(), 1u);
-  EXPECT_EQ(extract.areas[0].id, relation_id(26));
+  ASSERT_EQ(extract.areas.size(), 4u);
+  EXPECT_EQ(extract.areas[0].id, relation_id(20));
+  EXPECT_EQ(extract.areas[0].polygons.at(0).holes.size(), 0u) << "its bounds stick out";
+  EXPECT_TRUE(extract.areas[1].polygons.at(0).incomplete);
+  EXPECT_EQ(extract.areas[2].id, relation_id(26));
+  EXPECT_EQ(extract.areas[3].id, relation_id(28));
 }
 
 TEST(OsmBuildingRelations, NameOutlinesAndParts) {

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <osmium/area/assembler.hpp>
 #include <osmium/area/problem_reporter.hpp>
 #include <osmium/builder/osm_object_builder.hpp>
 #include <osmium/osm/area.hpp>
+#include <string_view>
 #include <utility>
 
 #include "core/format.h"
@@ -181,6 +183,72 @@ bool has_corner(const NodeLocations& places) {
   return false;
 }
 
+/// Lines joined end to end.
+class Chains {
+ public:
+  explicit Chains(std::vector<NodeLocations> lines) : lines_(std::move(lines)), used_(lines_.size()) {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      ends_.emplace(lines_[i].front(), i);
+      ends_.emplace(lines_[i].back(), i);
+    }
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (!used_[i]) add(chain_from(i));
+    }
+  }
+
+  const std::vector<NodeLocations>& rings() const { return rings_; }  ///< the first place is not repeated
+  const NodeLocations& loose() const { return loose_; }               ///< the places of all that closes nowhere
+
+ private:
+  NodeLocations chain_from(std::size_t first) {
+    used_[first] = true;
+    NodeLocations chain = lines_[first];
+    for (int end = 0; end < 2; ++end) {  // on from its end, then from its beginning
+      while (chain.front() != chain.back()) {
+        const auto [begin, stop] = ends_.equal_range(chain.back());
+        const auto next = std::find_if(begin, stop, [&](const auto& entry) { return !used_[entry.second]; });
+        if (next == stop) break;
+        used_[next->second] = true;
+        NodeLocations line = lines_[next->second];
+        if (line.front() != chain.back()) std::reverse(line.begin(), line.end());
+        chain.insert(chain.end(), line.begin() + 1, line.end());
+      }
+      if (chain.front() != chain.back()) std::reverse(chain.begin(), chain.end());
+    }
+    return chain;
+  }
+
+  void add(NodeLocations chain) {
+    const bool closed = chain.size() > 1 && chain.front() == chain.back();
+    if (closed) chain.pop_back();
+    if (closed && has_corner(chain)) {
+      rings_.push_back(std::move(chain));
+    } else {
+      loose_.insert(loose_.end(), chain.begin(), chain.end());
+    }
+  }
+
+  std::vector<NodeLocations> lines_;
+  std::vector<bool> used_;
+  std::multimap<osmium::Location, std::size_t> ends_;  ///< lines by where they begin and end
+  std::vector<NodeLocations> rings_;
+  NodeLocations loose_;
+};
+
+struct PlaneBox {
+  osmium::Location min, max;  ///< of the two coordinates apart
+
+  explicit PlaneBox(const NodeLocations& places) : min(places.front()), max(places.front()) {
+    for (const osmium::Location at : places) {
+      min = {std::min(min.x(), at.x()), std::min(min.y(), at.y())};
+      max = {std::max(max.x(), at.x()), std::max(max.y(), at.y())};
+    }
+  }
+  bool holds(const PlaneBox& other) const {
+    return min.x() <= other.min.x() && min.y() <= other.min.y() && other.max.x() <= max.x() && other.max.y() <= max.y();
+  }
+};
+
 /// Ways with their nodes where the plane has them: the ways themselves, or copies.
 class ProjectedWays {
  public:
@@ -260,12 +328,38 @@ std::vector<LonLat> positions(const osmium::Way& way) {
   return line;
 }
 
-std::vector<Polygon> raw_polygon(const osmium::Way& way) {
+std::vector<Polygon> raw_polygon(const osmium::Way& way, bool incomplete) {
   const AssemblyPlane plane({&way});
   NodeLocations places = places_of(way, plane);
-  if (!has_corner(places)) return {};
-  if (places.front() == places.back()) places.pop_back();
-  return {Polygon{to_ring(std::move(places), true, plane), {}}};
+  if (places.empty()) return {};
+  const bool closed = places.size() > 1 && places.front() == places.back();
+  if (closed) places.pop_back();
+  if (!incomplete && has_corner(places)) return {Polygon{to_ring(std::move(places), true, plane), {}}};
+  return {Polygon{to_ring(std::move(places), true, plane), {}, true}};
+}
+
+std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members) {
+  std::vector<const osmium::Way*> ways;
+  for (const MemberWay& member : members) ways.push_back(member.way);
+  const AssemblyPlane plane(ways);
+  std::vector<NodeLocations> outer_lines, inner_lines;
+  for (const MemberWay& member : members) {
+    NodeLocations line = places_of(*member.way, plane);
+    const bool inner = std::string_view(member.role) == "inner";
+    if (!line.empty()) (inner ? inner_lines : outer_lines).push_back(std::move(line));
+  }
+  const Chains outer(std::move(outer_lines)), inner(std::move(inner_lines));
+  std::vector<Polygon> polygons;
+  for (const NodeLocations& ring : outer.rings()) {
+    Polygon& polygon = polygons.emplace_back();
+    for (const NodeLocations& hole : inner.rings()) {
+      if (PlaneBox(ring).holds(PlaneBox(hole))) polygon.holes.push_back(to_ring(hole, false, plane));
+    }
+    polygon.outer = to_ring(ring, true, plane);
+  }
+  NodeLocations loose = outer.loose();
+  if (!loose.empty()) polygons.push_back({to_ring(std::move(loose), true, plane), {}, true});
+  return polygons;
 }
 
 }  // namespace vantage::internal::osm

@@ -32,11 +32,16 @@ Assembly assemble(const osmium::Way& way);
 /// Assembles a multipolygon from the members that are there, whatever their roles, and tells which way is which.
 Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& members);
 
+/// The same members where they cannot be assembled: every outer ring for itself, crossing or not, those without an end
+/// as one incomplete polygon, and the inner rings that are whole as holes of each outer ring whose bounds hold theirs.
+/// Roles count: what is not "inner" is outer. Cost: O(n log n) in the nodes, and outer times inner rings.
+std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members);
+
 /// The way's positions, those that follow each other all different: of a closed way the first is repeated at the end.
 std::vector<LonLat> positions(const osmium::Way& way);
 
-/// The ring that a way draws, closed by a straight side where it is open, whether it crosses itself or not. Nothing
-/// when all its positions lie on one line.
-std::vector<Polygon> raw_polygon(const osmium::Way& way);
+/// The ring that a way draws, closed by a straight side where it is open, whether it crosses itself or not. All
+/// positions on one line, or some not known (`incomplete`): an incomplete polygon. Nothing without a position.
+std::vector<Polygon> raw_polygon(const osmium::Way& way, bool incomplete = false);
 
 }  // namespace vantage::internal::osm

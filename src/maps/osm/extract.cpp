@@ -82,15 +82,14 @@ class ExtractBuilder {
 
   /// What a way is to become.
   struct Meaning {
-    bool area = false, line = false, outline = false;
+    bool area = false, line = false;
   };
 
   static Meaning meaning_of(const KeptWay& kept, const Tags& tags, bool absorbed) {
-    Meaning meaning{.area = !absorbed && (kept.closed ? means_area(tags) : means_building(tags)),
-                    .line = means_line(tags),
-                    .outline = means_building(tags) || tags.get("area") == "yes"};
+    const bool outline = means_building(tags) || tags.get("area") == "yes";
+    Meaning meaning{.area = !absorbed && (kept.closed ? means_area(tags) : outline), .line = means_line(tags)};
     // What is drawn open is a line, but for outlines and for pieces of rings: a park's border.
-    if (!kept.closed && !meaning.outline && !absorbed) meaning.line = true;
+    if (!kept.closed && !outline && !absorbed) meaning.line = true;
     return meaning;
   }
 
@@ -113,24 +112,24 @@ class ExtractBuilder {
       if (!absorbed->reported || !means_area(tags)) return;
       problem.add(Kind::repeated_outline, (absorbed->hole ? "it is tagged like " : "it bounds ") + text(absorbed->by) +
                                               (absorbed->hole ? ", whose hole it bounds" : ", which stands for it"));
-    } else if (!meaning.area && !meaning.line) {
-      problem.add(Kind::open_outline, "it is tagged as an area, but not closed");
     }
-    if (!problem.empty()) extract_.problems.push_back(problem.build(id, tags, !there));
+    if (problem.empty()) return;
+    extract_.problems.push_back(problem.build(id, tags, !there));
+    if (!there) extract_.problems.back().places = positions(way);
   }
 
   bool add_area(const KeptWay& kept, const Tags& tags, ProblemBuilder& problem) {
     const osmium::Way& way = *kept.way;
     Assembly assembly;
-    if (kept.closed) assembly = assemble(way);
+    const bool incomplete = kept.missing + kept.off_earth > 0;
+    if (kept.closed && !incomplete) assembly = assemble(way);
     if (assembly.polygons.empty()) {
-      assembly.polygons = raw_polygon(way);
-      if (assembly.polygons.empty()) {
-        problem.add(Kind::degenerate, "its positions bound no area");
-        return false;
-      }
+      assembly.polygons = raw_polygon(way, incomplete);
+      if (assembly.polygons.empty()) return false;
       const Ring& ring = assembly.polygons.front().outer;
-      if (kept.closed) {
+      if (assembly.polygons.front().incomplete) {
+        if (!incomplete) problem.add(Kind::degenerate, "its positions bound no area");
+      } else if (kept.closed) {
         problem.add(Kind::broken_multipolygon, assembly.problem + "; taken as it is drawn");
       } else {
         problem.add(Kind::open_outline, core::format("it is not closed; a straight side of {:.1f} m closes it",

@@ -44,6 +44,8 @@ using Ring = std::vector<LonLat>;  ///< open: the first position is not repeated
 struct Polygon {
   Ring outer;               ///< counter-clockwise
   std::vector<Ring> holes;  ///< clockwise
+  /// Not all of the ring is known: `outer` are the positions that are, in no order, and what encloses them stands in.
+  bool incomplete = false;
 };
 
 /// A closed way or a multipolygon relation, assembled. The tags of a multipolygon are the relation's without its type,
@@ -79,8 +81,8 @@ struct Problem {
   enum class Kind {
     missing_nodes,    ///< a way refers to nodes that are not in the file or not on the earth; built from the rest
     missing_members,  ///< a relation refers to objects that are not in the file
-    /// Rings do not close, cross, or nest wrongly. Of a relation nothing could be assembled; a closed way is taken as
-    /// it is drawn, crossing itself, where it bounds anything. Also a building relation of a type that is none
+    /// Rings do not close, cross, or nest wrongly: taken as they are drawn, where they bound anything. Also a building
+    /// relation of a type that is none
     broken_multipolygon,
     degenerate,    ///< fewer than 3 different positions (of a line: 2), no area, or nowhere on the earth
     open_outline,  ///< a way tagged as an area that is not closed; a building is, by a straight side
@@ -93,6 +95,7 @@ struct Problem {
   std::string what;   ///< for people: "3 of 12 nodes are not in the file"; all that is wrong, the cause first
   bool lost = false;  ///< nothing of the object is in the extract
   Tags tags;          ///< of the object, to tell whether a building was lost
+  std::vector<LonLat> places = {};  ///< of what is lost: positions that are known of it
 };
 
 /// Positions that are wanted. An object is taken, whole, when some of it lies inside: a corner, a part of a side, or of

@@ -83,7 +83,7 @@ class Loader {
     const RelationKind kind = kind_of(tags);
     bool keep = kind == RelationKind::building;
     if (kind == RelationKind::multipolygon) keep = says_nothing(tags) || is_wanted(relation.tags());
-    if (kind == RelationKind::other) keep = means_building(tags) && is_wanted(relation.tags());
+    if (kind == RelationKind::other) keep = wanted_ == nullptr ? means_building(tags) : wanted_(tags);
     if (!keep) return;
     kept_relations_.push_back({relation.id(), version, objects_.relation_buffer.committed(), true});
     objects_.relation_buffer.add_item(relation);
@@ -254,6 +254,7 @@ LonLat to_lonlat(osmium::Location location) { return {location.lon(), location.l
 RelationKind kind_of(const Tags& tags) {
   const std::string_view type = tags.get("type");
   if (type == "multipolygon" || type == "boundary") return RelationKind::multipolygon;
+  if (type.empty() && !says_nothing(tags)) return RelationKind::multipolygon;  // for lack of anything better
   return type == "building" ? RelationKind::building : RelationKind::other;
 }
 

@@ -34,10 +34,13 @@ void Multipolygons::add(const osmium::Relation& relation) {
     return;
   }
   ProblemBuilder problem;
-  const std::string type(tags.get("type"));
-  problem.add(Kind::broken_multipolygon, type.empty() ? std::string("it is a relation without a type")
-                                                      : "its type is " + type + ", not multipolygon");
+  problem.add(Kind::broken_multipolygon, "its type is " + std::string(tags.get("type")) + ", not multipolygon");
   extract_.problems.push_back(problem.build(id_of(relation), tags, true));
+  for (const MemberWay& member : members_of(relation).there) {
+    const std::vector<LonLat> line = positions(*member.way);
+    std::vector<LonLat>& places = extract_.problems.back().places;
+    places.insert(places.end(), line.begin(), line.end());
+  }
 }
 
 std::optional<Multipolygons::Absorbed> Multipolygons::absorbed(std::int64_t way) const {
@@ -48,21 +51,27 @@ std::optional<Multipolygons::Absorbed> Multipolygons::absorbed(std::int64_t way)
 Multipolygons::Members Multipolygons::members_of(const osmium::Relation& relation) const {
   Members members;
   for (const osmium::RelationMember& member : relation.members()) {
-    if (member.type() != osmium::item_type::way) continue;
-    ++members.ways;
-    const KeptWay* const kept = objects_.find_way(member.ref());
-    if (kept == nullptr) continue;
-    members.there.push_back({kept->way, member.role()});
-    members.nodes += kept->way->nodes().size();
-    members.missing_nodes += kept->missing;
-    members.off_earth += kept->off_earth;
-    members.any_wanted = members.any_wanted || kept->wanted;
+    if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
   }
   return members;
 }
 
+void Multipolygons::add_member(Members& members, std::int64_t way, const char* role) const {
+  ++members.ways;
+  const KeptWay* const kept = objects_.find_way(way);
+  if (kept == nullptr) return;
+  members.there.push_back({kept->way, role});
+  members.nodes += kept->way->nodes().size();
+  members.missing_nodes += kept->missing;
+  members.off_earth += kept->off_earth;
+  members.any_wanted = members.any_wanted || kept->wanted;
+}
+
 void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags) {
-  Members members = members_of(relation);
+  add_area(relation, std::move(tags), members_of(relation));
+}
+
+void Multipolygons::add_area(const osmium::Relation& relation, Tags tags, Members members) {
   const bool old_style = says_nothing(tags);
   if (old_style && !members.any_wanted) return;
   if (!selection_.holds(id_of(relation))) {
@@ -70,6 +79,9 @@ void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags
     return;
   }
   ProblemBuilder problem;
+  if (relation.tags().get_value_by_key("type") == nullptr) {
+    problem.add(Kind::broken_multipolygon, "it is a relation without a type; taken for a multipolygon");
+  }
   problem.add_share(Kind::missing_members, members.ways - members.there.size(), members.ways, "ways",
                     "not in the file");
   problem.add_share(Kind::missing_nodes, members.missing_nodes, members.nodes, "nodes", "not in the file");
@@ -77,8 +89,15 @@ void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags
   Assembly assembly = assemble(relation, members.there);
   if (assembly.polygons.empty()) {
     problem.add(Kind::broken_multipolygon, assembly.problem);
-    extract_.problems.push_back(problem.build(id_of(relation), tags, true));  // its ways stand for themselves
+    assembly.polygons = drawn_polygons(members.there);
+    for (MemberWay& member : members.there) member.outer = std::strcmp(member.role, "inner") != 0;
+  }
+  if (assembly.polygons.empty()) {
+    extract_.problems.push_back(problem.build(id_of(relation), tags, true));
     return;
+  }
+  for (Polygon& polygon : assembly.polygons) {
+    if (members.missing_nodes + members.off_earth > 0) polygon = {std::move(polygon.outer), {}, true};
   }
   if (old_style) {
     std::vector<Tags> outer;
@@ -128,8 +147,30 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
   problem.add_share(Kind::missing_members, missing, named, "outlines and parts", "not in the file");
   const bool empty = building.outlines.empty() && building.parts.empty();
   if (empty && problem.empty()) problem.add(Kind::degenerate, "it has neither an outline nor parts");
-  if (!problem.empty()) extract_.problems.push_back(problem.build(building.id, tags, empty));
+  if (wanted_ != nullptr && wanted_(tags)) add_outline(relation, tags, building);
+  const bool is_told = !extract_.problems.empty() && extract_.problems.back().object == building.id;
+  if (!problem.empty() && !is_told) extract_.problems.push_back(problem.build(building.id, tags, empty));
   if (!empty) extract_.building_relations.push_back(std::move(building));
+}
+
+void Multipolygons::add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building) {
+  Members members;
+  for (const ObjectId id : building.outlines) {
+    if (id.type == ObjectType::way) {
+      add_member(members, id.id, "outer");
+      continue;
+    }
+    const osmium::Relation& outline = *objects_.find_relation(id.id);
+    if (!says_nothing(to_tags(outline.tags()))) return;  // it is built itself
+    for (const osmium::RelationMember& member : outline.members()) {
+      if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
+    }
+  }
+  if (members.there.empty() || members.any_wanted) return;
+  building.outlines.push_back(building.id);
+  Tags own = tags;
+  std::erase_if(own.all, [](const auto& tag) { return tag.first == "type"; });
+  add_area(relation, std::move(own), std::move(members));
 }
 
 }  // namespace vantage::internal::osm

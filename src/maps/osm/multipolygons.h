@@ -41,8 +41,12 @@ class Multipolygons {
   };
 
   void add_multipolygon(const osmium::Relation& relation, Tags tags);
+  void add_area(const osmium::Relation& relation, Tags tags, Members members);
   void add_building(const osmium::Relation& relation, const Tags& tags);
+  /// Of a building relation that alone says that its outline is a building.
+  void add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building);
   Members members_of(const osmium::Relation& relation) const;
+  void add_member(Members& members, std::int64_t way, const char* role) const;
   void absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,
               const std::vector<MemberWay>& members);
 
