@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,7 +83,26 @@ struct Occluders {
   bool towers = true;   ///< man_made=tower, mast, chimney, water_tower, storage_tank, silo, communications_tower, …
   bool bridges = true;  ///< bridge decks, so that one can look under them
   bool trees = true;    ///< natural=tree and tree_row
+  // Stand-ins, for what is tagged with a height and is none of these: docs/scene.md, "The ledger".
+  bool woods = true;      ///< natural=wood, scrub, tree_group; landuse=forest, orchard
+  bool stadiums = true;   ///< leisure=stadium, sports_hall, …
+  bool masts = true;      ///< power=tower, pole, …; aerialway=pylon; man_made=antenna, utility_pole
+  bool turbines = true;   ///< wind turbines and windmills
+  bool cranes = true;     ///< man_made=crane
+  bool tanks = true;      ///< man_made=tank, bunker_silo
+  bool monuments = true;  ///< historic=*, man_made=obelisk, tourism=artwork
+  bool others = true;     ///< all other things with a height, and buildings that are drawn as a point
+  bool lines = true;      ///< power lines, cable cars and pipelines overhead, for clearance alone: Scene::overhead
 };
+
+/// A member of Occluders by its name, which `scene.without` takes.
+struct OccluderSwitch {
+  const char* name;
+  bool Occluders::*on;
+};
+
+/// All of them, in the order of their declaration.
+VANTAGE_API std::span<const OccluderSwitch> occluder_switches();
 
 /// The part of the map that is built. An object belongs to it, whole, when some of it does, be it but a side's middle.
 struct CityRegion {
@@ -131,7 +151,7 @@ VANTAGE_API const std::vector<CitySetting>& city_settings();
 /// highway=KIND). Throws Error(input) for an unknown name and a value out of range, with `where`.
 VANTAGE_API void set_city_option(CityOptions& options, const std::string& name, double value, const std::string& where);
 
-/// Switches off "walls", "towers", "bridges" or "trees". Throws Error(input) for another word.
+/// Switches off one of `occluder_switches()`. Throws Error(input) for another word.
 VANTAGE_API void leave_out(Occluders& occluders, const std::string& kind, const std::string& where);
 
 /// What became of an object that was read and wanted.

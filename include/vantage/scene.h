@@ -65,6 +65,7 @@ struct LedgerEntry {
   std::optional<std::uint32_t> stand_in = std::nullopt;
   std::string instead = {};    ///< what the stand-in is: "its outline without holes, 45 m high"; empty without one
   bool may_be_larger = false;  ///< what stands there may reach beyond the stand-in
+  std::string without = {};    ///< what `scene.without` calls its kind; empty where that does not leave it out
 };
 
 /// What is done about what a source says stands there and that cannot be built as it stands.
@@ -105,6 +106,10 @@ struct Scene {
   /// Of a volume that vantage wrote: how far the rounding to the file's numbers moved it, metres. Nothing where the
   /// file does not say.
   std::optional<double> rounding_m;
+
+  /// Under power lines, cable cars and pipelines overhead: upright facets from the ground to the height of their supports.
+  /// They hide nothing, but clearance is kept from them: obstacles_of.
+  Mesh overhead = {};
 
   /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.
   std::vector<std::string> notes;

@@ -1,3 +1,4 @@
+#include <array>
 #include <functional>
 #include <map>
 
@@ -94,19 +95,33 @@ void set_city_option(CityOptions& options, const std::string& name, double value
               "the defaults are: " + known + "and of a kind levels.house, wall.fence, tower.mast, way.footway");
 }
 
+std::span<const OccluderSwitch> occluder_switches() {
+  static constexpr std::array<OccluderSwitch, 13> kSwitches = {{{"walls", &Occluders::walls},
+                                                                {"towers", &Occluders::towers},
+                                                                {"bridges", &Occluders::bridges},
+                                                                {"trees", &Occluders::trees},
+                                                                {"woods", &Occluders::woods},
+                                                                {"stadiums", &Occluders::stadiums},
+                                                                {"masts", &Occluders::masts},
+                                                                {"turbines", &Occluders::turbines},
+                                                                {"cranes", &Occluders::cranes},
+                                                                {"tanks", &Occluders::tanks},
+                                                                {"monuments", &Occluders::monuments},
+                                                                {"others", &Occluders::others},
+                                                                {"lines", &Occluders::lines}}};
+  return kSwitches;
+}
+
 void leave_out(Occluders& occluders, const std::string& kind, const std::string& where) {
-  if (kind == "walls") {
-    occluders.walls = false;
-  } else if (kind == "towers") {
-    occluders.towers = false;
-  } else if (kind == "bridges") {
-    occluders.bridges = false;
-  } else if (kind == "trees") {
-    occluders.trees = false;
-  } else {
-    throw Error(ErrorCode::unknown_choice, "'" + kind + "' is not what can be left out", where,
-                "write walls, towers, bridges or trees");
+  std::string names;
+  for (const OccluderSwitch& one : occluder_switches()) {
+    if (kind == one.name) {
+      occluders.*one.on = false;
+      return;
+    }
+    names.append(names.empty() ? "" : ", ").append(one.name);
   }
+  throw Error(ErrorCode::unknown_choice, "'" + kind + "' is not what can be left out", where, "write one of: " + names);
 }
 
 }  // namespace vantage

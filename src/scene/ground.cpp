@@ -67,6 +67,11 @@ std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<s
            std::find(ground.begin(), ground.end(), object) == ground.end();
   });
   if (mesh.empty()) mesh = scene.mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), scene.overhead.vertices.begin(), scene.overhead.vertices.end());
+  for (const Triangle& t : scene.overhead.triangles) {
+    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
   return std::make_shared<const Mesh>(std::move(mesh));
 }
 

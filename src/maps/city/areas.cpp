@@ -39,7 +39,7 @@ AreaPolygon::Ring ring_of(const osm::Ring& ring) {
   return positions;
 }
 
-/// Nothing where it bounds nothing.
+/// Nothing where it bounds nothing, or nobody knows what.
 std::optional<MapArea> area_of(const osm::Area& source) {
   MapArea area;
   area.source_id = osm::text(source.id);
@@ -52,8 +52,8 @@ std::optional<MapArea> area_of(const osm::Area& source) {
   // About one of its own corners: distances are good wherever the map lies.
   const LocalFrame frame(source.polygons.front().outer.front());
   internal::city::Repairs repairs;
-  const std::vector<Footprint> footprints = internal::city::clean(internal::city::project(source, frame), repairs);
-  if (footprints.empty()) return std::nullopt;
+  const std::vector<Footprint> footprints = internal::city::footprints_of(source, frame, repairs);
+  if (footprints.empty() || repairs.enclosed) return std::nullopt;
   area.area_m2 = internal::city::area_m2(footprints);
   Vec2 min = footprints.front().outer.front(), max = min;
   for (const Footprint& footprint : footprints) {

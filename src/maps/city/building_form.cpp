@@ -4,6 +4,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "core/format.h"
+
 namespace vantage::internal::city {
 namespace {
 
@@ -26,7 +28,13 @@ class FormReader {
   BuildingForm read() {
     read_roof();
     const std::optional<double> height = first_height();
-    levels_ = number({"building:levels", "building:part:levels"}, parse_levels, kMostLevels);
+    for (const std::string_view key : {"building:levels", "building:part:levels"}) {
+      if (!levels_) levels_ = sized(key, parse_levels, roughly_levels, kMostLevels, "");
+    }
+    // What the tags say of the height and cannot be understood matters where nothing else of them says it.
+    if (!height && !levels_) {
+      for (const std::size_t i : unheard_) remarks_[i].unsure = true;
+    }
     read_bottom(height);
     if (height) {
       form_.top_m = *height;
@@ -58,6 +66,26 @@ class FormReader {
     remarks_.push_back({fault, std::string(key), std::string(value), std::string(outcome)});
   }
 
+  /// A height or a number of levels; one that is not plainly written counts by its largest number.
+  template <typename Parse, typename Roughly>
+  std::optional<double> sized(std::string_view key, const Parse& parse, const Roughly& roughly, double most,
+                              std::string_view unit) {
+    const std::string_view value = tags_.get(key);
+    if (value.empty()) return std::nullopt;
+    if (!parse(value)) {
+      const std::optional<double> rough = roughly(value);
+      if (rough && *rough > 0 && *rough <= most) {
+        remark(TagFault::rough, key, value, "taken as " + core::format("{:.6g}", *rough) + std::string(unit));
+        remarks_.back().unsure = true;
+        return rough;
+      }
+    }
+    const std::size_t before = remarks_.size();
+    const std::optional<double> plain = number({key}, parse, most);
+    for (std::size_t i = before; i < remarks_.size(); ++i) unheard_.push_back(i);
+    return plain;
+  }
+
   /// The first of the keys that has a value from 0 to `most`; others are remarked on.
   template <typename Parse>
   std::optional<double> number(std::initializer_list<std::string_view> keys, const Parse& parse, double most) {
@@ -74,7 +102,8 @@ class FormReader {
 
   std::optional<double> first_height() {
     for (const std::string_view key : {"height", "building:height", "est_height"}) {
-      const std::optional<double> height = number({key}, parse_length_m, kHighest);
+      const auto roughly = [&](std::string_view value) { return roughly_length_m(value, defaults_.level_m); };
+      const std::optional<double> height = sized(key, parse_length_m, roughly, kHighest, " m");
       if (height && *height >= kThinnest) return height;
       if (height) remark(TagFault::zero, key, tags_.get(key), "taken as untagged");
     }
@@ -128,10 +157,10 @@ class FormReader {
   }
 
   void read_bottom(const std::optional<double>& height) {
-    if (const auto bottom = number({"min_height"}, parse_length_m, kHighest)) {
+    if (const auto bottom = number({"min_height"}, parse_lowest_length_m, kHighest)) {
       form_.bottom_m = *bottom;
       bottom_key_ = "min_height";
-    } else if (const auto level = number({"building:min_level"}, parse_levels, kMostLevels)) {
+    } else if (const auto level = number({"building:min_level"}, parse_lowest_levels, kMostLevels)) {
       // A building that says both its height and its levels says how high a level is.
       const bool own = height && levels_ && *levels_ > *level && *height > roof_m_.value_or(0);
       min_level_ = *level;
@@ -197,6 +226,7 @@ class FormReader {
   std::optional<double> levels_, roof_m_;  // the latter when the tags say it
   double min_level_ = 0;
   std::string_view bottom_key_;
+  std::vector<std::size_t> unheard_;  // remarks on heights and levels that could not be understood
   BuildingForm form_;
 };
 

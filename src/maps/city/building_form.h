@@ -66,12 +66,16 @@ enum class TagFault {
   no_height,        ///< nothing is left between bottom and top
   roof_too_high,    ///< the roof is higher than the building
   too_small,        ///< nothing is left to build
+  rough,            ///< no plain number, but holds one: the largest is taken
 };
 
 struct TagRemark {
   TagFault fault;
   std::string key, value;  ///< "height", "concrete"; empty for a thing as a whole
   std::string outcome;     ///< "taken as untagged"
+
+  /// Whether it makes a height uncertain, so that the ledger has to tell of it.
+  bool unsure = false;
 
   CityRemark for_people() const {
     return key.empty() ? CityRemark{outcome, outcome}
@@ -82,8 +86,15 @@ struct TagRemark {
 /// "48.5", "48.5 m", "48,5m", "160 ft", "160'", "5'11\"", "0.2 km", "5;5.5" (the largest counts: what hides more);
 /// nothing for what is not a length. Metres; may be negative.
 std::optional<double> parse_length_m(std::string_view text);
+/// The same of a bottom, of which the lowest counts.
+std::optional<double> parse_lowest_length_m(std::string_view text);
 /// "3", "2.5", "2;3" (the largest); nothing for what is not a number of levels.
 std::optional<double> parse_levels(std::string_view text);
+std::optional<double> parse_lowest_levels(std::string_view text);
+/// The largest length, or number of levels, that a text holds which is not plainly one: "13-22", "~22", "22 m (approx)",
+/// "10 storeys" of `level_m` each; "G+5" are 6 levels. Nothing where it holds no number.
+std::optional<double> roughly_length_m(std::string_view text, double level_m);
+std::optional<double> roughly_levels(std::string_view text);
 /// Degrees clockwise from north: "45", "45°", "NE", "north"; nothing else.
 std::optional<double> parse_direction_deg(std::string_view text);
 /// A roof:shape, its synonyms included (the table is in roof_names.cpp); nothing for what is none.

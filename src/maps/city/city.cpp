@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/format.h"
 #include "core/stopwatch.h"
 #include "maps/city/assembly.h"
 #include "maps/city/ground.h"
@@ -56,6 +57,63 @@ internal::city::Ground ground_under(const internal::city::Site& site, const City
   return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m, notes, progress);
 }
 
+/// The ledger's entry of an item that is object `index` of the scene.
+LedgerEntry entry_of(const internal::city::Item& item, const Mesh& solid, std::uint32_t index) {
+  LedgerEntry entry = item.entry;
+  for (const internal::city::Fault& fault : item.faults) {
+    entry.reason.append(entry.reason.empty() || fault.reason.empty() ? "" : "; ").append(fault.reason);
+    entry.instead.append(entry.instead.empty() || fault.instead.empty() ? "" : "; ").append(fault.instead);
+    entry.may_be_larger |= fault.may_be_larger;
+  }
+  for (const internal::city::Shape& shape : item.shapes) {
+    std::vector<std::array<double, 2>>& ring = entry.outlines.emplace_back();
+    for (const internal::city::Vec2& corner : shape.footprint.outer) ring.push_back({corner.x(), corner.y()});
+  }
+  if (entry.reason.empty()) entry.reason = "its outline has no area";
+  entry.box = bounding_box(solid);
+  entry.stand_in = index;
+  entry.instead.append(entry.instead.empty() ? "" : ", ");
+  entry.instead.append(internal::core::format("{:.3g} m high", item.record.top_m - item.record.base_m));
+  return entry;
+}
+
+/// What is not built as the map has it. Solids and items correspond; objects are those that hold triangles.
+std::vector<LedgerEntry> ledger_of(const internal::city::Site& site, const std::vector<Mesh>& solids) {
+  std::vector<LedgerEntry> ledger;
+  std::uint32_t index = 0;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const internal::city::Item& item = site.items[i];
+    if (solids[i].empty()) {
+      ledger.push_back(item.entry);
+      ledger.back().reason = item.record.reason;
+    } else if (!item.faults.empty()) {
+      ledger.push_back(entry_of(item, solids[i], index));
+    }
+    index += solids[i].empty() ? 0 : 1;
+  }
+  ledger.insert(ledger.end(), site.lost.begin(), site.lost.end());
+  return ledger;
+}
+
+/// Upright facets from below the lowest ground to the tops of the supports. Beyond the ground it is taken as at its rim.
+Mesh curtains_under(const std::vector<internal::city::Overhead>& lines, const internal::city::Ground& ground) {
+  Mesh mesh;
+  const Box box = bounding_box(ground.mesh());
+  for (const internal::city::Overhead& line : lines) {
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const internal::city::Vec2& at = line.points[i];
+      const internal::city::Vec2 inside = at.cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
+      const auto next = static_cast<std::uint32_t>(mesh.vertices.size() + 2);
+      mesh.vertices.emplace_back(at.x(), at.y(), box.min.z());
+      mesh.vertices.emplace_back(at.x(), at.y(), ground.height(inside) + line.height_m);
+      if (i + 1 == line.points.size()) continue;
+      mesh.triangles.push_back({next - 2, next, next + 1});
+      mesh.triangles.push_back({next - 2, next + 1, next - 1});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 City build_city(const std::filesystem::path& file, const CityOptions& options, const Progress& progress) {
@@ -89,6 +147,8 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326",
                                 kOpenStreetMapCredit};
   result.scene = internal::city::assemble(site, solids, ground.mesh());
+  result.scene.ledger = ledger_of(site, solids);
+  result.scene.overhead = curtains_under(site.overhead, ground);
   result.scene.source = file;
   result.scene.georeference = result.report.georeference;
   if (options.frame) result.scene.whole = internal::city::bounds_of_whole(*options.frame);

@@ -26,9 +26,10 @@ double area_m2(const std::vector<Footprint>& footprints);
 
 /// What was done to an outline to make it simple.
 struct Repairs {
-  bool self_crossing = false;  ///< it crossed itself: inside is what is wound round an odd number of times
-  bool nesting = false;        ///< holes outside the outer ring, or overlapping each other
+  bool self_crossing = false;  ///< it crossed itself: inside is all that it is wound round
+  bool nesting = false;        ///< holes that cross, touch along a side, overlap or lie outside: filled
   bool tangled = false;        ///< it crosses itself more than a thousand times: dropped
+  bool enclosed = false;       ///< the smallest rectangle round it stands in: footprints_of
   bool beyond = false;         ///< not finite, or larger than 100 km: dropped
   std::size_t slivers = 0;     ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
 };

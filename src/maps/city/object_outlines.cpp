@@ -8,6 +8,7 @@
 
 #include "maps/city/footprint.h"
 #include "maps/city/region.h"
+#include "maps/city/structures.h"
 #include "maps/osm/extract.h"
 
 namespace vantage::internal::city {
@@ -18,14 +19,8 @@ bool is_closed(const osm::Line& line) {
   return line.points.size() > 3 && first.longitude_deg == last.longitude_deg && first.latitude_deg == last.latitude_deg;
 }
 
-Ring projected(const osm::Ring& ring, const geo::LocalFrame& frame) {
-  Ring result;
-  for (const geo::LonLat& position : ring) result.push_back(frame.to_local(position));
-  return result;
-}
-
 struct MapObject {
-  std::vector<osm::Polygon> polygons;
+  osm::Area area;
   std::string name;
   bool is_area = false;
 };
@@ -45,26 +40,21 @@ MapObjects read_objects(const std::filesystem::path& file, const CityRegion& reg
   for (osm::Area& area : extract.areas) {
     MapObject& object = of(area.id, area.tags);
     object.is_area = true;
-    std::move(area.polygons.begin(), area.polygons.end(), std::back_inserter(object.polygons));
+    std::move(area.polygons.begin(), area.polygons.end(), std::back_inserter(object.area.polygons));
   }
   for (const osm::Line& line : extract.lines) {
     if (!is_closed(line)) continue;
-    of(line.id, line.tags).polygons.push_back({{line.points.begin(), line.points.end() - 1}, {}});
+    of(line.id, line.tags).area.polygons.push_back({{line.points.begin(), line.points.end() - 1}, {}});
   }
   return objects;
 }
 
 ObjectOutlines outlines_of(const MapObject& object, const geo::LocalFrame& frame) {
   ObjectOutlines found;
-  std::vector<Footprint> rough;
-  for (const osm::Polygon& polygon : object.polygons) {
-    Footprint footprint{projected(polygon.outer, frame), {}};
-    for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(projected(hole, frame));
-    rough.push_back(std::move(footprint));
-  }
-  found.is_area = !rough.empty();
+  found.is_area = !object.area.polygons.empty();
   Repairs repairs;
-  found.outlines = clean(rough, repairs);
+  found.outlines = footprints_of(object.area, frame, repairs);
+  if (repairs.enclosed) found.outlines.clear();  // nobody knows where it ends: no target
   found.name = object.name;
   return found;
 }

@@ -34,6 +34,79 @@ bool is_carried(const osm::Tags& tags) {
   return stands("highway") || stands("railway") || tags.get("bridge") == "aqueduct";
 }
 
+/// Whether a tag says how high an object is.
+bool says_its_height(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 4> keys = {"height", "est_height", "building:height", "height:hub"};
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+    const std::string_view value = tags.get(key);
+    if (value.empty()) return false;
+    const auto plain = parse_length_m(value);
+    return (plain ? plain : roughly_length_m(value, 1)).value_or(0) > 0;
+  });
+}
+
+/// Not in the open, or not there.
+bool stands_nowhere(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 3> below = {"underground", "indoor", "underwater"};
+  static constexpr std::array<std::string_view, 6> gone = {"demolished", "razed",   "removed",
+                                                           "proposed",   "planned", "destroyed"};
+  if (says_yes(tags.get("indoor")) || says_yes(tags.get("tunnel")) || is_one_of(tags.get("location"), below)) return true;
+  const auto sinks = [&](std::string_view key) { return parse_levels(tags.get(key)).value_or(0) < 0; };
+  if (sinks("layer") || sinks("level")) return true;
+  return std::any_of(tags.all.begin(), tags.all.end(), [&](const auto& tag) {
+    const std::string_view prefix = std::string_view(tag.first).substr(0, tag.first.find(':'));
+    const bool is_state = is_one_of(prefix, gone) && says_yes(tag.second);
+    return is_state || is_one_of(std::string_view(tag.second), gone);
+  });
+}
+
+/// Street furniture, ways, and forms of the ground, whatever height they have.
+bool is_no_blocker(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 12> keys = {"highway",  "place",   "waterway", "entrance",
+                                                            "door",     "kerb",    "boundary", "emergency",
+                                                            "playground", "traffic_sign", "traffic_calming", "crossing"};
+  static constexpr std::array<std::string_view, 20> amenities = {
+      "bench",        "waste_basket",   "waste_disposal", "recycling",     "post_box",         "telephone",
+      "clock",        "parking_meter",  "vending_machine", "drinking_water", "bicycle_parking", "charging_station",
+      "atm",          "bbq",            "lounger",        "table",         "letter_box",       "parcel_locker",
+      "watering_place", "grit_bin"};
+  static constexpr std::array<std::string_view, 8> made = {"flagpole", "surveillance", "street_cabinet", "manhole",
+                                                           "survey_point", "water_tap", "planter", "cutline"};
+  static constexpr std::array<std::string_view, 16> grounds = {
+      "peak",  "hill",     "volcano",   "cliff",       "valley", "ridge", "arete", "saddle",
+      "water", "coastline", "cave_entrance", "sinkhole", "spring", "gorge", "bay",   "earth_bank"};
+  static constexpr std::array<std::string_view, 8> barriers = {"bollard", "kerb", "gate",  "lift_gate",
+                                                               "chain",   "block", "handrail", "cycle_barrier"};
+  static constexpr std::array<std::string_view, 4> signs = {"board", "sign", "flag", "poster_box"};
+  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return says_yes(tags.get(key)); }) ||
+         is_one_of(tags.get("amenity"), amenities) || is_one_of(tags.get("man_made"), made) ||
+         is_one_of(tags.get("natural"), grounds) || is_one_of(tags.get("barrier"), barriers) ||
+         is_one_of(tags.get("advertising"), signs) || tags.get("tourism") == "information" ||
+         tags.get("leisure") == "picnic_table";
+}
+
+bool is_stand_in(const osm::Tags& tags) {
+  return says_its_height(tags) && !stands_nowhere(tags) && !is_no_blocker(tags);
+}
+
+struct StandInKind {
+  std::string_view key, value;  ///< an empty value stands for any
+  std::string_view name;        ///< of the switch
+};
+
+constexpr std::array kStandInKinds = {
+    StandInKind{"natural", "wood", "woods"},           StandInKind{"natural", "scrub", "woods"},
+    StandInKind{"natural", "tree_group", "woods"},     StandInKind{"landuse", "forest", "woods"},
+    StandInKind{"landuse", "orchard", "woods"},        StandInKind{"leisure", "stadium", "stadiums"},
+    StandInKind{"leisure", "sports_hall", "stadiums"}, StandInKind{"leisure", "sports_centre", "stadiums"},
+    StandInKind{"generator:source", "wind", "turbines"}, StandInKind{"man_made", "windmill", "turbines"},
+    StandInKind{"man_made", "wind_turbine", "turbines"}, StandInKind{"man_made", "crane", "cranes"},
+    StandInKind{"man_made", "tank", "tanks"},          StandInKind{"man_made", "bunker_silo", "tanks"},
+    StandInKind{"man_made", "antenna", "masts"},       StandInKind{"man_made", "utility_pole", "masts"},
+    StandInKind{"power", "", "masts"},                 StandInKind{"aerialway", "", "masts"},
+    StandInKind{"historic", "", "monuments"},          StandInKind{"man_made", "obelisk", "monuments"},
+    StandInKind{"tourism", "artwork", "monuments"},    StandInKind{"memorial", "", "monuments"}};
+
 }  // namespace
 
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
@@ -52,11 +125,46 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   if ((line || (area && tags.get("area") == "yes")) && is_wall(tags)) return ObjectKind::wall;
   const std::string_view natural = tags.get("natural");
   if (natural == (line ? "tree_row" : "tree") && !area) return ObjectKind::tree;
+  return is_stand_in(tags) ? std::optional(ObjectKind::stand_in) : std::nullopt;
+}
+
+std::optional<double> overhead_height_m(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 10> cables = {"cable_car", "gondola", "chair_lift", "mixed_lift",
+                                                              "drag_lift", "t-bar",   "j-bar",      "platter",
+                                                              "zip_line",  "goods"};
+  if (stands_nowhere(tags)) return std::nullopt;
+  if (tags.get("power") == "line") return 60;
+  if (tags.get("power") == "minor_line") return 20;
+  if (is_one_of(tags.get("aerialway"), cables)) return 40;
+  const std::string_view location = tags.get("location");
+  if (tags.get("man_made") == "pipeline" && (location == "overhead" || location == "overground")) return 10;
   return std::nullopt;
 }
 
+const OccluderSwitch& stand_in_switch(const osm::Tags& tags) {
+  const auto fits = [&](const StandInKind& kind) {
+    const std::string_view value = tags.get(kind.key);
+    return kind.value.empty() ? says_yes(value) : value == kind.value;
+  };
+  const auto kind = std::find_if(kStandInKinds.begin(), kStandInKinds.end(), fits);
+  const std::string_view name = kind == kStandInKinds.end() ? "others" : kind->name;
+  const auto all = occluder_switches();
+  return *std::find_if(all.begin(), all.end(), [&](const OccluderSwitch& one) { return name == one.name; });
+}
+
+double column_radius_m(const osm::Tags& tags, double height_m) {
+  constexpr double kRotorShare = 0.4;  // of a turbine's height, where no tag says its rotor
+  const std::string_view name = stand_in_switch(tags).name;
+  if (name == "turbines") return std::max(3.0, kRotorShare * height_m);
+  if (name == "masts") return tags.get("power") == "tower" ? 4 : 1;
+  if (name == "stadiums" || name == "woods") return 20;
+  if (name == "tanks" || says_yes(tags.get("building")) || says_yes(tags.get("building:part"))) return 10;
+  return 3;
+}
+
 bool wanted(const osm::Tags& tags) {
-  return kind_of(tags, Geometry::area) || kind_of(tags, Geometry::line) || kind_of(tags, Geometry::point);
+  return kind_of(tags, Geometry::area) || kind_of(tags, Geometry::line) || kind_of(tags, Geometry::point) ||
+         overhead_height_m(tags);
 }
 
 }  // namespace vantage::internal::city

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/format.h"
 #include "maps/city/tree.h"
 
 namespace vantage::internal::city {
@@ -20,17 +21,35 @@ constexpr double kLeastTower = 0.2;  // metres: a thinner one would be dropped a
 constexpr int kTowerSides = 16;
 constexpr double kMetreGirth = 20;  // circumference=* beyond that is in centimetres
 
-/// The first of the keys that holds a length up to `most`; what holds none is remarked on.
+/// The first of the keys that holds a length up to `most`, be it but roughly; what holds none is remarked on.
 std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list<std::string_view> keys, double most,
                                     std::vector<TagRemark>& remarks) {
   for (const std::string_view key : keys) {
     const std::string_view value = tags.get(key);
     if (value.empty()) continue;
-    const std::optional<double> length = parse_length_m(value);
-    if (length && *length > 0 && *length <= most) return std::max(*length, kLeastSize);
-    const TagFault fault = !length ? TagFault::no_value : *length <= 0 ? TagFault::negative : TagFault::too_large;
-    remarks.push_back({fault, std::string(key), std::string(value), "taken as untagged"});
+    const std::optional<double> plain = parse_length_m(value);
+    const std::optional<double> length = plain ? plain : roughly_length_m(value, BuildingDefaults{}.level_m);
+    const bool usable = length && *length > 0 && *length <= most;
+    if (plain && usable) return std::max(*length, kLeastSize);
+    const TagFault fault = usable          ? TagFault::rough
+                           : !length       ? TagFault::no_value
+                           : *length <= 0  ? TagFault::negative
+                                           : TagFault::too_large;
+    remarks.push_back({fault, std::string(key), std::string(value),
+                       usable ? core::format("taken as {:.6g} m", *length) : "taken as untagged"});
+    remarks.back().unsure = key.ends_with("height");
+    if (usable) return std::max(*length, kLeastSize);
   }
+  return std::nullopt;
+}
+
+/// `min_height`, of several the lowest, so that nothing hides less than it may.
+std::optional<double> tagged_bottom(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
+  const std::string_view value = tags.get("min_height");
+  if (value.empty() || value == "0") return std::nullopt;
+  const std::optional<double> bottom = parse_lowest_length_m(value);
+  if (bottom && *bottom > 0 && *bottom <= kMostHeight) return bottom;
+  remarks.push_back({TagFault::no_value, "min_height", std::string(value), "taken as untagged"});
   return std::nullopt;
 }
 
@@ -91,8 +110,7 @@ OccluderDefaults::Size wall_size(const osm::Tags& tags, const OccluderDefaults& 
 BuildingForm upright(const osm::Tags& tags, double height_m, std::vector<TagRemark>& remarks) {
   BuildingForm form;
   form.top_m = height_m;
-  if (!tags.has("min_height") || tags.get("min_height") == "0") return form;
-  const std::optional<double> bottom = tagged_length(tags, {"min_height"}, kMostHeight, remarks);
+  const std::optional<double> bottom = tagged_bottom(tags, remarks);
   if (bottom && *bottom < height_m) {
     form.bottom_m = *bottom;
   } else if (bottom) {
@@ -129,6 +147,17 @@ BuildingForm tower_form(const osm::Tags& tags, const OccluderDefaults& defaults,
   return read_form(tags, nullptr, building, remarks);
 }
 
+/// A regular prism's outline, its corners on the circle.
+std::vector<Footprint> column(const Vec2& middle, double diameter_m) {
+  Ring ring;
+  for (int k = 0; k < kTowerSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kTowerSides;
+    ring.push_back(middle + diameter_m / 2 * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  Repairs repairs;
+  return clean({{ring, {}}}, repairs);
+}
+
 // ---- bridges ----
 
 BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
@@ -143,7 +172,7 @@ BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, 
   }
   const bool valid = layers && *layers != 0 && std::abs(*layers) <= kMostLayers;
   form.bottom_m = defaults.layer_m * (valid ? std::max(*layers, 0.0) : 1);
-  if (const auto clear = tagged_length(tags, {"min_height"}, kMostHeight, remarks)) form.bottom_m = *clear;
+  if (const auto clear = tagged_bottom(tags, remarks)) form.bottom_m = *clear;
   form.top_m = form.bottom_m + defaults.deck_m;
   return form;
 }
@@ -182,6 +211,25 @@ Tree tree_of(const osm::Tags& tags, const OccluderDefaults& defaults, std::vecto
   return tree;
 }
 
+// ---- stand-ins ----
+
+constexpr double kThinLine = 1;  // metres: width of a line that says none
+
+BuildingForm stand_in_form(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
+  double height = tagged_length(tags, {"height", "est_height", "building:height"}, kMostHeight, remarks).value_or(0);
+  // A hub says how high the axis is; the rotor goes on above it.
+  const auto hub = tagged_length(tags, {"height:hub"}, kMostHeight, remarks);
+  const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostWidth, remarks);
+  if (hub) height = std::max(height, *hub + rotor.value_or(0) / 2);
+  return upright(tags, std::max(height, kLeastSize), remarks);
+}
+
+/// The diameter of a point's column: as the tags say it, or else by its kind and its height.
+double column_width(const osm::Tags& tags, double height_m, std::vector<TagRemark>& remarks) {
+  const auto said = tagged_length(tags, {"rotor:diameter", "diameter", "width"}, kMostWidth, remarks);
+  return said ? *said : std::min(kMostWidth, 2 * column_radius_m(tags, height_m));
+}
+
 std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& points, const OccluderDefaults& defaults,
                                std::vector<TagRemark>& remarks) {
   Tree tree = tree_of(tags, defaults, remarks);
@@ -210,6 +258,11 @@ std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>
       const bool closed = points.size() > 3 && points.front() == points.back();
       shapes = extruded(widen(points, closed, deck_width(tags, defaults, remarks)), deck_form(tags, defaults, remarks));
     }
+    if (kind == ObjectKind::stand_in) {
+      const double width = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks).value_or(kThinLine);
+      const bool closed = points.size() > 3 && points.front() == points.back();
+      shapes = extruded(widen(points, closed, width), stand_in_form(tags, remarks));
+    }
   }
   if (shapes.empty() && kind)
     remarks.push_back({TagFault::too_small, "", "", std::string(name_of(*kind)).append(" along a line")});
@@ -217,24 +270,24 @@ std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>
 }
 
 std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
-                                   std::vector<TagRemark>& remarks) {
+                                   const BuildingDefaults& buildings, std::vector<TagRemark>& remarks) {
   const std::optional<ObjectKind> kind = kind_of(tags, Geometry::point);
   if (kind == ObjectKind::tree) {
     Tree tree = tree_of(tags, defaults, remarks);
     tree.foot = point;
     return {{{}, {}, tree}};
   }
-  if (kind != ObjectKind::tower) return {};
-  const double diameter =
-      tagged_length(tags, {"diameter", "width"}, kMostWidth, remarks).value_or(tower_size(tags, defaults).width_m);
-  const double built = std::max(diameter, kLeastTower);
-  Ring ring;  // its corners on the circle
-  for (int k = 0; k < kTowerSides; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kTowerSides;
-    ring.push_back(point + built / 2 * Vec2(std::cos(angle), std::sin(angle)));
+  if (kind == ObjectKind::tower) {
+    const double diameter =
+        tagged_length(tags, {"diameter", "width"}, kMostWidth, remarks).value_or(tower_size(tags, defaults).width_m);
+    return extruded(column(point, std::max(diameter, kLeastTower)), tower_form(tags, defaults, remarks));
   }
-  Repairs repairs;
-  return extruded(clean({{ring, {}}}, repairs), tower_form(tags, defaults, remarks));
+  if (!kind) return {};
+  const bool is_stand_in = kind == ObjectKind::stand_in;
+  const BuildingForm form = is_stand_in ? stand_in_form(tags, remarks) : read_form(tags, nullptr, buildings, remarks);
+  // What stands in is round what it stands in for: its sides on the circle.
+  const double width = column_width(tags, form.top_m, remarks) / std::cos(std::numbers::pi / kTowerSides);
+  return extruded(column(point, std::max(width, kLeastTower)), form);
 }
 
 std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
@@ -242,6 +295,7 @@ std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footp
   const std::optional<ObjectKind> kind = kind_of(tags, Geometry::area);
   if (kind == ObjectKind::tower) return extruded(area, tower_form(tags, defaults, remarks));
   if (kind == ObjectKind::bridge) return extruded(area, deck_form(tags, defaults, remarks));
+  if (kind == ObjectKind::stand_in) return extruded(area, stand_in_form(tags, remarks));
   if (kind == ObjectKind::wall)
     return extruded(area, upright(tags, wall_size(tags, defaults, remarks).height_m, remarks));
   return {};

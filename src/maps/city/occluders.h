@@ -10,17 +10,29 @@
 #include "maps/city/building_solid.h"
 #include "maps/city/footprint.h"
 #include "maps/osm/extract.h"
+#include "vantage/city.h"
 #include "vantage/scene.h"
 
 namespace vantage::internal::city {
 
 enum class Geometry { point, line, area };
 
-/// What the tags make of an object, from building to tree, or nothing for what hides nothing. A building
+/// What the tags make of an object, from building to stand-in, or nothing for what hides nothing. A stand-in is what
+/// says how high it is, stands in the open, and is neither of the other kinds nor furniture of a street. A building
 /// that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how it is
 /// drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the barrier
 /// itself is drawn).
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
+
+/// How high above the ground the supports of a line overhead are whose tags and nodes say no height, metres; nothing for
+/// what is no such line.
+std::optional<double> overhead_height_m(const osm::Tags& tags);
+
+/// Which member of Occluders switches the stand-in of such tags off: "woods", "others".
+const OccluderSwitch& stand_in_switch(const osm::Tags& tags);
+
+/// Half the width of the column that stands in for a point whose tags say no width, metres: docs/scene.md.
+double column_radius_m(const osm::Tags& tags, double height_m);
 
 /// Whether the tags make any of these of some geometry: for osm::ReadOptions.
 bool wanted(const osm::Tags& tags);
@@ -42,18 +54,18 @@ struct Shape {
   std::optional<Tree> tree;
 };
 
-/// The shapes of a line: walls, tree rows, bridges. `points`: in scene metres, of a closed line the first repeated at
+/// The shapes of a line: walls, tree rows, bridges, stand-ins. `points`: in scene metres, of a closed line the first repeated at
 /// the end. `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in one.
 /// Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height. Empty, with a remark, for
 /// what has no length.
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 
-/// The shapes of a point: towers (regular 16-gons) and trees.
+/// The shapes of a point: towers (regular 16-gons), trees, and columns that stand in for buildings and other things.
 std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
-                                   std::vector<TagRemark>& remarks);
+                                   const BuildingDefaults& buildings, std::vector<TagRemark>& remarks);
 
-/// The shapes of an area, cleaned: towers, bridges, and walls drawn as areas.
+/// The shapes of an area, cleaned: towers, bridges, walls drawn as areas, stand-ins.
 std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 

@@ -1,7 +1,8 @@
 #include "maps/city/outline_repair.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,9 +13,81 @@
 namespace vantage::internal::city {
 namespace {
 
-/// The area of the space that a ring goes round an odd number of times, by summing up slabs between the heights at
-/// which something happens. Cost: O(n^2 + n k) for k crossings. Nothing where that takes seconds.
-std::optional<double> even_odd_area(const GridRing& ring) {
+constexpr std::size_t kMostCrossings = 1000;
+
+/// The sides that pass through each other, by where they begin, counted over all rings; one more than kMostCrossings at
+/// most.
+std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>& rings, bool closed) {
+  struct Side {
+    Vec2 from, to;
+    double left = 0, right = 0;
+    std::size_t begin = 0;
+  };
+  std::vector<Side> sides;
+  std::size_t corners = 0;
+  for (const GridRing& ring : rings) {
+    const auto at = [&](std::size_t i) {
+      return Vec2(static_cast<double>(ring[i % ring.size()].x), static_cast<double>(ring[i % ring.size()].y));
+    };
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
+      const Vec2 a = at(i), b = at(i + 1);
+      sides.push_back({a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x()), corners + i});
+    }
+    corners += ring.size();
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.left < b.left; });
+  const auto parts = [](const Side& side, const Vec2& a, const Vec2& b) {
+    const Vec2 along = side.to - side.from, p = a - side.from, q = b - side.from;
+    return (along.x() * p.y() - along.y() * p.x()) * (along.x() * q.y() - along.y() * q.x()) < 0;
+  };
+  std::vector<std::array<std::size_t, 2>> found;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side& a = sides[i];
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right; ++j) {
+      const Side& b = sides[j];
+      if (!parts(a, b.from, b.to) || !parts(b, a.from, a.to)) continue;
+      found.push_back({a.begin, b.begin});
+      if (found.size() > kMostCrossings) return found;
+    }
+  }
+  return found;
+}
+
+/// Convex; A. M. Andrew's monotone chain (1979). Fewer than 3 corners where all lie on one line.
+GridRing hull_of(GridRing points) {
+  std::sort(points.begin(), points.end());
+  GridRing hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t first = hull.size();
+    for (const GridPoint& p : points) {
+      while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+/// Round each crossing of a ring the hull of the two sides and of those next to them: if two corners that follow each
+/// other were swapped, what the ring should hold lies in there.
+std::vector<GridPolygon> crossing_hulls(const GridRing& ring) {
+  std::vector<GridPolygon> hulls;
+  const std::size_t count = ring.size();
+  for (const auto& crossing : crossings_of({ring}, true)) {
+    GridRing corners;
+    for (const std::size_t begin : crossing) {
+      for (std::size_t k = 0; k < 4; ++k) corners.push_back(ring[(begin + count - 1 + k) % count]);
+    }
+    GridRing hull = hull_of(std::move(corners));
+    if (hull.size() > 2) hulls.push_back({std::move(hull), {}});
+  }
+  return hulls;
+}
+
+/// The area of the space that a ring goes round, by summing up slabs between the heights at which something happens.
+/// Cost: O(n^2 + n k) for k crossings. Nothing where that takes seconds.
+std::optional<double> wound_area(const GridRing& ring) {
   std::vector<Vec2> points;
   for (const GridPoint& p : ring) points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
   const std::size_t count = points.size();
@@ -38,17 +111,20 @@ std::optional<double> even_odd_area(const GridRing& ring) {
   if (heights.size() * count > kMostSteps) return std::nullopt;
   std::sort(heights.begin(), heights.end());
   double sum = 0;
-  std::vector<double> crossed;
+  std::vector<std::pair<double, int>> crossed;  // x, and whether the ring goes up or down there
   for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
     if (heights[k + 1] <= heights[k]) continue;
     const double middle = (heights[k] + heights[k + 1]) / 2;
     crossed.clear();
     for (std::size_t i = 0; i < count; ++i) {
-      if ((points[i].y() > middle) != (points[(i + 1) % count].y() > middle)) crossed.push_back(x_at(i, middle));
+      const bool from_above = points[i].y() > middle, to_above = points[(i + 1) % count].y() > middle;
+      if (from_above != to_above) crossed.emplace_back(x_at(i, middle), to_above ? 1 : -1);
     }
     std::sort(crossed.begin(), crossed.end());
-    for (std::size_t i = 0; i + 1 < crossed.size(); i += 2) {
-      sum += (crossed[i + 1] - crossed[i]) * (heights[k + 1] - heights[k]);
+    int winding = 0;
+    for (std::size_t i = 0; i + 1 < crossed.size(); ++i) {
+      winding += crossed[i].second;
+      if (winding != 0) sum += (crossed[i + 1].first - crossed[i].first) * (heights[k + 1] - heights[k]);
     }
   }
   return sum;
@@ -65,10 +141,10 @@ GridRing shown(const GridRing& ring, int way) {
 }
 int way_back(int way) { return way == 5 ? 6 : way == 6 ? 5 : way; }
 
-/// What Clipper makes of a ring by the even-odd rule. Where many sides meet in a point it loses space now and then, and
+/// What Clipper makes of a ring by the non-zero rule. Where many sides meet in a point it loses space now and then, and
 /// rarely the same when it sweeps another way: the way with the right area is taken, or else the best.
-std::vector<GridPolygon> even_odd(const GridRing& ring) {
-  const std::optional<double> area = even_odd_area(ring);
+std::vector<GridPolygon> wound(const GridRing& ring) {
+  const std::optional<double> area = wound_area(ring);
   const double allowed = 2 * perimeter(ring);
   std::vector<GridPolygon> best;
   double least = std::numeric_limits<double>::infinity();
@@ -76,7 +152,7 @@ std::vector<GridPolygon> even_odd(const GridRing& ring) {
     const GridRing turned_ring = shown(ring, way);
     Clipping clipping;
     clipping.add(turned_ring);
-    std::vector<GridPolygon> result = settled(clipping.run(ClipOperation::unite, FillRule::even_odd));
+    std::vector<GridPolygon> result = settled(clipping.run(ClipOperation::unite, FillRule::non_zero));
     const double off = area ? std::abs(area_of(result) - *area) : 0;
     if (off >= least) continue;
     least = off;
@@ -91,75 +167,78 @@ std::vector<GridPolygon> even_odd(const GridRing& ring) {
   return best;
 }
 
-/// One ring as the space that it goes round an odd number of times.
+/// One ring as the space that it goes round, with that near its crossings which it may have been meant to go round.
 std::vector<GridPolygon> untangled(const GridRing& ring, Repairs& repairs) {
   const Meeting meeting = meeting_of({ring});
   if (!meeting.crossing && !meeting.touching) return {GridPolygon{ring, {}}};
-  std::vector<GridPolygon> result = even_odd(ring);
+  std::vector<GridPolygon> result = wound(ring);
   // A ring that touches itself is not a figure of eight: it goes round all of its space in one sense.
   const double whole = std::abs(signed_area(ring));
   repairs.self_crossing |= meeting.crossing || std::abs(area_of(result) - whole) > perimeter(ring);
-  return result;
+  const std::vector<GridPolygon> hulls = crossing_hulls(ring);
+  if (hulls.empty()) return result;
+  Clipping clipping;
+  clipping.add(result);
+  clipping.add(hulls);
+  return settled(clipping.run(ClipOperation::unite, FillRule::non_zero));
+}
+
+/// Whether two rings share no space, and no more of their borders than points.
+bool are_apart(const GridRing& a, const GridRing& b) {
+  if (meeting_of({a, b}).crossing) return false;
+  const auto holds = [](const GridRing& ring, const GridRing& other) {
+    const auto off = std::find_if(other.begin(), other.end(),
+                                  [&](const GridPoint& p) { return locate(p, ring) != PointLocation::boundary; });
+    return off == other.end() || locate(*off, ring) == PointLocation::inside;
+  };
+  return !holds(a, b) && !holds(b, a);
+}
+
+/// The holes that are what they claim to be: simple, inside of the outer ring, and apart from each other. The others
+/// may be slips of the pen, and what they would open may hide.
+std::vector<GridPolygon> sound_holes(const GridPolygon& rough) {
+  const std::size_t count = rough.holes.size();
+  std::vector<Eigen::AlignedBox<std::int64_t, 2>> boxes(count);
+  std::vector<bool> sound(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const GridPoint& p : rough.holes[i]) boxes[i].extend(Eigen::Matrix<std::int64_t, 2, 1>(p.x, p.y));
+    const GridPolygon alone{rough.outer, {rough.holes[i]}};
+    sound[i] = !meeting_of({rough.holes[i]}).crossing && !meeting_of(rings_of({alone})).crossing && is_nested(alone);
+  }
+  std::vector<bool> apart = sound;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count && apart[i]; ++j) {
+      if (j != i && sound[j] && boxes[i].intersects(boxes[j])) apart[i] = are_apart(rough.holes[i], rough.holes[j]);
+    }
+  }
+  std::vector<GridPolygon> holes;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (apart[i]) holes.push_back({turned(rough.holes[i], true), {}});
+  }
+  return holes;
 }
 
 }  // namespace
 
 bool is_tangled(const std::vector<GridRing>& rings, bool closed) {
-  constexpr std::size_t kMostCrossings = 1000;
-  struct Side {
-    Vec2 from, to;
-    double left = 0, right = 0;
-  };
-  std::vector<Side> sides;
-  for (const GridRing& ring : rings) {
-    const auto at = [&](std::size_t i) {
-      return Vec2(static_cast<double>(ring[i % ring.size()].x), static_cast<double>(ring[i % ring.size()].y));
-    };
-    for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
-      const Vec2 a = at(i), b = at(i + 1);
-      sides.push_back({a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x())});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.left < b.left; });
-  const auto parts = [](const Side& side, const Vec2& a, const Vec2& b) {
-    const Vec2 along = side.to - side.from, p = a - side.from, q = b - side.from;
-    return (along.x() * p.y() - along.y() * p.x()) * (along.x() * q.y() - along.y() * q.x()) < 0;
-  };
-  std::size_t crossings = 0;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Side& a = sides[i];
-    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right; ++j) {
-      const Side& b = sides[j];
-      crossings += parts(a, b.from, b.to) && parts(b, a.from, a.to);
-      if (crossings > kMostCrossings) return true;
-    }
-  }
-  return false;
+  return crossings_of(rings, closed).size() > kMostCrossings;
 }
 
 std::vector<GridPolygon> repaired(const GridPolygon& rough, Repairs& repairs) {
   const Meeting meeting = meeting_of(rings_of({rough}));
   if (!meeting.crossing && !meeting.touching && is_nested(rough)) return {rough};
-  if (is_tangled(rings_of({rough}))) {
+  if (is_tangled({rough.outer})) {
     repairs.tangled = true;
     return {};
   }
   std::vector<GridPolygon> result = untangled(rough.outer, repairs);
-  if (rough.holes.empty()) return result;
+  const std::vector<GridPolygon> holes = sound_holes(rough);
+  repairs.nesting |= holes.size() < rough.holes.size();
+  if (holes.empty()) return result;
   Clipping clipping;
   clipping.add(result);
-  double length = perimeter(rough.outer), area = area_of(result);
-  std::vector<GridPolygon> holes;
-  for (const GridRing& ring : rough.holes) {
-    for (GridPolygon& polygon : untangled(turned(ring, true), repairs)) holes.push_back(std::move(polygon));
-    length += perimeter(ring);
-  }
   clipping.add_clip(holes);
-  area -= area_of(holes);
-  result = settled(clipping.run(ClipOperation::subtract, FillRule::non_zero));
-  // Where holes lie inside and apart, each takes its own area off the outer ring's.
-  repairs.nesting |= std::abs(area - area_of(result)) > length;
-  return result;
+  return settled(clipping.run(ClipOperation::subtract, FillRule::non_zero));
 }
 
 }  // namespace vantage::internal::city

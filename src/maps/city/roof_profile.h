@@ -33,6 +33,10 @@ struct RoofFrame {
   Vec2 local(const Vec2& point) const { return {(point - centre).dot(along), (point - centre).dot(across)}; }
 };
 
+/// The smallest rectangle round some points, none of its sides shorter than `least_m`; counter-clockwise. `points`: at
+/// least one, finite. Cost: O(n log n), and for many corners of the hull their square.
+Ring enclosing_rectangle(const Ring& points, double least_m);
+
 /// A direction within 30 degrees of a side of the rectangle of least area, when the outline fills 80 % of that, means
 /// that side: people write N where a street runs to the north-north-east. Without one, the ridge runs along the longer
 /// side (the shorter, with `roof_across`), and the main face falls to the side that looks most nearly south.

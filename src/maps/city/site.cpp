@@ -9,14 +9,14 @@
 
 #include "core/format.h"
 #include "maps/city/structures.h"
+#include "maps/osm/meaning.h"
 
 namespace vantage::internal::city {
 namespace {
 
-/// Parts that cover this share of their building stand for all of it.
+
+/// Parts that cover this share of their building are all of it where they begin above the ground, too.
 constexpr double kCovered = 0.9;
-/// Across an outline, metres. No building is larger; an outline that is comes of a slip of the hand.
-constexpr double kLargest = 3000;
 
 CityRecord record_of(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind) {
   CityRecord record;
@@ -30,26 +30,68 @@ void skip(Site& site, CityRecord record, std::string reason) {
   site.skipped.push_back(std::move(record));
 }
 
+/// The words of the map for what an object is: "power=tower".
+std::string what_of(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 17> keys = {
+      "building", "building:part", "man_made", "power",      "aerialway", "historic",    "tourism", "leisure", "natural",
+      "landuse",  "barrier",       "amenity",  "attraction", "bridge",    "advertising", "height",  "type"};
+  for (const std::string_view key : keys) {
+    if (tags.has(key)) return std::string(key).append("=").append(tags.get(key));
+  }
+  return tags.all.empty() ? "untagged" : tags.all.front().first + "=" + tags.all.front().second;
+}
+
+LedgerEntry entry_of(const CityRecord& record, const osm::Tags& tags) {
+  LedgerEntry entry;
+  entry.object = record.object;
+  entry.what = what_of(tags);
+  entry.height_m = parse_length_m(tags.get("height"));
+  if (record.object.kind == ObjectKind::stand_in) entry.without = stand_in_switch(tags).name;
+  return entry;
+}
+
+/// Of what is lost the place is known as far as positions of it are.
+void lose(Site& site, const CityRecord& record, const osm::Tags& tags, const std::string& reason,
+          const PlanBounds& place = {}) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  LedgerEntry entry = entry_of(record, tags);
+  entry.reason = reason;
+  if (place.min.x() <= place.max.x()) {
+    entry.box = Box{{place.min.x(), place.min.y(), -kUnknown}, {place.max.x(), place.max.y(), kUnknown}};
+  }
+  site.lost.push_back(std::move(entry));
+}
+
 constexpr const char* kUnderground = "underground";
 
 bool is_underground(const osm::Tags& tags) { return tags.get("location") == "underground"; }
 
-/// Fates of outlines that were mended or cannot be built.
-std::string fault_of(const Structure& structure) {
-  if (structure.footprints.empty() && structure.repairs.tangled) {
-    return "outline that crosses itself more than a thousand times";
-  }
-  if (structure.footprints.empty()) return "outline without an area";
-  if ((structure.max - structure.min).maxCoeff() > kLargest) return "outline more than 3 km across";
+/// Why a structure is not built; nothing where it is.
+std::string hindrance(const Structure& structure) {
   if (is_underground(structure.source->tags)) return kUnderground;
-  return {};
+  return structure.footprints.empty() ? "beyond all bounds" : "";
 }
 
-std::string repair_of(const Repairs& repairs) {
-  if (repairs.tangled) return "one of its outlines crosses itself more than a thousand times: built without it";
-  if (repairs.self_crossing) return "outline that crosses itself: what is wound round an odd number of times is built";
-  if (repairs.nesting) return "holes that overlap or lie outside: built without what lies outside";
-  return {};
+void add_faults(std::vector<Fault>& faults, const Repairs& repairs) {
+  if (repairs.tangled) {
+    faults.push_back({"its outline crosses itself more than a thousand times", "the smallest rectangle round it"});
+  } else if (repairs.enclosed) {
+    faults.push_back({"", "the smallest rectangle round what is known of its outline", true});
+  } else if (repairs.self_crossing) {
+    faults.push_back({"its outline crosses itself", "all that it is wound round, and the hull of each crossing's corners"});
+  }
+  if (repairs.nesting) {
+    faults.push_back({"holes cross its outline or each other, or lie outside of it", "its outline without these holes"});
+  }
+  if (repairs.beyond) faults.push_back({"some of it lies beyond all bounds", "the rest of it", true});
+}
+
+void add_faults(std::vector<Fault>& faults, const std::vector<TagRemark>& remarks) {
+  for (const TagRemark& remark : remarks) {
+    if (!remark.unsure) continue;
+    const bool is_guessed = remark.fault != TagFault::rough;  // nothing tells it: the default
+    faults.push_back({remark.key + "=" + remark.value, remark.key + " " + remark.outcome, is_guessed});
+  }
 }
 
 void note_remarks(CityRecord& record, const std::vector<TagRemark>& remarks) {
@@ -107,7 +149,7 @@ class BuildingSorter {
 
   void sort(const osm::RegionFilter& region) {
     for (const Structure& structure : structures_) {
-      if (fault_of(structure).empty()) {
+      if (hindrance(structure).empty()) {
         site_.reach_m = std::max(site_.reach_m, (structure.max - structure.min).norm());
       }
     }
@@ -115,11 +157,14 @@ class BuildingSorter {
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       const Structure& structure = structures_[i];
       if (!belongs[i]) continue;
-      CityRecord record = record_of(structure.source->id, structure.source->tags,
-                                    structure.is_part ? ObjectKind::building_part : ObjectKind::building);
-      const std::string fault = fault_of(structure);
+      const ObjectKind kind = structure.repairs.enclosed ? ObjectKind::stand_in
+                              : structure.is_part        ? ObjectKind::building_part
+                                                         : ObjectKind::building;
+      CityRecord record = record_of(structure.source->id, structure.source->tags, kind);
+      const std::string fault = hindrance(structure);
       const std::vector<std::size_t> parts = parts_of(structure);
       if (!fault.empty()) {
+        if (fault != kUnderground) lose(site_, record, structure.source->tags, fault);
         skip(site_, std::move(record), fault);
       } else if (!parts.empty()) {
         add_remainder(structure, parts, std::move(record));
@@ -152,21 +197,21 @@ class BuildingSorter {
   std::vector<std::size_t> parts_of(const Structure& building) const {
     std::vector<std::size_t> parts;
     std::copy_if(building.parts.begin(), building.parts.end(), std::back_inserter(parts),
-                 [&](std::size_t part) { return fault_of(structures_[part]).empty(); });
+                 [&](std::size_t part) { return hindrance(structures_[part]).empty(); });
     return parts;
   }
 
   void add_remainder(const Structure& building, const std::vector<std::size_t>& parts, CityRecord record) {
-    const double share = 1 - area_m2(uncovered(building, structures_, parts)) / building.area_m2;
-    if (share >= kCovered) {
-      skip(site_, std::move(record), "its parts are built in its place");
-      return;
+    std::vector<Footprint> rest = uncovered(building, structures_, parts);
+    const double share = 1 - area_m2(rest) / building.area_m2;
+    if (share < kCovered) {
+      // Parts that begin higher up, such as lift houses drawn on a roof, stand on what is built here.
+      std::vector<std::size_t> grounded;
+      std::copy_if(parts.begin(), parts.end(), std::back_inserter(grounded),
+                   [&](std::size_t part) { return form_of(structures_[part]).bottom_m <= 0; });
+      rest = uncovered(building, structures_, grounded);
     }
-    // Parts that begin higher up, such as lift houses drawn on a roof, stand on what is built here.
-    std::vector<std::size_t> grounded;
-    std::copy_if(parts.begin(), parts.end(), std::back_inserter(grounded),
-                 [&](std::size_t part) { return form_of(structures_[part]).bottom_m <= 0; });
-    std::vector<Footprint> rest = uncovered(building, structures_, grounded);
+    if (rest.empty()) return skip(site_, std::move(record), "its parts are built in its place");
     record.remarks.push_back(
         {core::format("its parts cover {:.0f} % of it", 100 * share), "its parts cover some of it"});
     record.fate = Fate::repaired;
@@ -181,16 +226,14 @@ class BuildingSorter {
   }
 
   void add(const Structure& structure, CityRecord record, std::vector<Footprint> footprints) {
-    const std::string repair = repair_of(structure.repairs);
-    if (!repair.empty()) {
-      record.fate = Fate::repaired;
-      record.reason = repair;
-    }
     const Structure* const outline = structure.outline ? &structures_[*structure.outline] : nullptr;
     std::vector<TagRemark> remarks;
     Item item;
     const BuildingForm form = form_of(structure, &remarks);
     note_remarks(record, remarks);
+    item.entry = entry_of(record, structure.source->tags);
+    add_faults(item.faults, structure.repairs);
+    add_faults(item.faults, remarks);
     item.record = std::move(record);
     if (outline) item.record.building = osm::text(outline->source->id);
     for (Footprint& footprint : footprints) item.shapes.push_back({std::move(footprint), form, {}});
@@ -207,7 +250,8 @@ class BuildingSorter {
   const BuildingDefaults& defaults_;
 };
 
-bool is_switched_on(std::optional<ObjectKind> kind, const Occluders& occluders) {
+bool is_switched_on(std::optional<ObjectKind> kind, const osm::Tags& tags, const Occluders& occluders) {
+  if (kind == ObjectKind::stand_in) return occluders.*stand_in_switch(tags).on;
   if (kind == ObjectKind::wall) return occluders.walls;
   if (kind == ObjectKind::tower) return occluders.towers;
   if (kind == ObjectKind::bridge) return occluders.bridges;
@@ -215,7 +259,15 @@ bool is_switched_on(std::optional<ObjectKind> kind, const Occluders& occluders) 
   return kind.has_value();
 }
 
-/// Walls, towers, bridges and trees.
+/// Of things without a model of their own, and of buildings that are drawn as a point.
+Fault stand_in_fault(osm::ObjectId id, const osm::Tags& tags) {
+  const bool is_point = id.type == osm::ObjectType::node;
+  const bool is_building = is_point && kind_of(tags, Geometry::point) != ObjectKind::stand_in;
+  return {is_building ? "it is drawn as a point, without an outline" : "it is of a kind that has no model",
+          is_point ? "a column round it" : "its outline", is_point};
+}
+
+/// Walls, towers, bridges, trees and stand-ins.
 class OccluderSorter {
  public:
   OccluderSorter(Site& site, const osm::RegionFilter& region, const geo::LocalFrame& frame, const CityOptions& options)
@@ -229,34 +281,33 @@ class OccluderSorter {
   void sort(const osm::Extract& extract) {
     for (const osm::Area& area : extract.areas) {
       const std::optional<ObjectKind> kind = kind_of(area.tags, Geometry::area);
-      if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(area)) continue;
-      Repairs repairs;
-      const std::vector<Footprint> footprints = clean(project(area, frame_), repairs);
-      PlanBounds drawn;
-      for (const Footprint& footprint : footprints) drawn.extend(footprint);
-      add(area.id, area.tags, *kind, drawn,
-          [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
+      if (is_building(kind) || !is_switched_on(kind, area.tags, options_.occluders) || !belongs(area)) continue;
+      add(area, *kind);
     }
     for (const osm::Line& line : extract.lines) {
       const std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);
-      if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(line.points)) continue;
+      if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders) || !belongs(line.points)) continue;
+      // A wood whose outline is not closed is none the less an area.
+      if (kind == ObjectKind::stand_in && osm::means_area(line.tags)) {
+        add(osm::Area{line.id, line.tags, {{line.points, {}, true}}}, *kind);
+        continue;
+      }
       std::vector<Vec2> points;
       for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
       PlanBounds drawn;
       for (const Vec2& at : points) drawn.extend(at);
-      add(line.id, line.tags, *kind, drawn,
+      add(line.id, line.tags, *kind, drawn, {},
           [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, remarks); });
     }
+    if (options_.occluders.lines) add_overhead(extract);
     for (const osm::Point& point : extract.points) {
-      const std::optional<ObjectKind> kind = kind_of(point.tags, Geometry::point);
-      if (!is_switched_on(kind, options_.occluders) || !belongs(std::vector{point.position})) continue;
-      if (is_building(kind)) {
-        skip(site_, record_of(point.id, point.tags, *kind), "drawn as a point: it has no outline");
-        continue;
-      }
+      std::optional<ObjectKind> kind = kind_of(point.tags, Geometry::point);
+      if (is_building(kind)) kind = ObjectKind::stand_in;
+      if (!is_switched_on(kind, point.tags, options_.occluders) || !belongs(std::vector{point.position})) continue;
       const Vec2 place = frame_.to_local(point.position);
-      add(point.id, point.tags, *kind, {place, place},
-          [&](auto& remarks) { return shapes_of_point(point.tags, place, defaults_, remarks); });
+      add(point.id, point.tags, *kind, {place, place}, {}, [&](auto& remarks) {
+        return shapes_of_point(point.tags, place, defaults_, options_.defaults, remarks);
+      });
     }
   }
 
@@ -274,8 +325,37 @@ class OccluderSorter {
     return kind == ObjectKind::building || kind == ObjectKind::building_part;
   }
 
+  void add_overhead(const osm::Extract& extract) {
+    std::map<std::pair<double, double>, double> supports;
+    for (const osm::Point& point : extract.points) {
+      const auto height = parse_length_m(point.tags.get("height"));
+      if (height) supports[{point.position.longitude_deg, point.position.latitude_deg}] = *height;
+    }
+    for (const osm::Line& line : extract.lines) {
+      const std::optional<double> usual = overhead_height_m(line.tags);
+      if (!usual || !touches(region_, line.points)) continue;
+      Overhead& overhead = site_.overhead.emplace_back();
+      overhead.height_m = parse_length_m(line.tags.get("height")).value_or(0);
+      for (const geo::LonLat& at : line.points) {
+        overhead.points.push_back(frame_.to_local(at));
+        const auto support = supports.find({at.longitude_deg, at.latitude_deg});
+        if (support != supports.end()) overhead.height_m = std::max(overhead.height_m, support->second);
+      }
+      if (overhead.height_m <= 0) overhead.height_m = *usual;
+    }
+  }
+
+  void add(const osm::Area& area, ObjectKind kind) {
+    Repairs repairs;
+    const std::vector<Footprint> footprints = footprints_of(area, frame_, repairs);
+    PlanBounds drawn;
+    for (const Footprint& footprint : footprints) drawn.extend(footprint);
+    add(area.id, area.tags, repairs.enclosed ? ObjectKind::stand_in : kind, drawn, repairs,
+        [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
+  }
+
   template <typename MakeShapes>
-  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const PlanBounds& drawn,
+  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const PlanBounds& drawn, const Repairs& repairs,
            const MakeShapes& make_shapes) {
     Item item;
     item.record = record_of(id, tags, kind);
@@ -283,7 +363,14 @@ class OccluderSorter {
     std::vector<TagRemark> remarks;
     item.shapes = make_shapes(remarks);
     note_remarks(item.record, remarks);
-    if (item.shapes.empty()) return skip(site_, std::move(item.record), "without a length or an area");
+    if (item.shapes.empty()) {
+      lose(site_, item.record, tags, "without a length or an area", drawn);
+      return skip(site_, std::move(item.record), "without a length or an area");
+    }
+    item.entry = entry_of(item.record, tags);
+    add_faults(item.faults, repairs);
+    add_faults(item.faults, remarks);
+    if (kind == ObjectKind::stand_in && !repairs.enclosed) item.faults.push_back(stand_in_fault(id, tags));
     const PlanBounds built = bounds_of(item.shapes);
     site_.reach_m = std::max({site_.reach_m, (drawn.min - built.min).norm(), (built.max - drawn.max).norm()});
     if (kind == ObjectKind::wall || kind == ObjectKind::tree) item.stand = Item::Stand::each;
@@ -307,12 +394,17 @@ std::optional<ObjectKind> kind_of_lost(const osm::Problem& problem) {
 }
 
 /// Objects that were wanted and of which nothing could be read.
-void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& options) {
+void skip_lost(Site& site, const osm::Extract& extract, const geo::LocalFrame& frame, const CityOptions& options) {
   for (const osm::Problem& problem : extract.problems) {
     if (!problem.lost) continue;
     const std::optional<ObjectKind> kind = kind_of_lost(problem);
-    if (!is_switched_on(kind, options.occluders)) continue;
-    skip(site, record_of(problem.object, problem.tags, *kind), problem.what);
+    if (!is_switched_on(kind, problem.tags, options.occluders)) continue;
+    PlanBounds place;
+    for (const geo::LonLat& position : problem.places) place.extend(frame.to_local(position));
+    CityRecord record = record_of(problem.object, problem.tags, *kind);
+    // What a relation stands for is not lost.
+    if (problem.kind != osm::Problem::Kind::repeated_outline) lose(site, record, problem.tags, problem.what, place);
+    skip(site, std::move(record), problem.what);
   }
 }
 
@@ -330,6 +422,7 @@ void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilte
       return std::any_of(relation.outlines.begin(), relation.outlines.end(), is_in) ||
              std::any_of(relation.parts.begin(), relation.parts.end(), is_in);
     };
+    if (built.contains(osm::text(relation.id))) continue;
     const bool is_built = has_member_in(built), is_read = is_built || has_member_in(skipped);
     if (!is_read && !region.everything()) continue;
     skip(site, record_of(relation.id, relation.tags, *kind),
@@ -352,37 +445,51 @@ void set_bounds(Site& site) {
   site.max = bounds.max;
 }
 
-/// How an object was built that could not be read as it is drawn; an empty text where nothing was made up.
-std::string reading_repair(osm::Problem::Kind kind) {
+/// What is made of an object that could not be read as it is drawn; nothing where nothing is made up.
+std::optional<Fault> reading_fault(const osm::Problem& problem) {
   using Kind = osm::Problem::Kind;
-  switch (kind) {
+  switch (problem.kind) {
     case Kind::missing_nodes:
-      return "some of its nodes are not in the file: built from the others";
     case Kind::missing_members:
-      return "some of its members are not in the file: built from the others";
+      return Fault{problem.what, "what the file has of it", true};
     case Kind::open_outline:
-      return "outline that is not closed: a straight side closes it";
+      return Fault{problem.what, "its outline, closed by a straight side"};
     case Kind::broken_multipolygon:
-      return "rings that do not fit together: taken as drawn";
+      return Fault{problem.what, "its rings as they are drawn"};
     case Kind::degenerate:
+      return Fault{problem.what, ""};
     case Kind::repeated_outline:
       break;
   }
-  return {};
+  return std::nullopt;
 }
 
-void note_reading_repairs(Site& site, const osm::Extract& extract) {
+void note_reading_faults(Site& site, const osm::Extract& extract) {
   std::map<std::string, const osm::Problem*> problems;
   for (const osm::Problem& problem : extract.problems) {
-    if (!problem.lost && !reading_repair(problem.kind).empty()) problems[osm::text(problem.object)] = &problem;
+    if (!problem.lost) problems[osm::text(problem.object)] = &problem;
   }
   for (Item& item : site.items) {
     const auto found = problems.find(item.record.object.source_id);
-    if (found == problems.end()) continue;
+    const auto fault = found == problems.end() ? std::nullopt : reading_fault(*found->second);
+    if (fault) item.faults.insert(item.faults.begin(), *fault);
+    if (item.faults.empty()) continue;
     item.record.fate = Fate::repaired;
-    if (item.record.reason.empty()) item.record.reason = reading_repair(found->second->kind);
-    item.record.remarks.push_back({found->second->what, reading_repair(found->second->kind)});
+    item.record.reason = item.faults.front().instead;
   }
+}
+
+/// With `MissingPolicy::warn` nothing holds the place of what could only be made up.
+void drop_stand_ins(Site& site) {
+  for (const Item& item : site.items) {
+    if (item.record.object.kind != ObjectKind::stand_in) continue;
+    site.lost.push_back(item.entry);
+    const PlanBounds place = bounds_of(item.shapes);
+    const double unknown = std::numeric_limits<double>::infinity();
+    site.lost.back().reason = item.faults.front().reason;
+    site.lost.back().box = Box{{place.min.x(), place.min.y(), -unknown}, {place.max.x(), place.max.y(), unknown}};
+  }
+  std::erase_if(site.items, [](const Item& item) { return item.record.object.kind == ObjectKind::stand_in; });
 }
 
 }  // namespace
@@ -420,10 +527,11 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   assign_parts(structures, extract.building_relations);
   BuildingSorter(site, std::move(structures), options.defaults).sort(region);
   OccluderSorter(site, region, frame, options).sort(extract);
-  skip_lost(site, extract, options);
+  skip_lost(site, extract, frame, options);
   skip_groups(site, extract, region);
+  note_reading_faults(site, extract);
+  if (options.missing == MissingPolicy::warn) drop_stand_ins(site);
   set_bounds(site);
-  note_reading_repairs(site, extract);
   return site;
 }
 

@@ -28,6 +28,13 @@ struct PlanBounds {
 /// Holds all solids that are made of some shapes.
 PlanBounds bounds_of(const std::vector<Shape>& shapes);
 
+/// Why an object is not built as the map has it, for the ledger.
+struct Fault {
+  std::string reason;   ///< "its ring is open at 7.41, 1.11"
+  std::string instead;  ///< "its outline without holes"; may be empty
+  bool may_be_larger = false;
+};
+
 /// One object of the scene.
 struct Item {
   CityRecord record;          ///< heights and fate are filled when it is built
@@ -38,11 +45,21 @@ struct Item {
     above      ///< on the highest ground under `standing`: bridges
   } stand = Stand::together;
   std::vector<Footprint> standing;  ///< of a part its building's outline; empty: the shapes' footprints
+  std::vector<Fault> faults;        ///< with any it is in the ledger
+  LedgerEntry entry;                ///< what of it the map says; the rest is filled when it is built
+};
+
+/// A line overhead, for clearance alone.
+struct Overhead {
+  std::vector<Vec2> points;
+  double height_m = 0;  ///< of its supports above the ground
 };
 
 struct Site {
+  std::vector<Overhead> overhead;
   std::vector<Item> items;
   std::vector<CityRecord> skipped;  ///< read, wanted and not built, with the reason
+  std::vector<LedgerEntry> lost;    ///< what stands there as the map says, and nothing stands in for
   Outside outside;
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds of the footprints
 

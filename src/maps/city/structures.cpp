@@ -6,12 +6,22 @@
 #include <unordered_map>
 
 #include "maps/city/occluders.h"
+#include "maps/city/roof_profile.h"
 
 namespace vantage::internal::city {
 namespace {
 
 /// Side of the squares by which outlines are looked up, metres: about a block's.
 constexpr double kCell = 64;
+/// Of what encloses an outline that is not known or has no area, metres: a thinner one would be dropped as a sliver.
+constexpr double kLeastSide = 0.25;
+/// Where it is but one position: as wide as the column that stands in for a building that is drawn as a point.
+constexpr double kPointSide = 20;
+
+Ring enclosing(const Ring& positions) {
+  const bool is_point = std::all_of(positions.begin(), positions.end(), [&](const Vec2& p) { return p == positions[0]; });
+  return enclosing_rectangle(positions, is_point ? kPointSide : kLeastSide);
+}
 
 void set_bounds(Structure& structure) {
   structure.min = Vec2::Constant(std::numeric_limits<double>::infinity());
@@ -99,14 +109,28 @@ void assign_by_relations(std::vector<Structure>& structures, const std::vector<o
 
 }  // namespace
 
-std::vector<Footprint> project(const osm::Area& area, const geo::LocalFrame& frame) {
+std::vector<Footprint> footprints_of(const osm::Area& area, const geo::LocalFrame& frame, Repairs& repairs) {
   std::vector<Footprint> projected;
+  Ring all;
   for (const osm::Polygon& polygon : area.polygons) {
     Footprint footprint{project(polygon.outer, frame), {}};
-    for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(project(hole, frame));
+    if (!std::all_of(footprint.outer.begin(), footprint.outer.end(), [](const Vec2& p) { return p.allFinite(); })) {
+      repairs.beyond = true;
+      continue;
+    }
+    all.insert(all.end(), footprint.outer.begin(), footprint.outer.end());
+    if (polygon.incomplete) {
+      repairs.enclosed = true;
+      footprint.outer = enclosing(footprint.outer);
+    } else {
+      for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(project(hole, frame));
+    }
     projected.push_back(std::move(footprint));
   }
-  return projected;
+  std::vector<Footprint> footprints = clean(projected, repairs);
+  if ((!footprints.empty() && !repairs.tangled) || all.empty()) return footprints;
+  repairs.enclosed = true;
+  return clean({{enclosing(all), {}}}, repairs);
 }
 
 std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const geo::LocalFrame& frame) {
@@ -117,7 +141,7 @@ std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const 
     Structure structure;
     structure.source = &area;
     structure.is_part = kind == ObjectKind::building_part;
-    structure.footprints = clean(project(area, frame), structure.repairs);
+    structure.footprints = footprints_of(area, frame, structure.repairs);
     structure.area_m2 = area_m2(structure.footprints);
     set_bounds(structure);
     structures.push_back(std::move(structure));

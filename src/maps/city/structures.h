@@ -28,8 +28,9 @@ struct Structure {
 /// Those of the areas that are buildings or parts, in the frame's metres.
 std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const geo::LocalFrame& frame);
 
-/// The rings of an area, projected. Not cleaned.
-std::vector<Footprint> project(const osm::Area& area, const geo::LocalFrame& frame);
+/// What an area covers: its rings, cleaned, and the smallest rectangle round those that are incomplete, have no area or
+/// are tangled (Repairs::enclosed). Empty only where it is beyond all bounds.
+std::vector<Footprint> footprints_of(const osm::Area& area, const geo::LocalFrame& frame, Repairs& repairs);
 
 /// Fills `outline` and `parts`. A part replaces every building that holds at least half of it, and the one that a
 /// type=building relation names for it: outlines lie on one another where a block, a station or a mall is drawn as well

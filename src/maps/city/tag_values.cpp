@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "maps/city/building_form.h"
@@ -115,9 +116,10 @@ std::optional<double> one_length_m(std::string_view text) {
   return *number * *unit;
 }
 
-/// The largest of the values between semicolons, all of which must be values; empty ones are passed over.
-template <typename Parse>
-std::optional<double> largest(std::string_view list, const Parse& parse) {
+/// The largest of the values between semicolons, all of which must be values; empty ones are passed over. Or that which
+/// is `better` than the others.
+template <typename Parse, typename Better = std::greater<>>
+std::optional<double> largest(std::string_view list, const Parse& parse, const Better& better = {}) {
   std::optional<double> result;
   while (true) {
     const std::size_t end = list.find(';');
@@ -125,18 +127,74 @@ std::optional<double> largest(std::string_view list, const Parse& parse) {
     if (!item.empty()) {
       const std::optional<double> value = parse(item);
       if (!value) return std::nullopt;
-      result = result ? std::max(*result, *value) : *value;
+      if (!result || better(*value, *result)) result = *value;
     }
     if (end == std::string_view::npos) return result;
     list.remove_prefix(end + 1);
   }
 }
 
+/// In lower case, with plain marks and digits. Full-width digits are U+FF10 to U+FF19.
+std::string plain_text(std::string_view text) {
+  std::string result = plain_marks(lower(text));
+  for (char digit = '0'; digit <= '9'; ++digit) {
+    const std::string wide = {'\xEF', '\xBC', static_cast<char>('\x90' + (digit - '0'))};
+    for (std::size_t at = 0; (at = result.find(wide, at)) != std::string::npos; ++at) result.replace(at, 3, 1, digit);
+  }
+  return result;
+}
+
+/// Calls `visit` with each number in a text, exponents too, and with what follows it up to the next blank or digit.
+template <typename Visit>
+void for_numbers(std::string text, const Visit& visit) {
+  std::replace(text.begin(), text.end(), ',', '.');
+  const char *at = text.data(), *const end = at + text.size();
+  while (at != end) {
+    double value = 0;
+    const auto [next, error] = is_digit(*at) ? std::from_chars(at, end, value) : std::from_chars_result{at, {}};
+    if (next == at || error != std::errc()) {
+      ++at;
+      continue;
+    }
+    const char* const unit = std::find_if_not(next, end, is_space);
+    at = std::find_if(unit, end, [](char c) { return is_space(c) || is_digit(c) || c == '-' || c == '('; });
+    visit(value, std::string_view(unit, static_cast<std::size_t>(at - unit)));
+  }
+}
+
+bool counts_levels(std::string_view unit) {
+  static constexpr std::array<std::string_view, 7> words = {"stor", "level", "floor", "stock", "etage", "piso", "fl"};
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return unit.starts_with(word); });
+}
+
 }  // namespace
 
 std::optional<double> parse_length_m(std::string_view text) { return largest(text, one_length_m); }
 
+std::optional<double> parse_lowest_length_m(std::string_view text) { return largest(text, one_length_m, std::less<>()); }
+
 std::optional<double> parse_levels(std::string_view text) { return largest(text, plain_number); }
+
+std::optional<double> parse_lowest_levels(std::string_view text) { return largest(text, plain_number, std::less<>()); }
+
+std::optional<double> roughly_length_m(std::string_view text, double level_m) {
+  std::optional<double> most;
+  for_numbers(plain_text(text), [&](double number, std::string_view unit) {
+    const double metres = counts_levels(unit) ? number * level_m : number * unit_m(unit).value_or(1);
+    if (std::isfinite(metres)) most = std::max(most.value_or(0), metres);
+  });
+  return most;
+}
+
+std::optional<double> roughly_levels(std::string_view text) {
+  const std::string plain = plain_text(text);
+  std::optional<double> most;
+  for_numbers(plain, [&](double number, std::string_view) { most = std::max(most.value_or(0), number); });
+  if (!most) return most;
+  // "2\u00bd", and "G+5": a ground floor and five.
+  const bool more = plain.find("\u00bd") != std::string::npos || plain.find("g+") != std::string::npos;
+  return *most + (more ? 1 : 0);
+}
 
 std::optional<double> parse_direction_deg(std::string_view text) {
   static constexpr std::array<std::string_view, 16> winds = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
