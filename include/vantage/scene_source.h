@@ -37,6 +37,10 @@ struct SceneSource {
   TerrainOptions terrain_options = {};
 };
 
+/// What is done about what cannot be built as the source has it, whatever its kind.
+VANTAGE_API MissingPolicy missing_of(const SceneSource& source);
+VANTAGE_API void set_missing(SceneSource& source, MissingPolicy policy);
+
 /// The raster that is the ground of a map or a tileset; empty where there is none.
 VANTAGE_API const std::filesystem::path& terrain_of(const SceneSource& source);
 
@@ -73,7 +77,8 @@ struct LoadedScene {
 /// What is worth a sentence of the scene and its source.
 VANTAGE_API std::vector<std::string> notes_of(const LoadedScene& loaded);
 
-/// Throws as the function of its kind does.
+/// Throws as the function of its kind does; and Error(input), ErrorCode::scene_incomplete, for a ledger that is not empty
+/// where the source says MissingPolicy::refuse.
 VANTAGE_API LoadedScene load_scene(const SceneSource& source, const Progress& progress = {});
 
 }  // namespace vantage

@@ -125,6 +125,7 @@ void bind_scene(nb::module_& module) {
                return json_text(*s.loaded(), s.prepared(told).statistics());
              });
            })
+      .def("ledger", [](const PyScene& s) { return json_text(s.scene().ledger); })
       .def(
           "save", [](const PyScene& s, const std::filesystem::path& file) { return write_scene(s.scene(), file); },
           "file"_a, nb::call_guard<Released, Computing>());

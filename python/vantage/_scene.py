@@ -108,7 +108,7 @@ class Scene(Triangles):
     def from_osm(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
                  bbox: Vector | None = None, terrain: Path | None = None, error: float | None = None,
                  without: Sequence[str] | None = None, defaults: Mapping[str, float] | None = None,
-                 frame: Mapping[str, Any] | None = None, sea_level: float | None = None,
+                 frame: Mapping[str, Any] | None = None, sea_level: float | None = None, missing: str | None = None,
                  progress: Progress = None) -> Scene:
         """Builds the scene of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf).
 
@@ -118,10 +118,13 @@ class Scene(Triangles):
             bbox: (west, south, east, north) in degrees, instead of these. Default: all of the file.
             terrain: a raster of the ground's heights. Default: a plane at z = 0.
             error: how far the ground's triangles may be from that raster, metres.
-            without: what is left out, of "walls", "towers", "bridges", "trees".
+            without: what is left out: "walls", "towers", "bridges", "trees", and of stand-ins "woods", "stadiums", "masts",
+                "turbines", "cranes", "tanks", "monuments", "others".
             defaults: what is assumed where the map says nothing: {"level": 3.2}.
             frame: `Tiles.frame`, to build a part as what it is of the whole map: see `vt.tiles`.
             sea_level: z of the mean sea level.
+            missing: what holds the place of what cannot be built as the map has it (`ledger`): "block", a stand-in, which is
+                the default; "warn", nothing; "refuse", it is an error.
             progress: called with stage and fraction; False stops.
 
         Raises:
@@ -129,7 +132,7 @@ class Scene(Triangles):
         """
         return cls._load({"osm": path, "center": center, "radius": radius, "bbox": bbox, "terrain": terrain,
                           "error": error, "without": without, "defaults": defaults, "frame": frame,
-                          "sea_level": sea_level}, progress)
+                          "sea_level": sea_level, "missing": missing}, progress)
 
     @classmethod
     def from_raster(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
@@ -403,6 +406,15 @@ class Scene(Triangles):
         if not len(self.vertices):
             return np.zeros((2, 3))
         return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+    @property
+    def ledger(self) -> list[dict[str, Any]]:
+        """What the file says stands there and that is not built as it stands, each with what stands in for it.
+
+        The keys are those of `vantage inspect --json`: object, name, kind, what, reason, box, outlines, height_m, stand_in (the
+        index in `objects` of the blocker that holds its place, or None), instead, may_be_larger, without.
+        """
+        return json.loads(self._core.ledger())
 
     @property
     def attribution(self) -> str:

@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "app/ledger.h"
 #include "app/named_objects.h"
 #include "app/scene_lookups.h"
 #include "app/target_section.h"
@@ -233,6 +234,16 @@ Warning faces_together(const std::vector<Face>& faces, const Target& target, Fac
           "makes a volume for each"};
 }
 
+/// What only holds the place of something has no faces to look at: nobody knows where those are.
+void refuse_stand_ins(const Mission& mission, const Objects& objects) {
+  for (const LedgerEntry& entry : mission.scene().ledger) {
+    if (!entry.stand_in || std::find(objects.begin(), objects.end(), *entry.stand_in) == objects.end()) continue;
+    if (mission.scene().objects[*entry.stand_in].kind != ObjectKind::stand_in) continue;
+    throw Error(ErrorCode::face_missing, "only a stand-in is built: " + ledger_text(entry),
+                mission.as_written.places.target, "give the target's vertices, or mend the map");
+  }
+}
+
 }  // namespace
 
 FaceTargets face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
@@ -240,6 +251,7 @@ FaceTargets face_targets(const Mission& mission, const FaceTarget& wanted, const
   const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *globe)
                           : !wanted.osm.empty() ? of_map(mission, wanted.osm)
                                                 : named(mission, wanted.object);
+  refuse_stand_ins(mission, objects);
   std::string name = name_of_objects(mission, wanted, objects);
   const auto& finder =
       looked_up<FaceFinder>(*mission.loaded, [&] { return std::make_shared<const FaceFinder>(mission.scene()); });

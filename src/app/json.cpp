@@ -55,6 +55,40 @@ void add_city(Json& json, const CityReport& report) {
   for (const CityRecord& record : report.records) json["records"].push_back(record_json(record));
 }
 
+Json number_json(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
+
+/// Corners that are not known are null.
+Json open_box_json(const Box& box) {
+  Json json;
+  for (const auto& [key, corner] : {std::pair{"min", box.min}, {"max", box.max}}) {
+    json[key] = {number_json(corner.x()), number_json(corner.y()), number_json(corner.z())};
+  }
+  return json;
+}
+
+Json entry_json(const LedgerEntry& entry) {
+  Json json;
+  json["object"] = entry.object.source_id.empty() ? Json(nullptr) : Json(entry.object.source_id);
+  json["name"] = entry.object.name.empty() ? Json(nullptr) : Json(entry.object.name);
+  json["kind"] = name_of(entry.object.kind);
+  json["what"] = entry.what;
+  json["reason"] = entry.reason;
+  json["box"] = entry.box ? open_box_json(*entry.box) : Json(nullptr);
+  json["outlines"] = entry.outlines;
+  json["height_m"] = entry.height_m ? Json(*entry.height_m) : Json(nullptr);
+  json["stand_in"] = entry.stand_in ? Json(*entry.stand_in) : Json(nullptr);  // index of the scene's object
+  json["instead"] = entry.instead;
+  json["may_be_larger"] = entry.may_be_larger;
+  json["without"] = entry.without.empty() ? Json(nullptr) : Json(entry.without);
+  return json;
+}
+
+Json ledger_json(const std::vector<LedgerEntry>& ledger) {
+  Json json = Json::array();
+  for (const LedgerEntry& entry : ledger) json.push_back(entry_json(entry));
+  return json;
+}
+
 void add_raster(Json& json, const RasterReport& report) {
   json["raster"] = {{"columns", report.columns},     {"rows", report.rows},
                     {"voids", report.voids},         {"lowest_m", report.lowest_m},
@@ -218,6 +252,8 @@ std::string json_text(const std::vector<std::string>& texts) {
   return internal::core::escaped_json(Json(texts).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+std::string json_text(const std::vector<LedgerEntry>& ledger) { return dumped(ledger_json(ledger), 2); }
+
 std::string json_text(const LoadedScene& loaded) {
   Json json;
   json["source"] = loaded.scene.source.string();
@@ -228,6 +264,7 @@ std::string json_text(const LoadedScene& loaded) {
   const Box box = bounding_box(loaded.scene.mesh);
   json["bounds"] = json_of(box);
   json["notes"] = notes_of(loaded);
+  json["ledger"] = ledger_json(loaded.scene.ledger);
   add_source(json, loaded);
   return dumped(json, 1);
 }
@@ -251,6 +288,7 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
   if (scene.georeference) json["georeference"] = internal::io::georeference_json(*scene.georeference);
   add_credit(json, scene);
   json["notes"] = notes_of(loaded);
+  json["ledger"] = ledger_json(loaded.scene.ledger);
   add_source(json, loaded);
   return dumped(json, 2);
 }

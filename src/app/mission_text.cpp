@@ -130,6 +130,7 @@ class Writer {
         section.add("error", source.terrain_options.max_error_m);
         break;
     }
+    if (missing_of(source) != MissingPolicy::block) section.add("missing", name_of(missing_of(source)));
     if (!mission_.scene.attribution.empty()) section.add("attribution", quoted(mission_.scene.attribution));
     if (mission_.sea_level_m) section.add("sea_level", *mission_.sea_level_m);
     return section.text();
@@ -147,12 +148,8 @@ class Writer {
     if (!city.terrain.empty()) section.add("terrain", path(city.terrain));
     section.add("error", city.terrain_error_m);
     std::string without;
-    const Occluders& occluders = city.occluders;
-    for (const auto& [is_on, name] : {std::pair{occluders.walls, "walls"},
-                                      {occluders.towers, "towers"},
-                                      {occluders.bridges, "bridges"},
-                                      {occluders.trees, "trees"}}) {
-      if (!is_on) without += (without.empty() ? "" : ", ") + std::string(name);
+    for (const OccluderSwitch& one : occluder_switches()) {
+      if (!(city.occluders.*one.on)) without += (without.empty() ? "" : ", ") + std::string(one.name);
     }
     if (!without.empty()) section.add("without", "[" + without + "]");
     const std::string defaults = changed_defaults(city);

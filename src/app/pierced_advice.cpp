@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/ledger.h"
 #include "app/named_objects.h"
 #include "app/scene_warnings.h"
 #include "common/input.h"
@@ -26,6 +27,13 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
                                             const std::string& target_object) {
   if (!loaded.city || object >= loaded.scene.objects.size()) return std::nullopt;
   const SceneObject& found = loaded.scene.objects[object];
+  const std::vector<LedgerEntry>& ledger = loaded.scene.ledger;
+  const auto entry = std::find_if(ledger.begin(), ledger.end(), [&](const auto& one) { return one.stand_in == object; });
+  if (entry != ledger.end() && found.kind == ObjectKind::stand_in) {
+    return "a stand-in is there: " + ledger_text(*entry) + "; leave it out with scene: {" +
+           (entry->without.empty() ? "missing: warn}, which leaves out all stand-ins"
+                                   : "without: [" + entry->without + "]}, or all stand-ins with missing: warn");
+  }
   const auto kind =
       std::find_if(kLeftOut.begin(), kLeftOut.end(), [&](const auto& entry) { return entry.first == found.kind; });
   if (kind == kLeftOut.end()) return std::nullopt;

@@ -31,6 +31,7 @@ class SceneParser {
     parse_ground();
     parse_city();
     parse_frame();
+    parse_missing();
     if (const YamlNode* credit = find(node_, "attribution")) {
       section_.source.attribution = reader_.text(*credit, "scene.attribution");
     }
@@ -160,6 +161,18 @@ class SceneParser {
       set_city_option(city, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
                       place_in(reader_.file(), entry.place));
     }
+  }
+
+  void parse_missing() {
+    const YamlNode* const node = find(node_, "missing");
+    if (!node) return;
+    const std::string word = reader_.text(*node, "scene.missing");
+    for (const MissingPolicy policy : {MissingPolicy::block, MissingPolicy::warn, MissingPolicy::refuse}) {
+      if (word == name_of(policy)) return set_missing(section_.source, policy);
+    }
+    reader_.fail(ErrorCode::unknown_choice, *node,
+                 "scene.missing must be block, warn or refuse, not " + in_quotes(word),
+                 "write block, so that stand-ins hold the place of what cannot be built");
   }
 
   void parse_frame() {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/ledger.h"
 #include "app/providers/maps.h"
 #include "app/scene_lookups.h"
 #include "app/scene_warnings.h"
@@ -67,6 +68,24 @@ SceneSource::Kind source_kind(const std::filesystem::path& file) {
   return name == "tileset.json" ? SceneSource::Kind::tileset : SceneSource::Kind::mesh;
 }
 
+MissingPolicy missing_of(const SceneSource& source) {
+  switch (source.kind) {
+    case SceneSource::Kind::map:
+      return source.city.missing;
+    case SceneSource::Kind::raster:
+      return source.raster.missing;
+    case SceneSource::Kind::tileset:
+      return source.tileset.missing;
+    case SceneSource::Kind::mesh:
+      break;
+  }
+  return source.mesh.missing;
+}
+
+void set_missing(SceneSource& source, MissingPolicy policy) {
+  source.mesh.missing = source.city.missing = source.raster.missing = source.tileset.missing = policy;
+}
+
 const std::filesystem::path& terrain_of(const SceneSource& source) {
   return source.kind == SceneSource::Kind::tileset ? source.terrain : source.city.terrain;
 }
@@ -89,6 +108,14 @@ std::vector<std::string> notes_of(const LoadedScene& loaded) {
 
 LoadedScene load_scene(const SceneSource& source, const Progress& progress) {
   LoadedScene loaded = loaded_scene(source, progress);
+  const std::vector<LedgerEntry>& ledger = loaded.scene.ledger;
+  if (missing_of(source) == MissingPolicy::refuse && !ledger.empty()) {
+    throw Error(ErrorCode::scene_incomplete,
+                std::to_string(ledger.size()) + " things cannot be built as the file has them; the first: " +
+                    internal::app::ledger_text(ledger.front()),
+                source.file.string(),
+                "mend the file ('vantage inspect' lists all), or let stand-ins hold their place with scene.missing: block");
+  }
   if (source.attribution.empty()) return loaded;
   loaded.scene.attribution = source.attribution;
   if (auto& place = loaded.scene.georeference) place->attribution = attribution_of(loaded.scene);  // for files

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/combine_targets.h"
+#include "app/ledger.h"
 #include "app/scene_warnings.h"
 #include "app/triangle_runs.h"
 #include "common/known_data.h"
@@ -149,6 +150,20 @@ Shortfall of(const Mission& mission, const std::vector<Vec2>& points) {
   return loaded.raster || has_ground ? of_surface(loaded, points) : Shortfall{};
 }
 
+/// Of the scene's ledger, within range of the targets: what hides too little, or stands in for what is not known.
+std::optional<Warning> incomplete(const Mission& mission, const Volume* volume) {
+  std::vector<Box> targets;
+  for (const std::vector<Target>& view : internal::app::views_of(mission)) {
+    for (const Target& target : view) {
+      for (const Vec3& corner : corners(target)) targets.push_back({corner, corner});
+    }
+  }
+  Box lines = volume != nullptr ? bounding_box(volume->mesh) : Box{};
+  for (const Box& corner : targets) lines.extend(corner);
+  return internal::app::incomplete_warning(mission.scene(), targets, range_limit_m(mission.sensor), {lines},
+                                           "the sight lines");
+}
+
 constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
 
 /// Little more than nothing where the range allows very much: a target that can hardly be seen whole.
@@ -181,12 +196,25 @@ std::optional<Warning> large_pixel(const Sensor& sensor) {
 
 std::vector<Warning> beyond_data_warnings(const Mission& mission, std::span<const Vec3> positions) {
   std::vector<Vec2> points;
-  for (const Vec3& position : positions) points.emplace_back(position.head<2>());
+  std::vector<Box> legs;
+  for (const Vec3& position : positions) {
+    points.emplace_back(position.head<2>());
+    legs.push_back({position, position});
+    if (legs.size() > 1) legs[legs.size() - 2].extend(position);
+  }
+  std::vector<Warning> warnings;
   const Shortfall shortfall = of(mission, points);
-  if (!(shortfall.metres > kTolerance)) return {};
-  return {{WarningCode::range_beyond_data,
-           "the flight, or what it must see, reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
-               ": what stands out there hides nothing, and nothing keeps clear of it; " + shortfall.fix}};
+  if (shortfall.metres > kTolerance) {
+    warnings.push_back({WarningCode::range_beyond_data,
+                        "the flight, or what it must see, reaches " + metres(shortfall.metres) + " beyond " +
+                            shortfall.known +
+                            ": what stands out there hides nothing, and nothing keeps clear of it; " + shortfall.fix});
+  }
+  const double range = range_limit_m(mission.sensor);
+  auto missing = internal::app::incomplete_warning(mission.scene(), legs, std::isfinite(range) ? range : 0, legs,
+                                                   "the flight");
+  if (missing) warnings.push_back(std::move(*missing));
+  return warnings;
 }
 
 std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume) {
@@ -207,6 +235,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                             "the volume may claim too much; the first: " +
                             tileset->first_hole});
   }
+  if (auto missing = incomplete(mission, volume)) warnings.push_back(std::move(*missing));
   Box box;
   for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);
   const double across = (box.max - box.min).norm();

@@ -77,6 +77,7 @@ std::string table_text(const LoadedScene& loaded, const SceneStatistics& found) 
   table.row("non-manifold edges", count(found.nonmanifold_edges), "fine: more than two triangles meet there");
   table.row("mis-oriented edges", count(found.misoriented_edges), "fine: both sides of a triangle are opaque");
   for (const std::string& note : notes_of(loaded)) table.heading("  " + note);
+  add_ledger(table, scene);
   table.heading("what the engine works on");
   table.row("convex polygons", count(found.polygons), "after merging coplanar neighbours");
   return table.text();

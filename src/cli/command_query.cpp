@@ -361,6 +361,9 @@ int run_query(const QueryArguments& options) {
   if (!options.target.empty()) mission = of_target(mission, options.target);
   check_fraction(options, mission);
   const Scene& scene = mission.scene();
+  for (const Warning& warning : mission_warnings(mission)) {
+    if (warning.code == WarningCode::scene_incomplete && !is_quiet) note(warning.text);
+  }
   if (table.is_lonlat() && table.height() == HeightColumn::z && !is_quiet) tell_of_heights(scene);
   if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
     note("the seen parts are in x, y, z of the scene frame: the scene does not say where on the earth it lies");

@@ -90,6 +90,9 @@ SceneSource source_of(const SceneOptions& options) {
     source.city.terrain_error_m = source.raster.max_error_m = source.terrain_options.max_error_m =
         positive_length_option("--error", options.error);
   }
+  for (const MissingPolicy policy : {MissingPolicy::block, MissingPolicy::warn, MissingPolicy::refuse}) {
+    if (options.missing == name_of(policy)) set_missing(source, policy);
+  }
   source.mesh.up = options.up == "y" ? UpAxis::y : UpAxis::z;
   source.mesh.scale = positive_length_option("--scale", options.scale);
   source.mesh.lod = options.lod;
@@ -161,9 +164,15 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--set", options.settings, "A value to use where the map has no tag, see docs/scene.md")
       ->allow_extra_args(false)
       ->option_text("NAME=VALUE");
-  command.add_option("--without", options.without, "Leave out walls, towers, bridges or trees")
+  command.add_option("--without", options.without, "Leave out a kind of object, such as walls, trees or woods (docs/scene.md)")
       ->allow_extra_args(false)
       ->option_text("KIND");
+  command
+      .add_option("--missing", options.missing,
+                  "What holds the place of what cannot be built as the file has it: block (default), a stand-in; warn, "
+                  "nothing; refuse, it is an error")
+      ->check(CLI::IsMember({"block", "warn", "refuse"}))
+      ->option_text("POLICY");
   command.add_option("--detail", options.detail, "Largest geometric error of a tile of 3D Tiles (default 1)")
       ->option_text("METRES");
   command.add_option("--ground", options.ground, "Height of a plane that is the ground of a tileset (default: none)")

@@ -15,7 +15,7 @@ struct SceneOptions {
   std::string input;
   std::string center, bbox, window, origin;
   std::string radius, terrain, error, detail, ground, sea_level;
-  std::string up = "z", scale = "1", lod, crs;
+  std::string up = "z", scale = "1", lod, crs, missing = "block";
   std::vector<std::string> settings, without;
 };
 

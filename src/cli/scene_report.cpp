@@ -73,6 +73,17 @@ void add_source(TextTable& table, const LoadedScene& loaded) {
   if (loaded.tileset) add_tileset(table, *loaded.tileset);
 }
 
+void add_ledger(TextTable& table, const Scene& scene) {
+  if (scene.ledger.empty()) return;
+  table.heading("what is not built as the file has it (" + count(scene.ledger.size()) + ")");
+  for (const LedgerEntry& entry : scene.ledger) {
+    table.heading("  " + display_name(entry.object) + (entry.what.empty() ? "" : " (" + entry.what + ")") + ": " +
+                  entry.reason);
+    table.heading("    " + (entry.stand_in ? "stands in: " + entry.instead : std::string("nothing stands in")) +
+                  (entry.may_be_larger ? "; it may be larger" : ""));
+  }
+}
+
 std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file,
                         const std::vector<WrittenScene>& written) {
   TextTable table;
@@ -93,6 +104,7 @@ std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& 
     if (!is_moved(one)) continue;
     table.row("by up to", fixed(one.rounding_m * 1e6, 3), "micrometres in " + one.file + ": the hash is another one");
   }
+  add_ledger(table, loaded.scene);
   const std::vector<std::string> notes = notes_of(loaded);
   if (!notes.empty()) table.heading("notes");
   for (const std::string& note : notes) table.heading("  " + note);

@@ -19,6 +19,9 @@ struct WrittenScene {
 std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file,
                         const std::vector<WrittenScene>& written);
 
+/// What the scene's file says stands there and is not built as it stands; nothing of an empty ledger.
+void add_ledger(TextTable& table, const Scene& scene);
+
 /// What maps and rasters have to tell beside the scene itself; nothing of meshes.
 void add_source(TextTable& table, const LoadedScene& loaded);
 

@@ -26,6 +26,8 @@ VANTAGE_API std::string json_text(const std::vector<std::string>& texts);
 
 /// A scene as it was read or built: of a map with a record for each object.
 VANTAGE_API std::string json_text(const LoadedScene& loaded);
+/// The entries as a list.
+VANTAGE_API std::string json_text(const std::vector<LedgerEntry>& ledger);
 
 /// The same with what preparing it found.
 VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);

@@ -90,9 +90,18 @@ inline constexpr std::array kSceneKeys = {
         Kind::number,
         Unit::metres},
     Own{{.path = "without",
-         .says = "for a map, what is left out: a list of `walls`, `towers`, `bridges`, `trees`",
+         .says = "for a map, what is left out: a list of `walls`, `towers`, `bridges`, `trees`, and of "
+                 "[stand-ins](scene.md#the-ledger) `woods`, `stadiums`, `masts`, `turbines`, `cranes`, `tanks`, "
+                 "`monuments`, `others`; and `lines` overhead, for clearance",
          .without = "nothing"},
         Kind::list},
+    Own{{.path = "missing",
+         .says = "what is done about what the file says stands there and that cannot be built as it stands: `block`, "
+                 "`warn` or `refuse`",
+         .more = "With `block` a [stand-in](scene.md#the-ledger) holds its place, where it has one. With `warn` nothing "
+                 "does: volumes may claim too much behind it. `refuse` makes it an error.",
+         .without = "`block`"},
+        Kind::word},
     Own{{.path = "defaults",
          .says = "for a map, the values that are assumed where it has none: `{level: 3.2, levels.house: 2}`",
          .without = "those of [the table](scene.md#defaults)"},
