@@ -81,10 +81,16 @@ bool is_http(std::string_view text) { return text.starts_with("http://") || text
 
 std::string without_query(std::string_view url) {
   std::string shown(url.substr(0, url.find_first_of("?#")));
-  if (!is_http(shown)) return shown;
-  const std::size_t host = shown.find("://") + 3;
-  const std::size_t at = shown.substr(0, shown.find('/', host)).rfind('@');
-  if (at != std::string::npos && at >= host) shown.erase(host, at + 1 - host);
+  const std::size_t scheme = shown.find("://");
+  if (scheme == std::string::npos) return shown;
+  // ";" begins parameters of the path; what is escaped means the same to some servers.
+  for (const std::string_view mark : {";", "%3f", "%3F", "%23", "%3b", "%3B"})
+    shown.resize(std::min(shown.size(), shown.find(mark)));
+  const std::size_t host = scheme + 3;
+  for (const std::string_view mark : {"%40", "@"}) {
+    const std::size_t at = shown.substr(0, shown.find('/', host)).rfind(mark);
+    if (at != std::string::npos && at >= host) shown.erase(host, at + mark.size() - host);
+  }
   return shown;
 }
 
@@ -106,16 +112,17 @@ std::string HttpSource::resolve(const std::string& base, const std::string& uri)
     to = split_url(from.origin.substr(0, from.origin.find(':') + 1) + uri);
   } else if (uri.empty() || uri.find("://") < uri.find_first_of("/?#") || uri.starts_with("data:")) {
     throw Error(ErrorCode::mesh_unsupported,
-                "the tileset refers to " + in_quotes(uri) + ", which is no file of its server", shown(base),
-                "give a tileset whose files are on one server");
+                "the tileset refers to " + in_quotes(without_query(uri)) + ", which is no file of its server",
+                shown(base), "give a tileset whose files are on one server");
   } else {
     const std::string folder = uri.starts_with("/") ? "" : from.path.substr(0, from.path.rfind('/') + 1);
     to = split_url(from.origin + folder + uri);
   }
   // Others may have made the tileset: it shall neither learn the key nor ask the machines of a network.
   if (to.origin != from.origin) {
-    throw Error(ErrorCode::mesh_unsupported, "the tileset refers to another server: " + in_quotes(to.origin),
-                shown(base), "give a tileset whose files are on one server");
+    throw Error(ErrorCode::mesh_unsupported,
+                "the tileset refers to another server: " + in_quotes(without_query(to.origin)), shown(base),
+                "give a tileset whose files are on one server");
   }
   for (const std::string_view name : {"key", "session"}) {
     const std::string known = parameter(from.query, name);
@@ -235,8 +242,15 @@ std::string HttpSource::body_of(HttpAnswer&& answer, const std::string& address,
   }
   if (answer.status != 200) fail(ErrorCode::file_unreadable, "the server answers " + status, "try again later");
   if (answer.body.empty()) fail(ErrorCode::file_empty, "the server sends an empty file", "export the tileset again");
-  if (!answer.body.starts_with("\x1f\x8b")) return std::move(answer.body);
-  return io::decompress_gzip(answer.body, shown(address), progress, core::ReadLimits::of_tiles());
+  // Compressed for the way, as a file, or both: together they may not grow beyond what a file of these bytes may.
+  core::ReadLimits limits = core::ReadLimits::of_tiles();
+  const std::uint64_t most = limits.most_decompressed(answer.body.size());
+  std::string body = std::move(answer.body);
+  for (int layer = 0; layer < 2 && body.starts_with("\x1f\x8b"); ++layer) {
+    body = io::decompress_gzip(body, shown(address), progress, limits);
+    limits.decompressed_bytes = most;
+  }
+  return body;
 }
 
 }  // namespace vantage::internal::tiles
