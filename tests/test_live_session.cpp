@@ -4,6 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/output.h"
@@ -23,6 +25,8 @@
 #include "vantage/georeference.h"
 #include "vantage/mission.h"
 #include "vantage/query.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
 
 namespace vantage::live {
 namespace {
@@ -514,16 +518,62 @@ TEST_F(LiveSession, AReportHoldsTheVolumeAndItsProof) {
   EXPECT_THROW(report_page(session_, empty, true, [](std::string_view, double) { return false; }), vantage::Error);
 }
 
-TEST_F(LiveSession, AReportHasNoKeysOfServers) {
-  const std::string keys = "# {tiles: https://a.example/t.json?key=SECRET, radius: 1} http://b.example/?SECRET\n";
-  write("keys.yaml", vantage::testing::read_bytes(folder_ / "mission.yaml") + keys);
+/// The mission that a report holds, of the city of these tests, whose mission says of its scene that it came from
+/// there.
+std::string mission_of_report(const std::string& scene_section, const Scene& city) {
+  MissionFile file = read_mission_text(scene_section + kSquare, "mission.yaml");
+  LoadedScene loaded{.scene = city};
+  loaded.scene.source = "https://a.example/ok/tileset.json";  // as reading it says
+  const auto shared = std::make_shared<const LoadedScene>(std::move(loaded));
+  const Mission mission = resolve_mission(file, shared);
+  const Volume volume = run_mission(mission).volume;
   Session session;
-  session.open_file(folder_ / "keys.yaml");
-  session.run();
-  EXPECT_NE(session.hello().find("SECRET"), std::string::npos);
+  session.show({.mission = &mission,
+                .volume = &volume,
+                .loaded = shared,
+                .prepared = PreparedScene(shared->scene),
+                .source = file.scene,
+                .name = "mission.yaml"});
   report_page(session, "<html><!--LIVE--></html>", false);
-  EXPECT_EQ(session.hello().find("SECRET"), std::string::npos);
-  EXPECT_NE(session.hello().find("https://a.example/t.json, radius"), std::string::npos);
+  const std::string hello = session.hello();
+  EXPECT_EQ(hello.find("SECRET"), std::string::npos) << scene_section;
+  return Json::parse(hello)["mission"];
+}
+
+TEST_F(LiveSession, AReportHasNoKeysOfServers) {
+  const Scene city = read_scene(folder_ / "city.obj");
+  for (const std::string address :
+       {R"("https:\/\/a.example/ok/tileset.json?key=SECRET")",
+        "\"https://a.example/ok/tileset.json?\\\n   key=SECRET\"",
+        R"("https://a.example/ok/tileset.json\x3Fkey=SECRET")",
+        R"("https://user:SECRET@a.example/ok/tileset.json?key=x")",
+        R"("https://user:SECRET%40@a.example/ok/tileset.json")",
+        R"("https://a.example/ok/tileset.json%3Ftoken=SECRET")",
+        R"(&tiles https://a.example/ok/tileset.json?a=1&key=SECRET)", R"('https://a.example/ok/tileset.json#SECRET')",
+        "!!str https://a.example/ok/tileset.json?key=SECRET # ?key=SECRET",
+        ">-\n    https://a.example/ok/tileset.json?key=SECRET",
+        "|-\n    https://a.example/ok/tileset.json?key=SECRET"}) {
+    const std::string text = mission_of_report("scene:\n  tiles: " + address + "\n", city);
+    EXPECT_NE(text.find("tiles: \"https://a.example/ok/tileset.json\"\n"), std::string::npos) << text;
+  }
+  mission_of_report("? scene\n: {? tiles\n  : 'https://a.example/ok/tileset.json?key=SECRET'}\n", city);
+}
+
+TEST_F(LiveSession, AReportHasTheMissionAsItWasRead) {
+  write("deep/mission.yaml", "# https://b.example/?key=SECRET\nscene: {mesh: ../city.obj}\n" + std::string(kSquare) +
+                                 "navigation: {altitude: [3, 40], clearance: 2}\n");
+  Session session;
+  session.open_file(folder_ / "deep/mission.yaml");
+  session.run();
+  EXPECT_NE(session.hello().find("SECRET"), std::string::npos);  // the page's own user has the file as it is
+  report_page(session, "<html><!--LIVE--></html>", false);
+  const std::string hello = session.hello();
+  EXPECT_EQ(hello.find("SECRET"), std::string::npos);
+  EXPECT_EQ(hello.find(folder_.string()), std::string::npos);
+  const std::string text = Json::parse(hello)["mission"];
+  const auto hash = [&](const MissionFile& file) { return mission_hash(resolve_mission(file)); };
+  EXPECT_EQ(hash(read_mission_text(text, folder_ / "deep/again.yaml")),
+            hash(read_mission(folder_ / "deep/mission.yaml")));
 }
 
 }  // namespace

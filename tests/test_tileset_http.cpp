@@ -291,9 +291,11 @@ TEST(TilesetHttp, ShowsNoKeysAndNoPasswords) {
            {"https://a.example/t.json%3fkey=secret", "https://a.example/t.json"},
            {"https://a.example/t.json;token=secret", "https://a.example/t.json"},
            {"https://me:secret@a.example", "https://a.example"},
+           {"HTTPS://me:secret@a.example/t.json?key=1", "HTTPS://a.example/t.json"},
            {"ftp://me:secret@a.example/t.json?key=1", "ftp://a.example/t.json"},
            {"a@b/c.json", "a@b/c.json"}}) {
     EXPECT_EQ(internal::tiles::without_query(address), shown);
+    EXPECT_EQ(is_web_address(address), address.front() == 'h' || address.front() == 'H');
   }
 }
 

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "common/input.h"
 #include "common/json.h"
 #include "common/output.h"
+#include "common/shown_address.h"
 #include "common/temporary_folder.h"
 #include "live/file_bytes.h"
 #include "live/limit_list.h"
@@ -155,19 +157,6 @@ void check_shown(Volume& volume, const std::string& where) {
   volume.cause_of.assign(volume.mesh.triangles.size(), 0);
 }
 
-/// A mission without what follows "?" in addresses.
-std::string without_keys(const std::string& text) {
-  std::string kept;
-  std::size_t from = 0;
-  for (std::size_t at = text.find("://"); at != std::string::npos; at = text.find("://", from)) {
-    const std::size_t end = std::min(text.find_first_of(" \t\r\n\"'}]", at), text.size());
-    const std::size_t query = std::min(text.find('?', at), end);
-    kept.append(text, from, query - from);
-    from = query < end && text[end - 1] == ',' ? end - 1 : end;  // of a list in braces
-  }
-  return kept.append(text, from);
-}
-
 }  // namespace
 
 std::string about() {
@@ -295,7 +284,6 @@ void Session::show(const ViewerRequest& request, const Progress& progress) {
     if (std::find(volume.notes.begin(), volume.notes.end(), note) == volume.notes.end()) volume.notes.push_back(note);
   }
   file_ = request.name;
-  text_ = request.text;
   take_scene(request.source, std::make_shared<const ReadyScene>(
                                  ReadyScene{request.loaded, request.prepared, scene_hash(request.loaded->scene)}));
   ScenePointer scene = scene_of(*request.mission);
@@ -355,11 +343,30 @@ std::string Session::flight(const Progress& progress) {
   return judged(last_mission(), progress);
 }
 
+void Session::hide_keys() {
+  MissionFile file = last_mission().as_written;
+  const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(file_)).parent_path();
+  for (std::filesystem::path* const named : {&file.scene.file, &file.scene.city.terrain, &file.scene.terrain}) {
+    if (is_web_address(*named))
+      *named = shown_address(*named);
+    else if (!named->empty())
+      *named = std::filesystem::absolute(*named).lexically_relative(folder);
+  }
+  for (MissionTarget& one : file.targets) {
+    if (auto* const target = std::get_if<TargetFile>(&one.source)) target->file = target->name;
+  }
+  for (NavigationMeshFile& mesh : file.navigation_meshes) mesh.file = mesh.name;
+  for (std::vector<ZoneFile>* const zones : {&file.keep_in_files, &file.keep_out_files}) {
+    for (ZoneFile& zone : *zones) zone.file = zone.name;
+  }
+  text_ = mission_text(file, folder);
+}
+
 std::string Session::hello() const {
   // Put together as text: a flight of a million points is not read again for each window.
   std::string text = R"({"about":)" + about() + R"(,"scene":)" + scene_json();
-  text += R"(,"mission":)" + text_of(hides_keys_ ? without_keys(text_) : text_) + R"(,"name":)" +
-          text_of(file_.filename().string());
+  text += R"(,"mission":)" + text_of(text_) + R"(,"name":)" + text_of(file_.filename().string());
   text += R"(,"volume":)" + (result_ ? volume_json() : "null") + R"(,"flight":)";
   text += flight_ ? *flight_text_ : "null";
   return text + "}";

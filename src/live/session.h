@@ -58,8 +58,9 @@ class Session {
   /// JSON: {about, scene, mission: the text of the file, of a tileset without a mission its scene alone, name: of it,
   /// volume: the last one, or null, flight: as flight() has it, judged by the mission that was opened, or null}.
   std::string hello() const;
-  /// From here on hello() has the mission without the queries of addresses: they hold keys of servers.
-  void hide_keys() { hides_keys_ = true; }
+  /// From here on hello() has the mission of the last volume as others may read it: written from what was read of its
+  /// file, without comments, with names of files from its folder on, and without the keys and passwords of addresses.
+  void hide_keys();
 
   /// `text`: a mission without `scene`. Computes the volume; a session keeps the last one when that fails.
   std::string compute(std::string_view text, const Progress& progress = {});
@@ -120,7 +121,6 @@ class Session {
   /// Where the mission is, from which the names of files start, and what it says.
   std::filesystem::path file_ = "mission.yaml";
   std::string text_;
-  bool hides_keys_ = false;
   /// What was opened: missions may name its files. Nothing: any.
   std::optional<MissionFile> opened_file_;
 

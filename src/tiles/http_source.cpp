@@ -18,6 +18,15 @@ namespace {
 // One file. Tiles have some megabytes.
 constexpr std::size_t kMostFileBytes = std::size_t{512} << 20U;
 
+/// "https://", also of "HTTPS://..."; empty where there is none.
+std::string scheme_of(std::string_view text) {
+  const std::size_t end = text.find("://");
+  if (end == std::string_view::npos) return {};
+  std::string scheme(text.substr(0, end + 3));
+  for (char& c : scheme) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return scheme;
+}
+
 /// The parts of "https://host:port/path?query".
 struct Url {
   std::string origin;  ///< "https://host:port"
@@ -27,10 +36,11 @@ struct Url {
 
 Url split_url(std::string_view text) {
   text = text.substr(0, text.find('#'));
-  const std::size_t host = text.find("://") + 3;
+  const std::string scheme = scheme_of(text);
+  const std::size_t host = scheme.size();
   const std::size_t end = std::min(text.find_first_of("/?", host), text.size());
   const std::size_t mark = std::min(text.find('?', end), text.size());
-  Url url{std::string(text.substr(0, end)), std::string(text.substr(end, mark - end)), ""};
+  Url url{scheme + std::string(text.substr(host, end - host)), std::string(text.substr(end, mark - end)), ""};
   if (url.path.empty()) url.path = "/";
   if (mark < text.size()) url.query = text.substr(mark + 1);
   return url;
@@ -77,7 +87,10 @@ std::string first_session(const nlohmann::json& root) {
 
 }  // namespace
 
-bool is_http(std::string_view text) { return text.starts_with("http://") || text.starts_with("https://"); }
+bool is_http(std::string_view text) {
+  const std::string scheme = scheme_of(text);
+  return scheme == "http://" || scheme == "https://";
+}
 
 std::string without_query(std::string_view url) {
   std::string shown(url.substr(0, url.find_first_of("?#")));
