@@ -576,5 +576,32 @@ TEST_F(LiveSession, AReportHasTheMissionAsItWasRead) {
             hash(read_mission(folder_ / "deep/mission.yaml")));
 }
 
+TEST_F(LiveSession, ReadsAMissionWhoseTargetIsRefused) {
+  const std::string limits =
+      "sensor: {max_range: 60, incidence: 70}\n"
+      "navigation: {altitude: [3, 50], clearance: 2, keep_out: [{min: [9, 9, 0], max: [12, 12, 9]}]}\n";
+  const std::string pierced = "target: {vertices: [[18, -2, 0], [22, -2, 0], [22, 2, 0], [18, 2, 0]]}\n" + limits;
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", pierced}}), name_of(ErrorCode::target_pierced));
+  const Json told = ask({{"call", "read"}, {"text", pierced}}).header["value"];
+  EXPECT_EQ(told["target"][0][0], Json({18, -2, 0}));
+  EXPECT_EQ(told["normal"], Json({0, 0, 1}));
+  EXPECT_EQ(told["limits"]["max_range"], 60);
+  EXPECT_EQ(told["limits"]["incidence"], 70);
+  EXPECT_EQ(told["limits"]["altitude"], Json({3, 50}));
+  EXPECT_EQ(told["limits"]["keep_out"].size(), 1u);
+  EXPECT_EQ(told["limits"]["all"].size(), 5u);
+  EXPECT_TRUE(session_.volume_view().triangles.empty());
+
+  const std::string square = std::string(kSquare).substr(0, std::string(kSquare).find('\n') + 1) + limits;
+  const Json computed = ask({{"call", "compute"}, {"text", square}}).header["value"];
+  for (const auto& [key, value] : ask({{"call", "read"}, {"text", square}}).header["value"].items())
+    EXPECT_EQ(value, computed[key]) << key;
+  EXPECT_EQ(code_of({{"call", "read"}, {"text", "target: ["}}), name_of(ErrorCode::yaml_syntax));
+  EXPECT_EQ(code_of({{"call", "read"}, {"text", square + "links: [{mesh: volume.ply}]\n"}}),
+            name_of(ErrorCode::unknown_key));
+  EXPECT_EQ(code_of({{"call", "read"}, {"text", std::string(kSquare) + "navigation: {meshes: [volume.ply]}\n"}}),
+            name_of(ErrorCode::not_applicable));
+}
+
 }  // namespace
 }  // namespace vantage::live

@@ -157,6 +157,15 @@ void check_shown(Volume& volume, const std::string& where) {
   volume.cause_of.assign(volume.mesh.triangles.size(), 0);
 }
 
+/// Of `mission`, whose frame has this normal.
+Json mission_json(const Mission& mission, const Vec3& normal) {
+  return {{"name", mission.target.name},
+          {"target", parts_of(mission.target)},
+          {"normal", json(normal)},
+          {"range_m", range_limit_m(mission.sensor)},
+          {"limits", limits_of(mission)}};
+}
+
 }  // namespace
 
 std::string about() {
@@ -390,13 +399,23 @@ std::string Session::scene_json() const {
                       {"prepare_ms", prepare_ms_}});
 }
 
-std::string Session::compute(std::string_view text, const Progress& progress) {
+Mission Session::resolved(std::string_view text, const Progress& progress) const {
   if (!opened_) throw Error(ErrorCode::nothing_given, "no scene is open", "", "open a mesh first");
-  Stopwatch time;
   MissionFile file =
       opened_file_ ? read_mission_text(text, file_, source_, *opened_file_) : read_mission_text(text, file_, source_);
   file.sea_level_m = sea_level_m_;
-  Mission mission = resolve_mission(file, opened_->loaded, progress);
+  return resolve_mission(file, opened_->loaded, progress);
+}
+
+std::string Session::read(std::string_view text, const Progress& progress) const {
+  const Mission mission = resolved(text, progress);
+  const bool has_frame = !mission.target.parts.empty() && mission.target.parts.front().size() > 2;
+  return text_of(mission_json(mission, has_frame ? make_target_frame(mission.target).normal : Vec3::Zero()));
+}
+
+std::string Session::compute(std::string_view text, const Progress& progress) {
+  Stopwatch time;
+  Mission mission = resolved(text, progress);
   ScenePointer scene = scene_of(mission);
   const double resolve_ms = time.lap();
   Result result = run_mission(mission, options(*scene), progress);
@@ -425,24 +444,21 @@ void Session::take_volume(Mission mission, ScenePointer scene, Result result) {
 
 std::string Session::volume_json() const {
   const Volume& volume = result_->volume;
-  return text_of(Json{{"name", mission_->target.name},
-                      {"outcome", name_of(volume.outcome)},
-                      {"reason", volume.reason},
-                      {"hint", volume.hint},
-                      {"target", parts_of(mission_->target)},
-                      {"center", json(volume.frame.origin)},
-                      {"normal", json(volume.frame.normal)},
-                      {"range_m", range_limit_m(mission_->sensor)},
-                      {"limits", limits_of(*mission_)},
-                      {"claim", claim_of(*mission_)},
-                      {"volume_m3", enclosed_volume(volume.mesh)},
-                      {"area_m2", surface_area(volume.mesh)},
-                      {"facets", volume.mesh.triangles.size()},
-                      {"causes", has_causes_ ? causes_of(volume) : Json{{{"kind", "unknown"}, {"name", ""}}}},
-                      {"notes", json(volume.notes)},
-                      {"resolve_ms", resolve_ms_},
-                      {"compute_ms", compute_ms_},
-                      {"view_ms", view_ms_}});
+  Json told = mission_json(*mission_, volume.frame.normal);
+  told.update(Json{{"outcome", name_of(volume.outcome)},
+                   {"reason", volume.reason},
+                   {"hint", volume.hint},
+                   {"center", json(volume.frame.origin)},
+                   {"claim", claim_of(*mission_)},
+                   {"volume_m3", enclosed_volume(volume.mesh)},
+                   {"area_m2", surface_area(volume.mesh)},
+                   {"facets", volume.mesh.triangles.size()},
+                   {"causes", has_causes_ ? causes_of(volume) : Json{{{"kind", "unknown"}, {"name", ""}}}},
+                   {"notes", json(volume.notes)},
+                   {"resolve_ms", resolve_ms_},
+                   {"compute_ms", compute_ms_},
+                   {"view_ms", view_ms_}});
+  return text_of(told);
 }
 
 const Mission& Session::mission() const {

@@ -64,6 +64,8 @@ class Session {
 
   /// `text`: a mission without `scene`. Computes the volume; a session keeps the last one when that fails.
   std::string compute(std::string_view text, const Progress& progress = {});
+  /// What the same text says: its target and its limits, also where its volume is refused. JSON; changes nothing.
+  std::string read(std::string_view text, const Progress& progress = {}) const;
 
   /// What the points (x, y, z in turn) see of the target of the last volume.
   std::string query(const std::vector<double>& coordinates);
@@ -115,6 +117,7 @@ class Session {
   void take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded);
   void take_scene(const SceneSource& source, ScenePointer scene);
   void take_volume(Mission mission, ScenePointer scene, Result result);
+  Mission resolved(std::string_view text, const Progress& progress) const;
   std::string scene_json() const;
   std::string volume_json() const;
 

@@ -68,20 +68,24 @@ export interface Limits {
 
 export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor" | "unknown";
 
-export interface VolumeInfo {
+/** What a mission says, whether it has a volume or not. */
+export interface MissionInfo {
   /** of the target */
   name: string;
+  target: Point[][];
+  normal: Point;
+  /** as far as a volume may reach, whatever limits it */
+  range_m: number;
+  limits: Limits;
+}
+
+export interface VolumeInfo extends MissionInfo {
   outcome: string;
   reason: string;
   hint: string;
-  target: Point[][];
   center: Point;
-  normal: Point;
   /** what the volume claims of each position. `visible`: the least share of the target that it sees; 1: all of it */
   claim?: { visible: number; combine: "all" | "any" };
-  /** as far as the volume may reach, whatever limits it */
-  range_m: number;
-  limits: Limits;
   volume_m3: number;
   area_m2: number;
   facets: number;
@@ -160,6 +164,7 @@ export type Request =
   | { call: "shown" }
   | { call: "open"; text: string; file: string; files: Record<string, ArrayBuffer> }
   | { call: "compute"; text: string }
+  | { call: "read"; text: string }
   | { call: "query"; points: Point[] }
   | { call: "area"; points: [Point] }
   | { call: "flight" }

@@ -95,9 +95,9 @@ export class Results {
     if (volume !== this.judged) element("proof").textContent = "";
   }
 
-  /** Also those that the page has no controls for. Of the volume that is shown. */
+  /** Also those that the page has no controls for. */
   private showAllLimits(): void {
-    const lines = this.app.volume?.info.limits.all ?? [];
+    const lines = this.app.said?.limits.all ?? [];
     element("all-limits").hidden = lines.length === 0;
     element("limit-lines").replaceChildren(...terms(lines.map(({ name, text }) => [name, text])));
   }
