@@ -603,5 +603,48 @@ TEST_F(LiveSession, ReadsAMissionWhoseTargetIsRefused) {
             name_of(ErrorCode::not_applicable));
 }
 
+TEST_F(LiveSession, TellsWhatIsNotBuiltTheWorstFirst) {
+  LoadedScene loaded{.scene = read_scene(folder_ / "city.obj")};
+  Scene& scene = loaded.scene;
+  scene.objects[1].kind = ObjectKind::stand_in;
+  scene.ledger = {{.object = {.name = "mill", .source_id = "way/7"},
+                   .what = "building=yes",
+                   .reason = "its ring is open",
+                   .box = Box{Vec3(20, -5, 0), Vec3(30, 5, 12)},
+                   .stand_in = 1,
+                   .instead = "its outline, 12 m high"},
+                  {.object = {}, .what = "posts without a height", .reason = "they are void"},
+                  {.object = {.source_id = "relation/9"},
+                   .what = "relation",
+                   .reason = "a member is missing",
+                   .box = Box{Vec3(40, 40, -std::numeric_limits<double>::infinity()),
+                              Vec3(60, 50, std::numeric_limits<double>::infinity())},
+                   .height_m = 20}};
+  const auto shared = std::make_shared<const LoadedScene>(std::move(loaded));
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"), shared);
+  const Volume volume = run_mission(mission).volume;
+  session_.show({.mission = &mission,
+                 .volume = &volume,
+                 .loaded = shared,
+                 .prepared = PreparedScene(shared->scene),
+                 .source = mission.as_written.scene,
+                 .name = "mission.yaml"});
+  const Json told = Json::parse(session_.hello())["scene"];
+  EXPECT_EQ(told["objects"][1]["kind"], "stand-in");
+  const Json& ledger = told["ledger"];
+  EXPECT_EQ(ledger["count"], 3);
+  EXPECT_EQ(ledger["held"], 1);
+  ASSERT_EQ(ledger["worst"].size(), 3u);
+  EXPECT_EQ(ledger["worst"][0]["name"], "relation/9");
+  EXPECT_EQ(ledger["worst"][0]["rings"], Json::parse("[[[40,40],[60,40],[60,50],[40,50]]]"));
+  EXPECT_EQ(ledger["worst"][0]["low"], 0);
+  EXPECT_EQ(ledger["worst"][0]["high"], 20);
+  EXPECT_EQ(ledger["worst"][1]["name"], "posts without a height");
+  EXPECT_EQ(ledger["worst"][1]["rings"], Json::array());
+  EXPECT_EQ(ledger["worst"][2]["name"], "way/7 mill");
+  EXPECT_EQ(ledger["worst"][2]["instead"], "its outline, 12 m high");
+  EXPECT_EQ(ledger["worst"][2]["held"], true);
+}
+
 }  // namespace
 }  // namespace vantage::live

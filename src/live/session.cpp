@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <variant>
 
 #include "common/input.h"
@@ -71,6 +72,54 @@ Json objects_of(const Scene& scene) {
   for (const SceneObject& object : scene.objects)
     list.push_back({{"name", display_name(object)}, {"kind", name_of(object.kind)}});
   return list;
+}
+
+constexpr std::size_t kMostListed = 500;
+
+/// Nothing, or not all, holds their place; then the largest.
+bool is_worse(const LedgerEntry& a, const LedgerEntry& b) {
+  const auto rank = [](const LedgerEntry& entry) {
+    const Vec3 size = entry.box ? Vec3(entry.box->max - entry.box->min) : Vec3::Zero();
+    return std::tuple(entry.stand_in.has_value(), !entry.may_be_larger, -size.head<2>().norm());
+  };
+  return rank(a) < rank(b);
+}
+
+/// Where it is, as a zone: rings, and heights that end where the scene does where nobody knows them.
+Json place_of(const LedgerEntry& entry, const Box& scene) {
+  Json rings = Json::array();
+  for (const auto& outline : entry.outlines) rings.push_back(outline);
+  if (!entry.box) return {{"rings", std::move(rings)}, {"low", scene.min.z()}, {"high", scene.max.z()}};
+  const auto& [min, max] = *entry.box;
+  if (rings.empty()) rings.push_back({{min.x(), min.y()}, {max.x(), min.y()}, {max.x(), max.y()}, {min.x(), max.y()}});
+  const double low = std::isfinite(min.z()) ? min.z() : scene.min.z();
+  const double high = std::isfinite(max.z()) ? max.z() : entry.height_m ? low + *entry.height_m : scene.max.z();
+  return {{"rings", std::move(rings)}, {"low", low}, {"high", high}};
+}
+
+/// What is not built as it stands: how much, and the worst of it.
+Json ledger_of(const Scene& scene, const Box& box) {
+  std::vector<const LedgerEntry*> worst;
+  std::size_t held = 0;
+  for (const LedgerEntry& entry : scene.ledger) {
+    worst.push_back(&entry);
+    if (entry.stand_in) ++held;
+  }
+  std::stable_sort(worst.begin(), worst.end(), [](const auto* a, const auto* b) { return is_worse(*a, *b); });
+  Json list = Json::array();
+  for (const LedgerEntry* entry : worst) {
+    if (list.size() == kMostListed) break;
+    const std::string name = display_name(entry->object);
+    Json told = {{"name", name.empty() ? entry->what : name},
+                 {"what", entry->what},
+                 {"reason", entry->reason},
+                 {"instead", entry->instead},
+                 {"held", entry->stand_in.has_value()},
+                 {"may_be_larger", entry->may_be_larger}};
+    told.update(place_of(*entry, box));
+    list.push_back(std::move(told));
+  }
+  return {{"count", scene.ledger.size()}, {"held", held}, {"worst", std::move(list)}};
 }
 
 /// Where they are looked at: moved by the target's offset.
@@ -395,6 +444,7 @@ std::string Session::scene_json() const {
                       {"place", place_of(scene)},
                       {"attribution", attribution_of(scene)},
                       {"notes", notes_of(*opened_->loaded)},
+                      {"ledger", ledger_of(scene, box)},
                       {"read_ms", read_ms_},
                       {"prepare_ms", prepare_ms_}});
 }

@@ -10,7 +10,7 @@ import { metres } from "./model/quantity";
 import { emptyText, pointText, proofText } from "./model/volume";
 import { clearMessage, replaceMessage, showMessage, showsError } from "./ui/page";
 import { City } from "./view/city";
-import { BoxesView, ProbeView, SectionView, ZonesView } from "./view/marks";
+import { BoxesView, LedgerView, ProbeView, SectionView, ZonesView } from "./view/marks";
 import { Stage } from "./view/stage";
 import { TargetView } from "./view/target";
 import { VolumeView } from "./view/volume";
@@ -53,6 +53,7 @@ export class App {
   readonly volumeView: VolumeView;
   readonly boxes: BoxesView;
   readonly zones: ZonesView;
+  readonly ledger: LedgerView;
   readonly sectionView: SectionView;
   readonly probeView: ProbeView;
   readonly flights: Flights;
@@ -117,6 +118,7 @@ export class App {
     this.target = new TargetView(stage.scene, this.city);
     this.boxes = new BoxesView(stage.scene, this.city);
     this.zones = new ZonesView(stage.scene, this.city);
+    this.ledger = new LedgerView(stage.scene, this.city);
     this.sectionView = new SectionView(stage.scene, this.city);
     this.probeView = new ProbeView(stage.scene, this.city);
     this.flights = new Flights(this);
@@ -158,6 +160,7 @@ export class App {
     if (info.hash !== this.scene?.hash) this.flights.close(); // it is of the other scene
     this.scene = info;
     this.city.show(info, mesh);
+    this.ledger.show(info.ledger.worst);
     this.stage.frameScene(info);
     this.since = ++this.turn;
     this.mission = former?.mission ?? emptyMission(info);

@@ -17,6 +17,29 @@ export interface About {
   formats: string[];
 }
 
+/** Something that the scene's source says stands there, and that is not built as it stands. */
+export interface LedgerEntry {
+  name: string;
+  what: string;
+  /** why it is not built */
+  reason: string;
+  /** what holds its place; "": nothing does */
+  instead: string;
+  held: boolean;
+  may_be_larger: boolean;
+  /** where it is; empty: nobody knows */
+  rings: [number, number][][];
+  low: number;
+  high: number;
+}
+
+/** `worst`: what nothing holds the place of first; 500 at most. */
+export interface Ledger {
+  count: number;
+  held: number;
+  worst: LedgerEntry[];
+}
+
 export interface SceneInfo {
   hash: string;
   triangles: number;
@@ -33,6 +56,7 @@ export interface SceneInfo {
   /** whom pictures of it have to name; "": nobody is known */
   attribution: string;
   notes: string[];
+  ledger: Ledger;
   read_ms: number;
   prepare_ms: number;
 }
