@@ -220,7 +220,8 @@ class Scripts(ScriptTest):
 
     def script_lines(self) -> list[tuple[str, str]]:
         """Each command of the scripts, of the Makefile and of .ci/run, on one line, with its file."""
-        files = [*sorted((ROOT / "scripts").glob("*.sh")), ROOT / "Makefile", ROOT / ".ci" / "run"]
+        files = [*sorted((ROOT / "scripts").glob("*.sh")), *sorted((ROOT / "integrations").glob("*/*.sh")),
+                 ROOT / "Makefile", ROOT / ".ci" / "run"]
         found = []
         for file in files:
             text = file.read_text(encoding="utf-8").replace("\\\n", " ")
@@ -277,8 +278,10 @@ class Scripts(ScriptTest):
             for package, version in asked:
                 self.assertEqual(locked.get(re.sub(r"[-_.]+", "-", package).lower()), version,
                                  f"{package}: run scripts/pin_python.py python/{name}.txt")
-        for place, package in json.loads((ROOT / "web" / "package-lock.json").read_text())["packages"].items():
-            self.assertTrue(not place or package.get("integrity", "").startswith("sha512-"), place)
+        for folder in ("web", "integrations/cesium"):
+            for place, package in json.loads((ROOT / folder / "package-lock.json").read_text())["packages"].items():
+                self.assertTrue(not place or package.get("integrity", "").startswith("sha512-"), place)
+                self.assertNotIn("resolved", package, place)  # a host
 
     def test_locks_have_hashes_for_other_machines(self):
         """numpy has a file for each Python and processor; a package of Python alone has one for all."""

@@ -399,5 +399,21 @@ TEST_F(CliSceneBadOutput, WriteProtected) {
   fs::permissions(folder_ / "scene.glb", fs::perms::all);
 }
 
+// Logs of others have what the program says.
+TEST_F(CliScene, ErrorsShowNoKeysOfServers) {
+  const std::string address = "HTTPS://me:SECRET@127.0.0.1:1/a/tileset.json?key=SECRET";
+  write("web.yaml", "scene: {tiles: \"" + address + "\"}\n" + kTarget + kSensor);
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"inspect", address},
+                                                    {"inspect", address, "--lod", "2"},
+                                                    {"inspect", address, "--areas", "a"},
+                                                    {"scene", address, "-o", "scene.glb"},
+                                                    {"compute", "web.yaml", "-o", "volume.ply"},
+                                                    {"report", "web.yaml", "-o", "r.html"}}) {
+    const ProgramRun told = run(arguments);
+    EXPECT_EQ(told.exit_code, 2) << told.err;
+    EXPECT_EQ((told.out + told.err).find("SECRET"), std::string::npos) << told.err;
+  }
+}
+
 }  // namespace
 }  // namespace vantage::testing

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "common/output.h"
@@ -23,6 +25,8 @@
 #include "vantage/georeference.h"
 #include "vantage/mission.h"
 #include "vantage/query.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
 
 namespace vantage::live {
 namespace {
@@ -514,16 +518,132 @@ TEST_F(LiveSession, AReportHoldsTheVolumeAndItsProof) {
   EXPECT_THROW(report_page(session_, empty, true, [](std::string_view, double) { return false; }), vantage::Error);
 }
 
-TEST_F(LiveSession, AReportHasNoKeysOfServers) {
-  const std::string keys = "# {tiles: https://a.example/t.json?key=SECRET, radius: 1} http://b.example/?SECRET\n";
-  write("keys.yaml", vantage::testing::read_bytes(folder_ / "mission.yaml") + keys);
+/// The mission that a report holds, of the city of these tests, whose mission says of its scene that it came from
+/// there.
+std::string mission_of_report(const std::string& scene_section, const Scene& city) {
+  MissionFile file = read_mission_text(scene_section + kSquare, "mission.yaml");
+  LoadedScene loaded{.scene = city};
+  loaded.scene.source = "https://a.example/ok/tileset.json";  // as reading it says
+  const auto shared = std::make_shared<const LoadedScene>(std::move(loaded));
+  const Mission mission = resolve_mission(file, shared);
+  const Volume volume = run_mission(mission).volume;
   Session session;
-  session.open_file(folder_ / "keys.yaml");
-  session.run();
-  EXPECT_NE(session.hello().find("SECRET"), std::string::npos);
+  session.show({.mission = &mission,
+                .volume = &volume,
+                .loaded = shared,
+                .prepared = PreparedScene(shared->scene),
+                .source = file.scene,
+                .name = "mission.yaml"});
   report_page(session, "<html><!--LIVE--></html>", false);
-  EXPECT_EQ(session.hello().find("SECRET"), std::string::npos);
-  EXPECT_NE(session.hello().find("https://a.example/t.json, radius"), std::string::npos);
+  const std::string hello = session.hello();
+  EXPECT_EQ(hello.find("SECRET"), std::string::npos) << scene_section;
+  return Json::parse(hello)["mission"];
+}
+
+TEST_F(LiveSession, AReportHasNoKeysOfServers) {
+  const Scene city = read_scene(folder_ / "city.obj");
+  for (const std::string address :
+       {R"("https:\/\/a.example/ok/tileset.json?key=SECRET")",
+        "\"https://a.example/ok/tileset.json?\\\n   key=SECRET\"",
+        R"("https://a.example/ok/tileset.json\x3Fkey=SECRET")",
+        R"("https://user:SECRET@a.example/ok/tileset.json?key=x")",
+        R"("https://user:SECRET%40@a.example/ok/tileset.json")",
+        R"("https://a.example/ok/tileset.json%3Ftoken=SECRET")",
+        R"(&tiles https://a.example/ok/tileset.json?a=1&key=SECRET)", R"('https://a.example/ok/tileset.json#SECRET')",
+        "!!str https://a.example/ok/tileset.json?key=SECRET # ?key=SECRET",
+        ">-\n    https://a.example/ok/tileset.json?key=SECRET",
+        "|-\n    https://a.example/ok/tileset.json?key=SECRET"}) {
+    const std::string text = mission_of_report("scene:\n  tiles: " + address + "\n", city);
+    EXPECT_NE(text.find("tiles: \"https://a.example/ok/tileset.json\"\n"), std::string::npos) << text;
+  }
+  mission_of_report("? scene\n: {? tiles\n  : 'https://a.example/ok/tileset.json?key=SECRET'}\n", city);
+}
+
+TEST_F(LiveSession, AReportHasTheMissionAsItWasRead) {
+  write("deep/mission.yaml", "# https://b.example/?key=SECRET\nscene: {mesh: ../city.obj}\n" + std::string(kSquare) +
+                                 "navigation: {altitude: [3, 40], clearance: 2}\n");
+  Session session;
+  session.open_file(folder_ / "deep/mission.yaml");
+  session.run();
+  EXPECT_NE(session.hello().find("SECRET"), std::string::npos);  // the page's own user has the file as it is
+  report_page(session, "<html><!--LIVE--></html>", false);
+  const std::string hello = session.hello();
+  EXPECT_EQ(hello.find("SECRET"), std::string::npos);
+  EXPECT_EQ(hello.find(folder_.string()), std::string::npos);
+  const std::string text = Json::parse(hello)["mission"];
+  const auto hash = [&](const MissionFile& file) { return mission_hash(resolve_mission(file)); };
+  EXPECT_EQ(hash(read_mission_text(text, folder_ / "deep/again.yaml")),
+            hash(read_mission(folder_ / "deep/mission.yaml")));
+}
+
+TEST_F(LiveSession, ReadsAMissionWhoseTargetIsRefused) {
+  const std::string limits =
+      "sensor: {max_range: 60, incidence: 70}\n"
+      "navigation: {altitude: [3, 50], clearance: 2, keep_out: [{min: [9, 9, 0], max: [12, 12, 9]}]}\n";
+  const std::string pierced = "target: {vertices: [[18, -2, 0], [22, -2, 0], [22, 2, 0], [18, 2, 0]]}\n" + limits;
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", pierced}}), name_of(ErrorCode::target_pierced));
+  const Json told = ask({{"call", "read"}, {"text", pierced}}).header["value"];
+  EXPECT_EQ(told["target"][0][0], Json({18, -2, 0}));
+  EXPECT_EQ(told["normal"], Json({0, 0, 1}));
+  EXPECT_EQ(told["limits"]["max_range"], 60);
+  EXPECT_EQ(told["limits"]["incidence"], 70);
+  EXPECT_EQ(told["limits"]["altitude"], Json({3, 50}));
+  EXPECT_EQ(told["limits"]["keep_out"].size(), 1u);
+  EXPECT_EQ(told["limits"]["all"].size(), 5u);
+  EXPECT_TRUE(session_.volume_view().triangles.empty());
+
+  const std::string square = std::string(kSquare).substr(0, std::string(kSquare).find('\n') + 1) + limits;
+  const Json computed = ask({{"call", "compute"}, {"text", square}}).header["value"];
+  for (const auto& [key, value] : ask({{"call", "read"}, {"text", square}}).header["value"].items())
+    EXPECT_EQ(value, computed[key]) << key;
+  EXPECT_EQ(code_of({{"call", "read"}, {"text", "target: ["}}), name_of(ErrorCode::yaml_syntax));
+  EXPECT_EQ(code_of({{"call", "read"}, {"text", square + "links: [{mesh: volume.ply}]\n"}}),
+            name_of(ErrorCode::unknown_key));
+  EXPECT_EQ(code_of({{"call", "read"}, {"text", std::string(kSquare) + "navigation: {meshes: [volume.ply]}\n"}}),
+            name_of(ErrorCode::not_applicable));
+}
+
+TEST_F(LiveSession, TellsWhatIsNotBuiltTheWorstFirst) {
+  LoadedScene loaded{.scene = read_scene(folder_ / "city.obj")};
+  Scene& scene = loaded.scene;
+  scene.objects[1].kind = ObjectKind::stand_in;
+  scene.ledger = {{.object = {.name = "mill", .source_id = "way/7"},
+                   .what = "building=yes",
+                   .reason = "its ring is open",
+                   .box = Box{Vec3(20, -5, 0), Vec3(30, 5, 12)},
+                   .stand_in = 1,
+                   .instead = "its outline, 12 m high"},
+                  {.object = {}, .what = "posts without a height", .reason = "they are void"},
+                  {.object = {.source_id = "relation/9"},
+                   .what = "relation",
+                   .reason = "a member is missing",
+                   .box = Box{Vec3(40, 40, -std::numeric_limits<double>::infinity()),
+                              Vec3(60, 50, std::numeric_limits<double>::infinity())},
+                   .height_m = 20}};
+  const auto shared = std::make_shared<const LoadedScene>(std::move(loaded));
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"), shared);
+  const Volume volume = run_mission(mission).volume;
+  session_.show({.mission = &mission,
+                 .volume = &volume,
+                 .loaded = shared,
+                 .prepared = PreparedScene(shared->scene),
+                 .source = mission.as_written.scene,
+                 .name = "mission.yaml"});
+  const Json told = Json::parse(session_.hello())["scene"];
+  EXPECT_EQ(told["objects"][1]["kind"], "stand-in");
+  const Json& ledger = told["ledger"];
+  EXPECT_EQ(ledger["count"], 3);
+  EXPECT_EQ(ledger["held"], 1);
+  ASSERT_EQ(ledger["worst"].size(), 3u);
+  EXPECT_EQ(ledger["worst"][0]["name"], "relation/9");
+  EXPECT_EQ(ledger["worst"][0]["rings"], Json::parse("[[[40,40],[60,40],[60,50],[40,50]]]"));
+  EXPECT_EQ(ledger["worst"][0]["low"], 0);
+  EXPECT_EQ(ledger["worst"][0]["high"], 20);
+  EXPECT_EQ(ledger["worst"][1]["name"], "posts without a height");
+  EXPECT_EQ(ledger["worst"][1]["rings"], Json::array());
+  EXPECT_EQ(ledger["worst"][2]["name"], "way/7 mill");
+  EXPECT_EQ(ledger["worst"][2]["instead"], "its outline, 12 m high");
+  EXPECT_EQ(ledger["worst"][2]["held"], true);
 }
 
 }  // namespace

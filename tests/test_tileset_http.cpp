@@ -283,9 +283,58 @@ TEST(TilesetHttp, AServerThatIsOutOfOrderEndsTheReading) {
 }
 
 TEST(TilesetHttp, ShowsNoKeysAndNoPasswords) {
-  EXPECT_EQ(internal::tiles::without_query("https://me:secret@a.example:8/t@1.json?key=1#x"),
-            "https://a.example:8/t@1.json");
-  EXPECT_EQ(internal::tiles::without_query("a@b/c.json"), "a@b/c.json");
+  for (const auto& [address, shown] : std::vector<std::pair<std::string, std::string>>{
+           {"https://me:secret@a.example:8/t@1.json?key=1#x", "https://a.example:8/t@1.json"},
+           {"https://me:p@ss@a.example/t.json", "https://a.example/t.json"},
+           {"https://me%3Asecret%40a.example/t.json", "https://a.example/t.json"},
+           {"https://a.example/t.json%3Fkey=secret", "https://a.example/t.json"},
+           {"https://a.example/t.json%3fkey=secret", "https://a.example/t.json"},
+           {"https://a.example/t.json;token=secret", "https://a.example/t.json"},
+           {"https://me:secret@a.example", "https://a.example"},
+           {"HTTPS://me:secret@a.example/t.json?key=1", "HTTPS://a.example/t.json"},
+           {"ftp://me:secret@a.example/t.json?key=1", "ftp://a.example/t.json"},
+           {"a@b/c.json", "a@b/c.json"}}) {
+    EXPECT_EQ(internal::tiles::without_query(address), shown);
+    EXPECT_EQ(is_web_address(address), address.front() == 'h' || address.front() == 'H');
+  }
+}
+
+TEST(TilesetHttp, WhatTheServerCompressesHasTheBoundsOfFiles) {
+  VANTAGE_REQUIRE_CURL();
+  using testing::gzip;
+  const std::string tileset = [] {
+    json root = tile_json(10);
+    root["refine"] = "ADD";
+    root["children"] = json::array({tile_json(0, "a.glb")});
+    return tileset_json(root).dump();
+  }();
+  const std::string bomb = gzip(std::string(std::size_t{100} << 20, ' '));  // 100 kB
+  Server server([&](const std::string& target) -> Answer {
+    const std::string encoded = "Content-Encoding: gzip\r\n";
+    if (has(target, "a.glb")) return {200, gzip(box_glb({{}})), encoded};
+    if (has(target, "plain")) return {200, tileset};
+    if (has(target, "once")) return {200, gzip(tileset), encoded};
+    if (has(target, "file")) return {200, gzip(tileset)};
+    if (has(target, "twice")) return {200, gzip(gzip(tileset)), encoded};
+    if (has(target, "bomb1")) return {200, bomb, encoded};
+    return {200, gzip(bomb), encoded};  // 500 bytes
+  });
+  for (const char* const name : {"plain", "once", "file", "twice"}) {
+    EXPECT_EQ(read_tileset(server.url(std::string("/") + name + "/tileset.json")).report.contents, 1u) << name;
+  }
+  for (const char* const name : {"/bomb1.json", "/bomb2.json"}) {
+    expect_code([&] { read_tileset(server.url(name)); }, ErrorCode::file_too_large, name);
+  }
+}
+
+TEST(TilesetHttp, ABodyThatDoesNotEndTakesNoMoreThanTheLimit) {
+  VANTAGE_REQUIRE_CURL();
+  Server server([](const std::string&) -> Answer { return {200, std::string(3'000'000, 'x')}; });
+  internal::tiles::HttpClient client("here");
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  const internal::tiles::HttpAnswer answer = client.get(server.url("/"), kMost, {}, {});
+  EXPECT_TRUE(answer.is_too_large);
+  EXPECT_LE(answer.body.capacity(), kMost);
 }
 
 TEST(TilesetHttp, NobodyAnswers) {

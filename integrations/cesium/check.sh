@@ -11,10 +11,7 @@ python=${PYTHON:-$root/.deps/python/bin/python}
 folder=${1:-$root/build/cesium}
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
-if ! cmp -s "$here/package-lock.json" "$here/node_modules/.installed.json"; then
-  (cd "$here" && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
-  cp "$here/package-lock.json" "$here/node_modules/.installed.json"
-fi
+"$here/install.sh"
 "$vantage" compute "$root/examples/town/mission.yaml" -o "$folder/town.ply" -o "$folder/town.tiles" --quiet
 "$python" "$here/check_tileset.py" "$folder/town.tiles" "$folder/town.ply"
 "$python" "$here/picks.py" "$folder/town.ply" "$folder/picks.json"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Plans a flight in the invented town, writes it as CZML, loads that with Cesium in Node, and compares positions and
-# times with what `vantage check` says of the same flight. Needs Node 20 or newer (Debian 12 has 18); Cesium
-# comes from npm, unless it is installed beside this file.
+# times with what `vantage check` says of the same flight. Needs Node 20 or newer (Debian 12 has 18).
 #   integrations/cesium/check_czml.sh [FOLDER]    what it makes stays there; default: build/cesium-czml
 # VANTAGE names the program.
 set -euo pipefail
@@ -9,21 +8,16 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 program=$(realpath "${VANTAGE:-$root/build/bin/vantage}")
 work=${1:-$root/build/cesium-czml}
-version=1.145.0
 sea_level=-540.5 undulation=45.75  # of the scene's z; metres
 
 node=$(node --version)
 if [[ ! $node =~ ^v([0-9]+)\. ]] || [ "${BASH_REMATCH[1]}" -lt 20 ]; then
-  echo "node is $node, in which Cesium $version reads no CZML: install Node 20 or newer" >&2
+  echo "node is $node, in which Cesium reads no CZML: install Node 20 or newer" >&2
   exit 1
 fi
 mkdir -p "$work"
 cd "$work"
-cesium=$here/node_modules/cesium
-if [ ! -e "$cesium" ]; then
-  cesium=$PWD/node_modules/cesium
-  [ -e "$cesium" ] || npm install --prefix . --ignore-scripts --no-audit --no-fund --silent "cesium@$version"
-fi
+"$here/install.sh"
 sed "s|osm: town.osm.*|osm: $root/examples/town/town.osm\n  sea_level: $sea_level|" \
   "$root/examples/town/tour.yaml" > tour.yaml
 # The search for the tour has a time limit, so that two runs may differ: what is checked is made of the points that the
@@ -39,4 +33,4 @@ with open("tour.json") as told, open("tour.csv", "w") as table:
 END
 "$program" check tour.yaml tour.csv --heights scene --json > check.json || [ $? -eq 1 ]  # a limit may be broken
 ellipsoid_z=$(python3 -c "print($sea_level - $undulation)")
-node "$here/czml.mjs" "$cesium" tour.czml check.json "$ellipsoid_z"
+node "$here/czml.mjs" "$here/node_modules/cesium" tour.czml check.json "$ellipsoid_z"

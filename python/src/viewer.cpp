@@ -22,7 +22,6 @@ void bind_viewer(nb::module_& module) {
                                 .loaded = mission.scene->loaded(),
                                 .prepared = mission.scene->prepared(told),
                                 .source = mission.scene->source(),
-                                .text = mission_text(mission->as_written, "."),
                                 .name = name,
                                 .rounding_m = volume.rounding_m,
                                 .proves = proves};

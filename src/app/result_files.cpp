@@ -5,13 +5,13 @@
 
 #include "common/atomic_file.h"
 #include "common/output.h"
+#include "common/shown_address.h"
 #include "core/progress_reporter.h"
 #include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/result.h"
-#include "vantage/tileset.h"
 
 namespace vantage {
 
@@ -24,9 +24,7 @@ ResultRequest result_request(const Mission& mission, const Result& result, std::
   request.sea_level_z_m = sea_level_m(mission);
   ReportSource& source = request.source;
   source.mission = mission.as_written.file.string();
-  // A web address may hold a key: the scene's own does not.
-  const std::filesystem::path& file = mission.as_written.scene.file;
-  source.scene = (is_web_address(file) ? mission.scene().source : file).string();
+  source.scene = shown_address(mission.as_written.scene.file).string();
   source.target = mission.target.name;
   if (result.spheres) source.spheres = SpheresRun{mission.as_written.spheres, *result.spheres};
   return request;

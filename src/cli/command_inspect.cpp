@@ -12,6 +12,7 @@
 #include "common/input.h"
 #include "common/json.h"
 #include "common/objects.h"
+#include "common/shown_address.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 #include "vantage/scene.h"
@@ -97,7 +98,7 @@ int list_areas(const InspectArguments& options, const SceneSource& source) {
   const char* const option = options.areas.empty() ? "--named" : "--areas";
   if (source.kind != SceneSource::Kind::map) {
     throw Error(ErrorCode::not_applicable,
-                std::string(option) + " is for maps, and " + options.scene.input + " is none",
+                std::string(option) + " is for maps, and " + shown_address(options.scene.input).string() + " is none",
                 std::string("command line, ") + option, "leave it out, or give an OpenStreetMap file");
   }
   AreaFilter filter{{}, options.named, source.city.region};

@@ -9,6 +9,7 @@
 #include "common/atomic_file.h"
 #include "common/json.h"
 #include "common/output.h"
+#include "common/shown_address.h"
 #include "vantage/error.h"
 #include "vantage/result.h"
 #include "vantage/scene_source.h"
@@ -77,7 +78,7 @@ int run_scene(const SceneArguments& options) {
   if (options.json) {
     print(json_text(loaded));
   } else if (!options.common.quiet) {
-    print(scene_table(loaded, is_web_address(source.file) ? loaded.scene.source : source.file, written));
+    print(scene_table(loaded, shown_address(source.file), written));
   }
   return kSuccess;
 }

@@ -9,8 +9,8 @@
 #include "cli/text_table.h"
 #include "common/input.h"
 #include "common/output.h"
+#include "common/shown_address.h"
 #include "vantage/error.h"
-#include "vantage/tileset.h"
 
 namespace vantage::cli {
 namespace {
@@ -108,8 +108,7 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   } else if (volume != nullptr) {
     text += dot + grouped(enclosed_volume(volume->mesh)) + "\u2009m\u00b3";
   }
-  const std::filesystem::path& file = mission.as_written.scene.file;  // a web address may hold a key
-  return text + dot + (is_web_address(file) ? mission.scene().source : file).filename().string();
+  return text + dot + shown_address(mission.as_written.scene.file).filename().string();
 }
 
 }  // namespace vantage::cli

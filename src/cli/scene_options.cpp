@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "common/input.h"
+#include "common/shown_address.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 
@@ -108,7 +109,8 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   using Kind = SceneSource::Kind;
   const auto only_for = [&](bool is_given, const char* option, std::initializer_list<Kind> kinds, const char* what) {
     if (!is_given || std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
-    fail(ErrorCode::not_applicable, std::string(option) + " is for " + what + ", and " + options.input + " is none",
+    fail(ErrorCode::not_applicable,
+         std::string(option) + " is for " + what + ", and " + shown_address(options.input).string() + " is none",
          option, "leave it out");
   };
   only_for(!options.center.empty(), "--center", {Kind::map, Kind::raster, Kind::tileset}, "maps, rasters and tilesets");

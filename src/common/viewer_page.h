@@ -19,7 +19,6 @@ struct ViewerRequest {
       loaded;              ///< that the mission was resolved in; not its own, where it has more ground
   PreparedScene prepared;  ///< that scene
   SceneSource source;      ///< where it came from
-  std::string text;        ///< of the mission, as a mission file has it
   std::string name;        ///< what the page calls that file
   double rounding_m = 0;   ///< of the file that the volume was read from
   bool proves = false;     ///< it holds the verdict of the proof as well

@@ -56,6 +56,7 @@ std::string value_of(Session& session, MapAreas& areas, const Request& request, 
   if (request.call == "hello") return session.hello();
   if (request.call == "shown") return "{}";
   if (request.call == "compute") return session.compute(request.text, progress);
+  if (request.call == "read") return session.read(request.text, progress);
   if (request.call == "query") return session.query(request.coordinates);
   if (request.call == "area") return area_of(areas, session, request, progress);
   if (request.call == "flight") return session.flight(progress);

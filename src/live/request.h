@@ -15,8 +15,8 @@ namespace vantage::live {
 /// {"id": 7, "request": {"call": "compute", "text": "..."}}
 struct Request {
   std::uint64_t id = 0;
-  std::string call;  ///< about, hello, shown, compute, query, area, flight, volumes, prove, slice, save, stop
-  std::string text;  ///< of compute
+  std::string call;  ///< about, hello, shown, compute, read, query, area, flight, volumes, prove, slice, save, stop
+  std::string text;  ///< of compute and read
   std::vector<double> coordinates;  ///< of query and area
   double z_m = 0;                   ///< of slice
   std::string format;               ///< of save

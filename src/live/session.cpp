@@ -5,10 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <variant>
 
 #include "common/input.h"
 #include "common/json.h"
 #include "common/output.h"
+#include "common/shown_address.h"
 #include "common/temporary_folder.h"
 #include "live/file_bytes.h"
 #include "live/limit_list.h"
@@ -69,6 +72,54 @@ Json objects_of(const Scene& scene) {
   for (const SceneObject& object : scene.objects)
     list.push_back({{"name", display_name(object)}, {"kind", name_of(object.kind)}});
   return list;
+}
+
+constexpr std::size_t kMostListed = 500;
+
+/// Nothing, or not all, holds their place; then the largest.
+bool is_worse(const LedgerEntry& a, const LedgerEntry& b) {
+  const auto rank = [](const LedgerEntry& entry) {
+    const Vec3 size = entry.box ? Vec3(entry.box->max - entry.box->min) : Vec3::Zero();
+    return std::tuple(entry.stand_in.has_value(), !entry.may_be_larger, -size.head<2>().norm());
+  };
+  return rank(a) < rank(b);
+}
+
+/// Where it is, as a zone: rings, and heights that end where the scene does where nobody knows them.
+Json place_of(const LedgerEntry& entry, const Box& scene) {
+  Json rings = Json::array();
+  for (const auto& outline : entry.outlines) rings.push_back(outline);
+  if (!entry.box) return {{"rings", std::move(rings)}, {"low", scene.min.z()}, {"high", scene.max.z()}};
+  const auto& [min, max] = *entry.box;
+  if (rings.empty()) rings.push_back({{min.x(), min.y()}, {max.x(), min.y()}, {max.x(), max.y()}, {min.x(), max.y()}});
+  const double low = std::isfinite(min.z()) ? min.z() : scene.min.z();
+  const double high = std::isfinite(max.z()) ? max.z() : entry.height_m ? low + *entry.height_m : scene.max.z();
+  return {{"rings", std::move(rings)}, {"low", low}, {"high", high}};
+}
+
+/// What is not built as it stands: how much, and the worst of it.
+Json ledger_of(const Scene& scene, const Box& box) {
+  std::vector<const LedgerEntry*> worst;
+  std::size_t held = 0;
+  for (const LedgerEntry& entry : scene.ledger) {
+    worst.push_back(&entry);
+    if (entry.stand_in) ++held;
+  }
+  std::stable_sort(worst.begin(), worst.end(), [](const auto* a, const auto* b) { return is_worse(*a, *b); });
+  Json list = Json::array();
+  for (const LedgerEntry* entry : worst) {
+    if (list.size() == kMostListed) break;
+    const std::string name = display_name(entry->object);
+    Json told = {{"name", name.empty() ? entry->what : name},
+                 {"what", entry->what},
+                 {"reason", entry->reason},
+                 {"instead", entry->instead},
+                 {"held", entry->stand_in.has_value()},
+                 {"may_be_larger", entry->may_be_larger}};
+    told.update(place_of(*entry, box));
+    list.push_back(std::move(told));
+  }
+  return {{"count", scene.ledger.size()}, {"held", held}, {"worst", std::move(list)}};
 }
 
 /// Where they are looked at: moved by the target's offset.
@@ -155,17 +206,13 @@ void check_shown(Volume& volume, const std::string& where) {
   volume.cause_of.assign(volume.mesh.triangles.size(), 0);
 }
 
-/// A mission without what follows "?" in addresses.
-std::string without_keys(const std::string& text) {
-  std::string kept;
-  std::size_t from = 0;
-  for (std::size_t at = text.find("://"); at != std::string::npos; at = text.find("://", from)) {
-    const std::size_t end = std::min(text.find_first_of(" \t\r\n\"'}]", at), text.size());
-    const std::size_t query = std::min(text.find('?', at), end);
-    kept.append(text, from, query - from);
-    from = query < end && text[end - 1] == ',' ? end - 1 : end;  // of a list in braces
-  }
-  return kept.append(text, from);
+/// Of `mission`, whose frame has this normal.
+Json mission_json(const Mission& mission, const Vec3& normal) {
+  return {{"name", mission.target.name},
+          {"target", parts_of(mission.target)},
+          {"normal", json(normal)},
+          {"range_m", range_limit_m(mission.sensor)},
+          {"limits", limits_of(mission)}};
 }
 
 }  // namespace
@@ -295,7 +342,6 @@ void Session::show(const ViewerRequest& request, const Progress& progress) {
     if (std::find(volume.notes.begin(), volume.notes.end(), note) == volume.notes.end()) volume.notes.push_back(note);
   }
   file_ = request.name;
-  text_ = request.text;
   take_scene(request.source, std::make_shared<const ReadyScene>(
                                  ReadyScene{request.loaded, request.prepared, scene_hash(request.loaded->scene)}));
   ScenePointer scene = scene_of(*request.mission);
@@ -355,11 +401,30 @@ std::string Session::flight(const Progress& progress) {
   return judged(last_mission(), progress);
 }
 
+void Session::hide_keys() {
+  MissionFile file = last_mission().as_written;
+  const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(file_)).parent_path();
+  for (std::filesystem::path* const named : {&file.scene.file, &file.scene.city.terrain, &file.scene.terrain}) {
+    if (is_web_address(*named))
+      *named = shown_address(*named);
+    else if (!named->empty())
+      *named = std::filesystem::absolute(*named).lexically_relative(folder);
+  }
+  for (MissionTarget& one : file.targets) {
+    if (auto* const target = std::get_if<TargetFile>(&one.source)) target->file = target->name;
+  }
+  for (NavigationMeshFile& mesh : file.navigation_meshes) mesh.file = mesh.name;
+  for (std::vector<ZoneFile>* const zones : {&file.keep_in_files, &file.keep_out_files}) {
+    for (ZoneFile& zone : *zones) zone.file = zone.name;
+  }
+  text_ = mission_text(file, folder);
+}
+
 std::string Session::hello() const {
   // Put together as text: a flight of a million points is not read again for each window.
   std::string text = R"({"about":)" + about() + R"(,"scene":)" + scene_json();
-  text += R"(,"mission":)" + text_of(hides_keys_ ? without_keys(text_) : text_) + R"(,"name":)" +
-          text_of(file_.filename().string());
+  text += R"(,"mission":)" + text_of(text_) + R"(,"name":)" + text_of(file_.filename().string());
   text += R"(,"volume":)" + (result_ ? volume_json() : "null") + R"(,"flight":)";
   text += flight_ ? *flight_text_ : "null";
   return text + "}";
@@ -379,17 +444,28 @@ std::string Session::scene_json() const {
                       {"place", place_of(scene)},
                       {"attribution", attribution_of(scene)},
                       {"notes", notes_of(*opened_->loaded)},
+                      {"ledger", ledger_of(scene, box)},
                       {"read_ms", read_ms_},
                       {"prepare_ms", prepare_ms_}});
 }
 
-std::string Session::compute(std::string_view text, const Progress& progress) {
+Mission Session::resolved(std::string_view text, const Progress& progress) const {
   if (!opened_) throw Error(ErrorCode::nothing_given, "no scene is open", "", "open a mesh first");
-  Stopwatch time;
   MissionFile file =
       opened_file_ ? read_mission_text(text, file_, source_, *opened_file_) : read_mission_text(text, file_, source_);
   file.sea_level_m = sea_level_m_;
-  Mission mission = resolve_mission(file, opened_->loaded, progress);
+  return resolve_mission(file, opened_->loaded, progress);
+}
+
+std::string Session::read(std::string_view text, const Progress& progress) const {
+  const Mission mission = resolved(text, progress);
+  const bool has_frame = !mission.target.parts.empty() && mission.target.parts.front().size() > 2;
+  return text_of(mission_json(mission, has_frame ? make_target_frame(mission.target).normal : Vec3::Zero()));
+}
+
+std::string Session::compute(std::string_view text, const Progress& progress) {
+  Stopwatch time;
+  Mission mission = resolved(text, progress);
   ScenePointer scene = scene_of(mission);
   const double resolve_ms = time.lap();
   Result result = run_mission(mission, options(*scene), progress);
@@ -418,24 +494,21 @@ void Session::take_volume(Mission mission, ScenePointer scene, Result result) {
 
 std::string Session::volume_json() const {
   const Volume& volume = result_->volume;
-  return text_of(Json{{"name", mission_->target.name},
-                      {"outcome", name_of(volume.outcome)},
-                      {"reason", volume.reason},
-                      {"hint", volume.hint},
-                      {"target", parts_of(mission_->target)},
-                      {"center", json(volume.frame.origin)},
-                      {"normal", json(volume.frame.normal)},
-                      {"range_m", range_limit_m(mission_->sensor)},
-                      {"limits", limits_of(*mission_)},
-                      {"claim", claim_of(*mission_)},
-                      {"volume_m3", enclosed_volume(volume.mesh)},
-                      {"area_m2", surface_area(volume.mesh)},
-                      {"facets", volume.mesh.triangles.size()},
-                      {"causes", has_causes_ ? causes_of(volume) : Json{{{"kind", "unknown"}, {"name", ""}}}},
-                      {"notes", json(volume.notes)},
-                      {"resolve_ms", resolve_ms_},
-                      {"compute_ms", compute_ms_},
-                      {"view_ms", view_ms_}});
+  Json told = mission_json(*mission_, volume.frame.normal);
+  told.update(Json{{"outcome", name_of(volume.outcome)},
+                   {"reason", volume.reason},
+                   {"hint", volume.hint},
+                   {"center", json(volume.frame.origin)},
+                   {"claim", claim_of(*mission_)},
+                   {"volume_m3", enclosed_volume(volume.mesh)},
+                   {"area_m2", surface_area(volume.mesh)},
+                   {"facets", volume.mesh.triangles.size()},
+                   {"causes", has_causes_ ? causes_of(volume) : Json{{{"kind", "unknown"}, {"name", ""}}}},
+                   {"notes", json(volume.notes)},
+                   {"resolve_ms", resolve_ms_},
+                   {"compute_ms", compute_ms_},
+                   {"view_ms", view_ms_}});
+  return text_of(told);
 }
 
 const Mission& Session::mission() const {

@@ -58,11 +58,14 @@ class Session {
   /// JSON: {about, scene, mission: the text of the file, of a tileset without a mission its scene alone, name: of it,
   /// volume: the last one, or null, flight: as flight() has it, judged by the mission that was opened, or null}.
   std::string hello() const;
-  /// From here on hello() has the mission without the queries of addresses: they hold keys of servers.
-  void hide_keys() { hides_keys_ = true; }
+  /// From here on hello() has the mission of the last volume as others may read it: written from what was read of its
+  /// file, without comments, with names of files from its folder on, and without the keys and passwords of addresses.
+  void hide_keys();
 
   /// `text`: a mission without `scene`. Computes the volume; a session keeps the last one when that fails.
   std::string compute(std::string_view text, const Progress& progress = {});
+  /// What the same text says: its target and its limits, also where its volume is refused. JSON; changes nothing.
+  std::string read(std::string_view text, const Progress& progress = {}) const;
 
   /// What the points (x, y, z in turn) see of the target of the last volume.
   std::string query(const std::vector<double>& coordinates);
@@ -114,13 +117,13 @@ class Session {
   void take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded);
   void take_scene(const SceneSource& source, ScenePointer scene);
   void take_volume(Mission mission, ScenePointer scene, Result result);
+  Mission resolved(std::string_view text, const Progress& progress) const;
   std::string scene_json() const;
   std::string volume_json() const;
 
   /// Where the mission is, from which the names of files start, and what it says.
   std::filesystem::path file_ = "mission.yaml";
   std::string text_;
-  bool hides_keys_ = false;
   /// What was opened: missions may name its files. Nothing: any.
   std::optional<MissionFile> opened_file_;
 

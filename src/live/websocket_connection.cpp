@@ -24,7 +24,7 @@ constexpr std::size_t kFragment = std::size_t{1} << 20;
 
 /// May take all cores, and gigabytes.
 bool is_heavy(const Request& request) {
-  static constexpr std::array<std::string_view, 5> kHeavy = {"compute", "flight", "volumes", "prove", "area"};
+  static constexpr std::array<std::string_view, 6> kHeavy = {"compute", "read", "flight", "volumes", "prove", "area"};
   return std::find(kHeavy.begin(), kHeavy.end(), request.call) != kHeavy.end();
 }
 

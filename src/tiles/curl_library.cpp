@@ -1,6 +1,8 @@
 #include "tiles/curl_library.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "core/system_limits.h"
@@ -48,6 +50,7 @@ enum CurlOption : int {
   kConnectTimeout = 78,
   kNoSignal = 99,
   kAcceptEncoding = 10102,
+  kHttpContentDecoding = 158,
   kProtocols = 181,
   kProgressFunction = 20219,
 };
@@ -106,6 +109,9 @@ std::size_t take_bytes(char* data, std::size_t size, std::size_t count, void* ga
   into.is_too_large = bytes > into.most - into.body->size();
   if (into.is_too_large) return 0;  // curl gives up
   try {
+    // Powers of two: where the string moves to more room, both together have no more than the limit.
+    const std::size_t wanted = into.body->size() + bytes;
+    if (wanted > into.body->capacity()) into.body->reserve(std::min(into.most, std::bit_ceil(wanted)));
     into.body->append(data, bytes);
   } catch (const std::bad_alloc&) {
     return 0;
@@ -154,7 +160,8 @@ HttpAnswer HttpClient::get(const std::string& url, std::size_t most_bytes, const
   library.easy_setopt(handle_, kLowSpeedLimit, patience.slow_bytes_per_s);
   library.easy_setopt(handle_, kLowSpeedTime, patience.slow_s);
   library.easy_setopt(handle_, kTimeout, patience.file_s);
-  library.easy_setopt(handle_, kAcceptEncoding, "");
+  library.easy_setopt(handle_, kAcceptEncoding, "gzip");
+  library.easy_setopt(handle_, kHttpContentDecoding, 0L);  // curl unpacks without a bound
   library.easy_setopt(handle_, kUserAgent, agent.c_str());
   library.easy_setopt(handle_, kErrorBuffer, words.data());
   library.easy_setopt(handle_, kWriteFunction, take_bytes);

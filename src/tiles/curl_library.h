@@ -37,7 +37,8 @@ class HttpClient {
   HttpClient& operator=(const HttpClient&) = delete;
 
   /// GET, by HTTP or HTTPS alone, without following redirections. A server that sends too slowly has no answer, nor one
-  /// of more than `most_bytes`. Throws Error(cancelled).
+  /// of more than `most_bytes`. The body is as it was sent: with gzip, where the server took the offer. Throws
+  /// Error(cancelled).
   HttpAnswer get(const std::string& url, std::size_t most_bytes, const HttpPatience& patience,
                  const core::ProgressReporter& progress);
 

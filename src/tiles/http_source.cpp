@@ -18,6 +18,15 @@ namespace {
 // One file. Tiles have some megabytes.
 constexpr std::size_t kMostFileBytes = std::size_t{512} << 20U;
 
+/// "https://", also of "HTTPS://..."; empty where there is none.
+std::string scheme_of(std::string_view text) {
+  const std::size_t end = text.find("://");
+  if (end == std::string_view::npos) return {};
+  std::string scheme(text.substr(0, end + 3));
+  for (char& c : scheme) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return scheme;
+}
+
 /// The parts of "https://host:port/path?query".
 struct Url {
   std::string origin;  ///< "https://host:port"
@@ -27,10 +36,11 @@ struct Url {
 
 Url split_url(std::string_view text) {
   text = text.substr(0, text.find('#'));
-  const std::size_t host = text.find("://") + 3;
+  const std::string scheme = scheme_of(text);
+  const std::size_t host = scheme.size();
   const std::size_t end = std::min(text.find_first_of("/?", host), text.size());
   const std::size_t mark = std::min(text.find('?', end), text.size());
-  Url url{std::string(text.substr(0, end)), std::string(text.substr(end, mark - end)), ""};
+  Url url{scheme + std::string(text.substr(host, end - host)), std::string(text.substr(end, mark - end)), ""};
   if (url.path.empty()) url.path = "/";
   if (mark < text.size()) url.query = text.substr(mark + 1);
   return url;
@@ -77,14 +87,23 @@ std::string first_session(const nlohmann::json& root) {
 
 }  // namespace
 
-bool is_http(std::string_view text) { return text.starts_with("http://") || text.starts_with("https://"); }
+bool is_http(std::string_view text) {
+  const std::string scheme = scheme_of(text);
+  return scheme == "http://" || scheme == "https://";
+}
 
 std::string without_query(std::string_view url) {
   std::string shown(url.substr(0, url.find_first_of("?#")));
-  if (!is_http(shown)) return shown;
-  const std::size_t host = shown.find("://") + 3;
-  const std::size_t at = shown.substr(0, shown.find('/', host)).rfind('@');
-  if (at != std::string::npos && at >= host) shown.erase(host, at + 1 - host);
+  const std::size_t scheme = shown.find("://");
+  if (scheme == std::string::npos) return shown;
+  // ";" begins parameters of the path; what is escaped means the same to some servers.
+  for (const std::string_view mark : {";", "%3f", "%3F", "%23", "%3b", "%3B"})
+    shown.resize(std::min(shown.size(), shown.find(mark)));
+  const std::size_t host = scheme + 3;
+  for (const std::string_view mark : {"%40", "@"}) {
+    const std::size_t at = shown.substr(0, shown.find('/', host)).rfind(mark);
+    if (at != std::string::npos && at >= host) shown.erase(host, at + mark.size() - host);
+  }
   return shown;
 }
 
@@ -106,16 +125,17 @@ std::string HttpSource::resolve(const std::string& base, const std::string& uri)
     to = split_url(from.origin.substr(0, from.origin.find(':') + 1) + uri);
   } else if (uri.empty() || uri.find("://") < uri.find_first_of("/?#") || uri.starts_with("data:")) {
     throw Error(ErrorCode::mesh_unsupported,
-                "the tileset refers to " + in_quotes(uri) + ", which is no file of its server", shown(base),
-                "give a tileset whose files are on one server");
+                "the tileset refers to " + in_quotes(without_query(uri)) + ", which is no file of its server",
+                shown(base), "give a tileset whose files are on one server");
   } else {
     const std::string folder = uri.starts_with("/") ? "" : from.path.substr(0, from.path.rfind('/') + 1);
     to = split_url(from.origin + folder + uri);
   }
   // Others may have made the tileset: it shall neither learn the key nor ask the machines of a network.
   if (to.origin != from.origin) {
-    throw Error(ErrorCode::mesh_unsupported, "the tileset refers to another server: " + in_quotes(to.origin),
-                shown(base), "give a tileset whose files are on one server");
+    throw Error(ErrorCode::mesh_unsupported,
+                "the tileset refers to another server: " + in_quotes(without_query(to.origin)), shown(base),
+                "give a tileset whose files are on one server");
   }
   for (const std::string_view name : {"key", "session"}) {
     const std::string known = parameter(from.query, name);
@@ -235,8 +255,15 @@ std::string HttpSource::body_of(HttpAnswer&& answer, const std::string& address,
   }
   if (answer.status != 200) fail(ErrorCode::file_unreadable, "the server answers " + status, "try again later");
   if (answer.body.empty()) fail(ErrorCode::file_empty, "the server sends an empty file", "export the tileset again");
-  if (!answer.body.starts_with("\x1f\x8b")) return std::move(answer.body);
-  return io::decompress_gzip(answer.body, shown(address), progress, core::ReadLimits::of_tiles());
+  // Compressed for the way, as a file, or both: together they may not grow beyond what a file of these bytes may.
+  core::ReadLimits limits = core::ReadLimits::of_tiles();
+  const std::uint64_t most = limits.most_decompressed(answer.body.size());
+  std::string body = std::move(answer.body);
+  for (int layer = 0; layer < 2 && body.starts_with("\x1f\x8b"); ++layer) {
+    body = io::decompress_gzip(body, shown(address), progress, limits);
+    limits.decompressed_bytes = most;
+  }
+  return body;
 }
 
 }  // namespace vantage::internal::tiles

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/input.h"
+#include "common/shown_address.h"
 #include "core/format.h"
 #include "core/read_limits.h"
 #include "core/text.h"
@@ -221,6 +222,11 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
 
 bool is_web_address(const std::filesystem::path& file) { return internal::tiles::is_http(file.string()); }
 
+std::filesystem::path shown_address(const std::filesystem::path& file) {
+  if (!is_web_address(file)) return file;
+  return internal::tiles::without_query(file.string());
+}
+
 TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options, const Progress& callback) {
   const internal::core::ProgressReporter progress(callback, internal::tiles::without_query(file.string()));
   try {
@@ -233,8 +239,7 @@ TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOption
     return internal::tiles::read(source, file, options, progress);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::out_of_memory, "there is not enough memory to read the tileset",
-                internal::tiles::is_http(file.string()) ? internal::tiles::without_query(file.string()) : file.string(),
-                "give a smaller radius, or a larger detail");
+                shown_address(file).string(), "give a smaller radius, or a larger detail");
   }
 }
 

@@ -39,6 +39,10 @@ EMSCRIPTEN_KEEPALIVE const char* vantage_compute(const char* text) {
   return answered([&] { return session().compute(text); });
 }
 
+EMSCRIPTEN_KEEPALIVE const char* vantage_read(const char* text) {
+  return answered([&] { return session().read(text); });
+}
+
 EMSCRIPTEN_KEEPALIVE const char* vantage_query(const double* coordinates, int count) {
   return answered([&] { return session().query({coordinates, coordinates + count}); });
 }

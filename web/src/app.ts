@@ -1,7 +1,7 @@
 // What the page is about: a scene, a mission in it, and its volume, which follows.
 import { errorText, placeOf, type Engine, type Volume } from "./engine/client";
 import { Stopped } from "./engine/transport";
-import type { Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh } from "./engine/messages";
+import type { MissionInfo, Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh } from "./engine/messages";
 import { Flights } from "./flights";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
@@ -10,7 +10,7 @@ import { metres } from "./model/quantity";
 import { emptyText, pointText, proofText } from "./model/volume";
 import { clearMessage, replaceMessage, showMessage, showsError } from "./ui/page";
 import { City } from "./view/city";
-import { BoxesView, ProbeView, SectionView, ZonesView } from "./view/marks";
+import { BoxesView, LedgerView, ProbeView, SectionView, ZonesView } from "./view/marks";
 import { Stage } from "./view/stage";
 import { TargetView } from "./view/target";
 import { VolumeView } from "./view/volume";
@@ -53,6 +53,7 @@ export class App {
   readonly volumeView: VolumeView;
   readonly boxes: BoxesView;
   readonly zones: ZonesView;
+  readonly ledger: LedgerView;
   readonly sectionView: SectionView;
   readonly probeView: ProbeView;
   readonly flights: Flights;
@@ -92,6 +93,8 @@ export class App {
   private since = 0;
   /** of the last mission, where it could not be computed; the last volume stays */
   failure = "";
+  /** what the mission of the volume says; where there is no volume, the one that was opened */
+  said: MissionInfo | null = null;
   private failurePlace: Point | null = null;
   private isStopped = false;
   probe: { at: Point; inside: boolean } | null = null;
@@ -115,6 +118,7 @@ export class App {
     this.target = new TargetView(stage.scene, this.city);
     this.boxes = new BoxesView(stage.scene, this.city);
     this.zones = new ZonesView(stage.scene, this.city);
+    this.ledger = new LedgerView(stage.scene, this.city);
     this.sectionView = new SectionView(stage.scene, this.city);
     this.probeView = new ProbeView(stage.scene, this.city);
     this.flights = new Flights(this);
@@ -156,6 +160,7 @@ export class App {
     if (info.hash !== this.scene?.hash) this.flights.close(); // it is of the other scene
     this.scene = info;
     this.city.show(info, mesh);
+    this.ledger.show(info.ledger.worst);
     this.stage.frameScene(info);
     this.since = ++this.turn;
     this.mission = former?.mission ?? emptyMission(info);
@@ -167,7 +172,10 @@ export class App {
     this.clearVolume();
   }
 
-  /** Of a mission file without its scene. The mission that is there stays where this one cannot be computed. */
+  /**
+   * Of a mission file without its scene. The mission that is there stays where this one cannot be read. Where it has no
+   * volume, as when its target is refused, it is shown without.
+   */
   async openMission(body: string): Promise<void> {
     const turn = ++this.turn;
     try {
@@ -175,6 +183,7 @@ export class App {
       if (!volume || turn !== this.turn) throw new Superseded();
       this.openMissionWith(body, volume);
     } catch (error) {
+      if (turn === this.turn && (await this.openWithout(body, error, turn))) return;
       // It may have taken the place of an edit that waited.
       if (turn === this.turn && this.told < turn - 1) {
         if (error instanceof Stopped) this.fail(error);
@@ -188,15 +197,45 @@ export class App {
 
   /** `volume`: of that mission. */
   openMissionWith(body: string, volume: Volume): void {
-    const mission = missionFrom(body, volume.info, this.scene!);
+    const mission = this.takeMission(body, volume.info);
+    this.put(volume, structuredClone(mission), false);
+    this.accept(volume);
+  }
+
+  /** A mission that no volume is asked of: all that it says is kept. */
+  async openUncomputed(body: string): Promise<void> {
+    const info = await this.engine.read(body);
+    this.takeMission(body, info);
+    this.showWithout(info);
+  }
+
+  private takeMission(body: string, info: MissionInfo): Mission {
+    const mission = missionFrom(body, info, this.scene!);
     this.history.keep(this.mission);
     this.mission = mission;
     this.history.keep(mission);
     this.dragged = null;
     this.isDragged = false;
     this.told = this.turn;
-    this.put(volume, structuredClone(mission), false);
-    this.accept(volume);
+    return mission;
+  }
+
+  /** `error`: why it has no volume. False: it cannot be read either, or was stopped where there is another mission. */
+  private async openWithout(body: string, error: unknown, turn: number): Promise<boolean> {
+    if (error instanceof Superseded || (error instanceof Stopped && this.mission.target)) return false;
+    const info = await this.engine.read(body).catch(() => null);
+    if (!info || turn !== this.turn) return false;
+    this.takeMission(body, info);
+    this.showWithout(info);
+    this.fail(error);
+    return true;
+  }
+
+  private showWithout(info: MissionInfo): void {
+    this.clearVolume();
+    this.said = info;
+    this.zones.show(info.limits.zones);
+    this.showMission();
   }
 
   /** Shows the mission as it is, and asks for its volume: a draft of it in the middle of a drag, till it `isComplete`. */
@@ -246,7 +285,9 @@ export class App {
     } else if (polygon) {
       this.target.show([polygon.vertices], { isEditable: this.canEdit, fault: this.fault(polygon.vertices) });
     } else {
-      this.target.show(target ? (this.volume?.info.target ?? []) : [], { isEditable: false });
+      const parts = target?.kind === "written" ? this.mission.parts : target ? (this.volume?.info.target ?? []) : [];
+      const fault = this.failurePlace && this.failure !== "" ? { at: this.failurePlace, reason: this.failure } : null;
+      this.target.show(parts, { isEditable: false, fault });
     }
     this.boxes.show(this.mission.keepOut, this.canEdit);
     this.stage.request();
@@ -384,6 +425,7 @@ export class App {
   /** Shows a volume. `mission`: what it is of. */
   private put(volume: Volume, mission: Mission, isDraft: boolean): void {
     this.volume = volume;
+    this.said = volume.info;
     this.shownOf = mission;
     this.isDraft = isDraft;
     this.hasRestoreFailed = false;
@@ -399,7 +441,7 @@ export class App {
   /** Nothing of a volume is left. */
   private clearVolume(): void {
     this.endEye();
-    this.volume = this.shownOf = this.failurePlace = null;
+    this.volume = this.said = this.shownOf = this.failurePlace = null;
     this.isDraft = false;
     this.failure = "";
     this.volumeView.hide();
@@ -564,8 +606,11 @@ export class App {
   }
 
   lookAtTarget(): void {
-    if (!this.volume) return;
-    this.stage.lookAt(this.city.toView(this.volume.info.center), Math.min(this.volume.info.range_m, 1e4) * 3.2);
+    const { said } = this;
+    const corners = said?.target.flat() ?? [];
+    if (!said || corners.length === 0) return;
+    const middle = [0, 1, 2].map((axis) => corners.reduce((sum, corner) => sum + corner[axis]!, 0) / corners.length) as Point;
+    this.stage.lookAt(this.city.toView(this.volume?.info.center ?? middle), Math.min(said.range_m, 1e4) * 3.2);
   }
 
   showAll(): void {

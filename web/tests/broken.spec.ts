@@ -3,7 +3,7 @@ import { expect, test as plain, type Page } from "@playwright/test";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
-import { copiedLink, hasVolume, mission, open, openExample, page_url, plaza, settled, test, volume } from "./support";
+import { byProgram, copiedLink, hasVolume, mission, open, openExample, page_url, plaza, plazaMesh, savedMission, settled, test, volume } from "./support";
 
 plain("without WebGL the page says so", async ({ page }) => {
   await page.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null));
@@ -94,6 +94,82 @@ test("what else is given in map coordinates is not taken for the scene's", async
     await page.click("#link");
     await expect(page.locator("#hint")).toContainText(`gives its ${what} in EPSG:25832`);
   }
+});
+
+/** The tower's wall goes through its target. `limits`: all that the file says besides. */
+const PIERCED = "[[20, -3, 0], [26, -3, 0], [26, 0, 0], [20, 0, 0]]";
+const LIMITS = `sensor: {max_range: 90, incidence: 70, min_range: 4} # as agreed
+navigation:
+  altitude: [3, 50]
+  clearance: 2
+  keep_out:
+    - {min: [-9, -9, 20], max: [9, 9, 30]} # the crane
+    - {polygon: [[30, 30], [50, 30], [50, 50]], heights: any}
+tour: {aircraft: mavic_3e, climb: 4}
+exact: {tolerance: 0.02}
+`;
+
+test("a mission whose target is refused keeps its limits, and its target is drawn where it lies", async ({ page }) => {
+  await openExample(page);
+  const text = `scene: {mesh: plaza.obj}\n# where the flea market is\ntarget: {name: flea market, vertices: ${PIERCED}}\n${LIMITS}`;
+  await open(page, { name: "m.yaml", text }, plazaMesh);
+  await expect(page.locator("#hint")).toContainText("church_tower");
+  await expect(page.locator("#hint")).toHaveClass(/bad/);
+  await settled(page);
+  const { maxRange, minRange, incidence, altitude, keepOut, target } = await mission(page);
+  expect({ maxRange, minRange, incidence, altitude, keepOut, target: target.vertices }).toEqual({
+    maxRange: 90, minRange: 4, incidence: 70, altitude: [3, 50], keepOut: [{ min: [-9, -9, 20], max: [9, 9, 30] }], target: JSON.parse(PIERCED),
+  });
+  await expect(page.locator("#status")).toHaveText("There is no volume of this target");
+  await expect(page.locator("#range-number")).toHaveValue("90 m");
+  await expect(page.locator("#limit-lines")).toContainText("2 m from all that is not ground");
+  const drawn = () => page.evaluate(() => {
+    const { zones, target, volumeView, volume } = (window as any).vantage;
+    return { zones: zones.count, red: target.fill.visible && target.fill.material.color.getHex() === 0xc41230, volume, facets: volumeView.mesh?.visible };
+  });
+  expect(await drawn()).toMatchObject({ zones: 1, red: true, volume: null });
+
+  // A target that can be seen takes its place, and nothing else does.
+  const square = [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]];
+  await page.evaluate((vertices) => (window as any).vantage.edit((m: any) => (m.target = { kind: "polygon", vertices }), true), square);
+  await hasVolume(page);
+  await settled(page);
+  const saved = await savedMission(page);
+  const rest = (all: string) => all.slice(all.indexOf("sensor:")).replace(/\s+/g, "");
+  expect(rest(saved)).toBe(rest(text));
+  expect(saved).toContain("# where the flea market is");
+  expect(Math.abs((await volume(page)) / byProgram(saved) - 1)).toBeLessThan(1e-12);
+
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  await expect(page.locator("#hint")).toContainText("church_tower");
+  expect((await mission(page)).target.vertices).toEqual(JSON.parse(PIERCED));
+});
+
+test("a mission of several targets of which one is refused keeps all", async ({ page }) => {
+  await openExample(page);
+  const text = `targets:\n  - {point: [0, 0, 2]}\n  - {vertices: ${PIERCED}}\n${LIMITS}`;
+  await open(page, { name: "m.yaml", text });
+  await expect(page.locator("#hint")).toContainText("church_tower");
+  await settled(page);
+  expect(await mission(page)).toMatchObject({ maxRange: 90, target: { kind: "written" }, parts: [[[0, 0, 2]], JSON.parse(PIERCED)] });
+  await page.locator("#range").fill("40");
+  await settled(page);
+  expect(await mission(page)).toMatchObject({ maxRange: 40, incidence: 70, altitude: [3, 50] });
+});
+
+test("boxes that are not edited stay as they were written", async ({ page }) => {
+  await openExample(page);
+  const target = "target: {vertices: [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]]}";
+  await open(page, { name: "m.yaml", text: `${target}\n${LIMITS.replace("max: [9, 9, 30]", "max: [30 ft, 9, 30]")}` }, plazaMesh);
+  await expect.poll(async () => (await mission(page)).maxRange).toBe(90);
+  await page.click("#add-box");
+  await settled(page);
+  const saved = await savedMission(page);
+  expect(saved).toContain("max: [ 30 ft, 9, 30 ]");
+  expect(saved).toContain("# the crane");
+  expect(saved).toContain("heights: any");
+  expect((await mission(page)).keepOut.length).toBe(2);
 });
 
 const packedLink = (link: object) => gzipSync(JSON.stringify(link)).toString("base64url");

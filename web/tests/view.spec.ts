@@ -12,13 +12,14 @@ let server: ChildProcess;
 let address: string;
 
 test.describe("vantage view", () => {
-  test.beforeEach(async () => {
-    server = spawn(program, ["view", file, "--no-browser", "--page", join(root, "web/dist/index.html")]);
+  const serve = async (served: string) => {
+    server = spawn(program, ["view", served, "--no-browser", "--page", join(root, "web/dist/index.html")]);
     address = await new Promise((resolve, reject) => {
       server.stdout!.once("data", (text: Buffer) => resolve(text.toString().trim()));
       server.once("exit", (code) => reject(new Error(`the program ended with ${code}`)));
     });
-  });
+  };
+  test.beforeEach(() => serve(file));
   test.afterEach(() => server.kill("SIGINT"));
 
   test("serves its mission, which follows what is dragged", async ({ page }) => {
@@ -39,6 +40,23 @@ test.describe("vantage view", () => {
     await page.click("#prove");
     await expect(page.locator("#proof")).toContainText("Proved");
     expect(problems).toEqual([]);
+  });
+
+  test("a mission whose target is refused is shown with all its limits", async ({ page }) => {
+    const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+    const text = readFileSync(file, "utf8").replace("plaza.obj ", `${join(plaza, "plaza.obj")} `).replace("[11, 0, 0]", "[27, 0, 0]");
+    writeFileSync(join(folder, "refused.yaml"), text);
+    server.kill("SIGINT");
+    await serve(join(folder, "refused.yaml"));
+    await page.goto(address);
+    await expect(page.locator("#hint")).toContainText("church_tower");
+    await settled(page);
+    const { maxRange, altitude, keepOut, target } = await mission(page);
+    expect([maxRange, altitude, keepOut, target.vertices[2]]).toEqual([70, [3, 50], [{ min: [18, -10, 0], max: [35, 7, 43] }], [27, 0, 0]]);
+    await expect(page.locator("#status")).toHaveText("There is no volume of this target");
+    await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.target.vertices[2] = [11, 0, 0]), true));
+    await hasVolume(page);
+    expect(await savedMission(page)).toBe(text.replace("[27, 0, 0]", "[ 11, 0, 0 ]").replace(/\[(-?\d+), (-?\d+), 0\]/g, "[ $1, $2, 0 ]"));
   });
 
   test("stops what takes long, and shows the last volume", async ({ page }) => {

@@ -1,5 +1,5 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Section, ServedFlight, TargetVolume, ViewMesh, VolumeInfo } from "./messages";
+import type { About, Hello, MapArea, MissionInfo, Point, PointAnswer, Proof, SceneInfo, Section, ServedFlight, TargetVolume, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
@@ -96,6 +96,11 @@ export class Engine {
     } finally {
       if (--this.awaited === 0) this.waits = false;
     }
+  }
+
+  /** What a mission says; throws where it cannot be read, but not where its target is refused. */
+  async read(text: string): Promise<MissionInfo> {
+    return (await this.transport.ask({ call: "read", text })).value as MissionInfo;
   }
 
   /** The smallest area of the map where this is; null: there is none. */

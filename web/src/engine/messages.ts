@@ -17,6 +17,29 @@ export interface About {
   formats: string[];
 }
 
+/** Something that the scene's source says stands there, and that is not built as it stands. */
+export interface LedgerEntry {
+  name: string;
+  what: string;
+  /** why it is not built */
+  reason: string;
+  /** what holds its place; "": nothing does */
+  instead: string;
+  held: boolean;
+  may_be_larger: boolean;
+  /** where it is; empty: nobody knows */
+  rings: [number, number][][];
+  low: number;
+  high: number;
+}
+
+/** `worst`: what nothing holds the place of first; 500 at most. */
+export interface Ledger {
+  count: number;
+  held: number;
+  worst: LedgerEntry[];
+}
+
 export interface SceneInfo {
   hash: string;
   triangles: number;
@@ -33,6 +56,7 @@ export interface SceneInfo {
   /** whom pictures of it have to name; "": nobody is known */
   attribution: string;
   notes: string[];
+  ledger: Ledger;
   read_ms: number;
   prepare_ms: number;
 }
@@ -68,20 +92,24 @@ export interface Limits {
 
 export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor" | "unknown";
 
-export interface VolumeInfo {
+/** What a mission says, whether it has a volume or not. */
+export interface MissionInfo {
   /** of the target */
   name: string;
+  target: Point[][];
+  normal: Point;
+  /** as far as a volume may reach, whatever limits it */
+  range_m: number;
+  limits: Limits;
+}
+
+export interface VolumeInfo extends MissionInfo {
   outcome: string;
   reason: string;
   hint: string;
-  target: Point[][];
   center: Point;
-  normal: Point;
   /** what the volume claims of each position. `visible`: the least share of the target that it sees; 1: all of it */
   claim?: { visible: number; combine: "all" | "any" };
-  /** as far as the volume may reach, whatever limits it */
-  range_m: number;
-  limits: Limits;
   volume_m3: number;
   area_m2: number;
   facets: number;
@@ -160,6 +188,7 @@ export type Request =
   | { call: "shown" }
   | { call: "open"; text: string; file: string; files: Record<string, ArrayBuffer> }
   | { call: "compute"; text: string }
+  | { call: "read"; text: string }
   | { call: "query"; points: Point[] }
   | { call: "area"; points: [Point] }
   | { call: "flight" }

@@ -116,6 +116,8 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
       const value = callWith("compute", request.text);
       return { value, mesh: view(VOLUME) };
     }
+    case "read":
+      return { value: callWith("read", request.text) };
     case "query":
       return { value: query(request.points) };
     case "prove":

@@ -1,6 +1,6 @@
 // A mission as the page edits it, and as the text of a mission file (docs/mission-file.md).
 import { Document, isMap, isSeq, parseDocument, type Node, type YAMLMap, type YAMLSeq } from "yaml";
-import type { Box, Point, SceneInfo, VolumeInfo } from "../engine/messages";
+import type { Box, MissionInfo, Point, SceneInfo } from "../engine/messages";
 import { farHeight, readBand, writeBand, type Band, type BandKey } from "./heights";
 import { writtenQuantity, type QuantityKind } from "./quantity";
 
@@ -41,6 +41,8 @@ export interface Mission extends Controls {
   written: string;
   /** the controls as that file has them: what differs was edited */
   opened: Controls;
+  /** where the target of that file lies */
+  parts: Point[][];
   /** how far positions are from the target at most, metres */
   range: number;
   /** coordinates are written as multiples of this, metres */
@@ -70,7 +72,7 @@ export function emptyMission(scene: Extent = { min: [0, 0, 0], max: [100, 100, 0
     pixel: null,
   };
   return {
-    ...structuredClone(controls), written: "", opened: { ...controls, maxRange: null }, range, grain: grainOf(scene),
+    ...structuredClone(controls), written: "", opened: { ...controls, maxRange: null }, parts: [], range, grain: grainOf(scene),
     top: farthest([scene.min[2], scene.max[2]]), hasGround: false, hasPilot: false,
   };
 }
@@ -106,8 +108,8 @@ const DORI: Record<string, number> = { detection: 25, observation: 62, recogniti
 const numberIn = (document: Document, path: string[], kind: QuantityKind = "length"): number | null =>
   writtenQuantity(document.getIn(path), kind);
 
-/** A mission that was read, and what the engine says of it. */
-export function missionFrom(written: string, info: VolumeInfo, scene: Extent): Mission {
+/** A mission that was read, and what the engine says of it. Where that names no target (a volume to fly through) it has none. */
+export function missionFrom(written: string, info: MissionInfo, scene: Extent): Mission {
   const document = parseDocument(written) as unknown as Document;
   const { limits } = info;
   const cameraName = document.getIn(["sensor", "camera", "model"]);
@@ -120,7 +122,7 @@ export function missionFrom(written: string, info: VolumeInfo, scene: Extent): M
   const top = farthest([scene.min[2], scene.max[2], ground, ...info.target.flat().map(([, , z]) => z)]);
   const far = farHeight(top, maxRange);
   const controls: Controls = {
-    target: isOnePolygon ? { kind: "polygon", vertices: info.target[0]! } : { kind: "written" },
+    target: isOnePolygon ? { kind: "polygon", vertices: info.target[0]! } : info.target.length > 0 ? { kind: "written" } : null,
     maxRange,
     minRange: limits.min_range,
     incidence: limits.incidence,
@@ -136,7 +138,7 @@ export function missionFrom(written: string, info: VolumeInfo, scene: Extent): M
   const hasDefaultFront = document.hasIn(["target", "vertices"]) && !document.hasIn(["target", "front"]);
   if (controls.target?.kind === "polygon" && !hasDefaultFront) controls.target.front = info.normal;
   return {
-    ...structuredClone(controls), written, opened: controls, range: maxRange ?? info.range_m, grain: grainOf(scene), top,
+    ...structuredClone(controls), written, opened: controls, parts: info.target, range: maxRange ?? info.range_m, grain: grainOf(scene), top,
     hasGround: document.hasIn(["navigation", "ground"]), hasPilot: document.hasIn(["sensor", "vlos"]),
   };
 }
@@ -351,9 +353,18 @@ class Writer {
     const { document } = this;
     const path = ["navigation", "keep_out"];
     const list = document.getIn(path);
-    const others = isSeq(list) ? list.items.filter((item) => !(isMap(item) && item.has("min"))) : [];
+    const items = isSeq(list) ? list.items : [];
+    const isBox = (item: unknown) => isMap(item) && item.has("min");
+    const written = items.filter(isBox); // what was not edited stays as it was written
+    const { keepOut } = this.mission.opened;
+    const others = items.filter((item) => !isBox(item));
     const zones = document.createNode([]) as unknown as YAMLSeq;
     for (const box of boxes) {
+      const old = written.length === keepOut.length ? keepOut.findIndex((one) => !differs(one, box)) : -1;
+      if (old >= 0) {
+        zones.add(written[old]);
+        continue;
+      }
       const zone = document.createNode({}) as unknown as YAMLMap;
       zone.set("min", this.point(box.min));
       zone.set("max", this.point(box.max));

@@ -108,12 +108,14 @@ export class Files {
     const isFlownThrough = flight?.targets.some(({ isVolume }) => isVolume) ?? false; // then the mission has no volume
     try {
       if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
-      else if (!isFlownThrough && !isAlone) await app.openMission(body);
+      else if (isFlownThrough) await app.openUncomputed(body);
+      else if (!isAlone) await app.openMission(body);
     } finally {
       if (flight) app.flights.openServed(flight);
     }
     document.title = `${isAlone ? name : hello.name} · vantage`;
     if (isAlone) return showMessage("Draw a target, or pick a surface");
+    if (app.failure !== "") return app.lookAtTarget();
     // Of a tour no position need see all targets: that is no news.
     if (flight) showMessage("Play, or the slider below, flies it");
     app.lookAtTarget();

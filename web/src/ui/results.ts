@@ -1,15 +1,20 @@
 // What the panel says of the volume: numbers, what bounds it, its cut, its proof.
 import type { App } from "../app";
 import type { Volume } from "../engine/client";
+import type { Ledger } from "../engine/messages";
 import { large, quantity } from "../model/quantity";
+import { ledgerLine, ledgerText } from "../model/ledger";
 import { boundaryShares, claimText, volumeNumbers } from "../model/volume";
 import { KIND_COLOURS } from "../view/stage";
 import { isAt, setEnds } from "./limits";
 import { button, element, hex, input, showMessage, terms } from "./page";
 
+const LISTED = 20;
+
 export class Results {
   /** the volume that the proof is of */
   private judged: Volume | null = null;
+  private listed: Ledger | undefined;
 
   constructor(private readonly app: App) {
     input("cut").oninput = () => this.readCut();
@@ -87,6 +92,7 @@ export class Results {
       return item;
     }));
     this.showAllLimits();
+    this.showLedger();
     element("credit").textContent = this.app.scene?.attribution ?? "";
     element("credit").hidden = element("credit").textContent === "";
     button("prove").disabled = button("save").disabled = button("link").disabled = !volume;
@@ -95,11 +101,29 @@ export class Results {
     if (volume !== this.judged) element("proof").textContent = "";
   }
 
-  /** Also those that the page has no controls for. Of the volume that is shown. */
+  /** Also those that the page has no controls for. */
   private showAllLimits(): void {
-    const lines = this.app.volume?.info.limits.all ?? [];
+    const lines = this.app.said?.limits.all ?? [];
     element("all-limits").hidden = lines.length === 0;
     element("limit-lines").replaceChildren(...terms(lines.map(({ name, text }) => [name, text])));
+  }
+
+  /** What the scene's source has, and the scene has not as it stands. */
+  private showLedger(): void {
+    const { ledger } = this.app.scene ?? {};
+    if (ledger === this.listed) return;
+    this.listed = ledger;
+    element("ledger").hidden = !ledger || ledger.count === 0;
+    if (!ledger) return;
+    element("ledger-count").textContent = ledgerText(ledger);
+    const shown = ledger.worst.slice(0, LISTED);
+    const lines = shown.map(ledgerLine);
+    if (ledger.count > shown.length) lines.push(`and ${ledger.count - shown.length} more: vantage inspect lists all`);
+    element("ledger-list").replaceChildren(...lines.map((text) => {
+      const item = document.createElement("li");
+      item.textContent = text;
+      return item;
+    }));
   }
 
   private showNumbers(): void {

@@ -25,6 +25,23 @@ const LIT = new THREE.MeshBasicMaterial({
   color: LIT_COLOUR, transparent: true, opacity: 0.6, side: THREE.DoubleSide, depthWrite: false,
 });
 
+/** Lines from the lower left to the upper right of the screen, which move with nothing. */
+export function hatched(colour: number): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    uniforms: { colour: { value: new THREE.Color(colour) } }, side: THREE.DoubleSide,
+    vertexShader: "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+    fragmentShader: `uniform vec3 colour;
+      void main() {
+        if (mod(gl_FragCoord.x - gl_FragCoord.y, 9.0) > 2.5) discard;
+        gl_FragColor = vec4(colour, 1.0);
+        #include <colorspace_fragment>
+      }`,
+  });
+}
+
+/** Of blockers that hold the place of what is not built as it stands. */
+const STAND_IN = hatched(0x20262e);
+
 /** The triangles of what the file or the map calls ground, or else surface: as ground_of() of the library has it. */
 function groundOf({ objects }: SceneInfo, triangles: ArrayLike<number>, labels: Uint32Array): number[] {
   const wanted = objects.some(({ kind }) => kind === "ground") ? "ground" : "surface";
@@ -44,6 +61,7 @@ function orElse(values: number[], others: () => number[]): number[] {
 export class City {
   private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material> | null = null;
   private edges: THREE.LineSegments<THREE.BufferGeometry, THREE.Material> | null = null;
+  private readonly standIns = new THREE.Mesh(new THREE.BufferGeometry(), STAND_IN);
   private readonly lit = new THREE.Mesh(new THREE.BufferGeometry(), LIT);
   private litNames = "";
   private labels = new Uint32Array();
@@ -54,7 +72,7 @@ export class City {
   constructor(private readonly parent: THREE.Object3D) {
     this.lit.frustumCulled = false;
     this.lit.renderOrder = 1;
-    parent.add(this.lit);
+    parent.add(this.lit, this.standIns);
   }
 
   show(info: SceneInfo, view: ViewMesh): void {
@@ -71,12 +89,27 @@ export class City {
     });
     this.mesh = new THREE.Mesh(geometry, material);
     this.parent.add(this.mesh);
+    this.hatch(info, view);
     if (info.triangles > EDGES_UP_TO) return;
     const lines = new THREE.EdgesGeometry(geometry, 20);
     this.edges = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({
       color: 0x3a4250, transparent: true, opacity: 0.45,
     }));
     this.parent.add(this.edges);
+  }
+
+  private hatch({ objects }: SceneInfo, { triangles, labels }: ViewMesh): void {
+    const isStandIn = objects.map(({ kind }) => kind === "stand-in");
+    this.standIns.geometry.dispose();
+    this.standIns.geometry = new THREE.BufferGeometry();
+    if (!isStandIn.includes(true) || !this.mesh) return;
+    this.standIns.geometry.setAttribute("position", this.mesh.geometry.getAttribute("position"));
+    this.standIns.geometry.setIndex(new THREE.BufferAttribute(triangles.filter((_, i) => isStandIn[labels[Math.floor(i / 3)]!]), 1));
+  }
+
+  /** Corners of the triangles that are drawn hatched. */
+  get hatchedCorners(): number {
+    return this.standIns.geometry.getIndex()?.count ?? 0;
   }
 
   /** Colours the objects of these names, but for the ground, and where there are others. */

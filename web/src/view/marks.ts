@@ -1,7 +1,7 @@
-// Small things in the scene: keep-out boxes, zones, a slice, the point that is asked about.
+// Small things in the scene: keep-out boxes, zones, what is not built, a slice, the point that is asked about.
 import * as THREE from "three";
-import type { Box, Point, Section, Zone } from "../engine/messages";
-import type { City } from "./city";
+import type { Box, LedgerEntry, Point, Section, Zone } from "../engine/messages";
+import { hatched, type City } from "./city";
 import type { Pointer, Stage } from "./stage";
 
 const BROWN = 0x8a4b14;
@@ -26,8 +26,7 @@ export class BoxesView {
   }
 
   show(boxes: Box[], hasHandles: boolean): void {
-    for (const old of this.group.children) (old as THREE.Mesh).geometry.dispose();
-    this.group.clear();
+    clear(this.group);
     this.handles = hasHandles ? boxes.flatMap((box, i) => this.handlesOf(box, i)) : [];
     for (const box of boxes) {
       const low = this.city.toView(box.min);
@@ -65,6 +64,59 @@ export class BoxesView {
   }
 }
 
+type Prism = Pick<Zone, "rings" | "low" | "high">;
+
+/** Top and bottom of a prism, and what joins them at its corners. */
+function linesOf(city: City, { rings, low, high }: Prism): THREE.BufferGeometry {
+  const lines = rings.flatMap((ring) => ring.flatMap(([x, y], i) => {
+    const [nextX, nextY] = ring[(i + 1) % ring.length]!;
+    const at = (u: number, v: number, z: number) => city.toView([u, v, z]);
+    return [at(x, y, low), at(nextX, nextY, low), at(x, y, high), at(nextX, nextY, high), at(x, y, low), at(x, y, high)];
+  }));
+  return new THREE.BufferGeometry().setFromPoints(lines);
+}
+
+function bodyOf(city: City, { rings, low, high }: Prism, material: THREE.Material): THREE.Mesh {
+  const inView = ([x, y]: [number, number]) => city.toView([x, y, low]); // about the scene's origin: single precision
+  const [outer, ...holes] = rings.map((ring) => ring.map((corner) => new THREE.Vector2(inView(corner).x, inView(corner).y)));
+  const shape = new THREE.Shape(outer);
+  shape.holes = holes.map((hole) => new THREE.Path(hole));
+  const body = new THREE.Mesh(new THREE.ExtrudeGeometry(shape, { depth: high - low, bevelEnabled: false }), material);
+  body.position.z = inView([0, 0]).z;
+  return body;
+}
+
+function clear(group: THREE.Group): void {
+  for (const old of group.children) (old as THREE.Mesh).geometry.dispose();
+  group.clear();
+}
+
+const AMBER = 0xb26b00;
+const OPEN = hatched(AMBER);
+const OPEN_EDGES = new THREE.LineBasicMaterial({ color: AMBER });
+
+/** What the scene's source has and nothing in the scene holds the place of. Blockers that stand in are the city's. */
+export class LedgerView {
+  private readonly group = new THREE.Group();
+
+  constructor(parent: THREE.Object3D, private readonly city: City) {
+    parent.add(this.group);
+  }
+
+  show(entries: LedgerEntry[]): void {
+    clear(this.group);
+    for (const entry of entries.filter(({ held, rings }) => !held && rings.length > 0)) {
+      this.group.add(new THREE.LineSegments(linesOf(this.city, entry), OPEN_EDGES));
+      // Rings of a ledger may be parts of one that is open: each by itself.
+      for (const ring of entry.rings) if (ring.length > 2 && entry.high > entry.low) this.group.add(bodyOf(this.city, { ...entry, rings: [ring] }, OPEN));
+    }
+  }
+
+  get count(): number {
+    return this.group.children.filter((one) => one instanceof THREE.LineSegments).length;
+  }
+}
+
 const GREEN = 0x009e73;
 const KEPT_IN = new THREE.LineBasicMaterial({ color: GREEN });
 
@@ -77,36 +129,15 @@ export class ZonesView {
   }
 
   show(zones: Zone[]): void {
-    for (const old of this.group.children) (old as THREE.Mesh).geometry.dispose();
-    this.group.clear();
+    clear(this.group);
     for (const zone of zones) {
-      const lines = zone.rings.flatMap((ring) => this.linesOf(ring, zone));
-      this.group.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(lines), zone.kept_out ? EDGES : KEPT_IN));
-      if (zone.kept_out && zone.high > zone.low) this.group.add(this.bodyOf(zone)); // else all of it is out of reach
+      this.group.add(new THREE.LineSegments(linesOf(this.city, zone), zone.kept_out ? EDGES : KEPT_IN));
+      if (zone.kept_out && zone.high > zone.low) this.group.add(bodyOf(this.city, zone, BODY)); // else all of it is out of reach
     }
   }
 
   get count(): number {
     return this.group.children.filter((one) => one instanceof THREE.LineSegments).length;
-  }
-
-  /** Its top and its bottom, and what joins them at its corners. */
-  private linesOf(ring: [number, number][], { low, high }: Zone): THREE.Vector3[] {
-    return ring.flatMap(([x, y], i) => {
-      const [nextX, nextY] = ring[(i + 1) % ring.length]!;
-      const at = (u: number, v: number, z: number) => this.city.toView([u, v, z]);
-      return [at(x, y, low), at(nextX, nextY, low), at(x, y, high), at(nextX, nextY, high), at(x, y, low), at(x, y, high)];
-    });
-  }
-
-  private bodyOf({ rings, low, high }: Zone): THREE.Mesh {
-    const inView = ([x, y]: [number, number]) => this.city.toView([x, y, low]); // about the scene's origin: single precision
-    const [outer, ...holes] = rings.map((ring) => ring.map((corner) => new THREE.Vector2(inView(corner).x, inView(corner).y)));
-    const shape = new THREE.Shape(outer);
-    shape.holes = holes.map((hole) => new THREE.Path(hole));
-    const body = new THREE.Mesh(new THREE.ExtrudeGeometry(shape, { depth: high - low, bevelEnabled: false }), BODY);
-    body.position.z = inView([0, 0]).z;
-    return body;
   }
 }
 

@@ -55,7 +55,8 @@ export class TargetView {
     this.outline.geometry = new THREE.BufferGeometry().setFromPoints(sides);
     this.editable = options.isEditable || options.isOpen ? all.flat() : [];
     this.corners.geometry.dispose();
-    this.corners.geometry = new THREE.BufferGeometry().setFromPoints(this.editable);
+    const points = all.filter((part) => part.length === 1).flat();
+    this.corners.geometry = new THREE.BufferGeometry().setFromPoints(this.editable.length > 0 ? this.editable : points);
     this.faulty = options.fault ? { at: this.city.toView(options.fault.at), reason: options.fault.reason } : null;
     this.fault.geometry.dispose();
     this.fault.geometry = new THREE.BufferGeometry().setFromPoints(this.faulty ? [this.faulty.at] : []);
