@@ -1,5 +1,6 @@
 // glTF 2.0 and GLB (Khronos Group, glTF 2.0 Specification, ISO/IEC 12113:2022): the triangles of the default scene's
-// nodes, each moved by its node. Materials, skins, morph targets and animations are passed over.
+// nodes, each moved by its node, its skin and its default morph weights. Materials are passed over, and so are
+// animations: nodes stand where they do without. What else is not built is in the ledger.
 #include <Eigen/Geometry>
 #include <array>
 #include <map>
@@ -7,10 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "io/georeference_text.h"
 #include "io/gltf_document.h"
 #include "io/gltf_features.h"
+#include "io/gltf_pose.h"
 #include "io/gltf_tile.h"
+#include "io/ledger.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
 #include "io/object_text.h"
@@ -43,6 +47,7 @@ class GltfReader {
     struct Visit {
       std::uint64_t node;
       Eigen::Affine3d parent;
+      bool is_hidden = false;
     };
     std::vector<Visit> waiting;  // a stack: first come, last served
     const std::vector<std::uint64_t> roots = root_nodes();
@@ -58,18 +63,31 @@ class GltfReader {
       seen[visit.node] = true;
       progress_.report(visited_++, nodes_);
 
-      const Eigen::Affine3d world = visit.parent * local_transform(node);
-      if (const auto mesh = document_.whole(node, "mesh")) add_node(node, document_.item("meshes", *mesh), world);
+      const Eigen::Affine3d world = visit.parent * gltf::local_transform(document_, node);
+      const bool hidden = visit.is_hidden || is_hidden(node);
+      hidden_ += hidden && !visit.is_hidden ? 1 : 0;
+      const auto mesh = document_.whole(node, "mesh");
+      if (mesh && !hidden) add_node(node, document_.item("meshes", *mesh), world);
       const Json& children = document_.array(node, "children");
       for (auto child = children.rbegin(); child != children.rend(); ++child) {
-        waiting.push_back({document_.as_whole(*child, "children"), world});
+        waiting.push_back({document_.as_whole(*child, "children"), world, hidden});
       }
     }
+    tell_other_scenes(seen);
     RawMesh mesh = builder_.finish();
     mesh.georeference = georeference();
     mesh.rounding_m = rounding();
+    mesh.ledger = std::move(ledger_);
+    for (Missing& missing : stated_ledger()) mesh.ledger.push_back(std::move(missing));
+    if (hidden_ > 0) {
+      mesh.notes.push_back(core::count_text(hidden_, "node is hidden", "nodes are hidden") +
+                           " by the file (KHR_node_visibility), with all below: not built");
+    }
     return mesh;
   }
+
+  /// What is not built, where there is nothing else.
+  std::vector<Missing> take_ledger() { return std::move(ledger_); }
 
   UnreadableProperties unreadable_properties() const {
     return features_ ? features_->unreadable() : UnreadableProperties{};
@@ -81,21 +99,52 @@ class GltfReader {
   Vec3 center() const {
     const Json* const about = document_.extension(document_.root(), "CESIUM_RTC");
     if (!about) return Vec3::Zero();
-    const std::vector<double> center = numbers(*about, "center", {0, 0, 0});
+    const std::vector<double> center = gltf::numbers(document_, *about, "center", {0, 0, 0});
     return {center[0], center[1], center[2]};
   }
 
  private:
-  /// In the "extras" of the default scene or, as others may move it there, of the asset.
-  std::optional<Georeference> georeference() const {
+  /// KHR_node_visibility.
+  bool is_hidden(const Json& node) const {
+    const Json* const visibility = document_.extension(node, "KHR_node_visibility");
+    return visibility && visibility->value("visible", Json(true)) == Json(false);
+  }
+
+  /// The "extras" of the default scene and, as others may move them there, of the asset.
+  std::vector<const Json*> extras() const {
     const Json& root = document_.root();
     const Json& scenes = document_.array(root, "scenes");
-    std::vector<const Json*> holders;
+    std::vector<const Json*> holders, extras;
     if (!scenes.empty()) holders.push_back(&document_.item("scenes", document_.whole(root, "scene").value_or(0)));
     if (const auto asset = root.find("asset"); asset != root.end()) holders.push_back(&*asset);
     for (const Json* holder : holders) {
-      const auto extras = holder->find("extras");
-      const Json* found = extras == holder->end() ? nullptr : georeference_in(*extras);
+      if (const auto found = holder->find("extras"); found != holder->end()) extras.push_back(&*found);
+    }
+    return extras;
+  }
+
+  /// The ledger that vantage wrote: of the scene, z up.
+  std::vector<Missing> stated_ledger() const {
+    try {
+      for (const Json* extras : extras()) {
+        std::vector<Missing> ledger = ledger_in(*extras);
+        for (Missing& missing : ledger) {
+          if (const auto& box = missing.entry.box) {
+            missing.entry.box =
+                Box{Vec3(box->min.x(), box->min.z(), -box->max.y()), Vec3(box->max.x(), box->max.z(), -box->min.y())};
+          }
+        }
+        if (!ledger.empty()) return ledger;
+      }
+      return {};
+    } catch (const LedgerProblem& problem) {
+      document_.fail(problem.text);
+    }
+  }
+
+  std::optional<Georeference> georeference() const {
+    for (const Json* extras : extras()) {
+      const Json* found = georeference_in(*extras);
       if (!found) continue;
       try {
         return parse_georeference(*found);
@@ -143,40 +192,15 @@ class GltfReader {
     return roots;
   }
 
-  /// `count` numbers, or `otherwise` if the key is missing.
-  std::vector<double> numbers(const Json& object, const char* key, std::vector<double> otherwise) const {
-    if (!object.contains(key)) return otherwise;
-    const Json& values = document_.array(object, key);
-    if (values.size() != otherwise.size()) document_.fail(std::string("\"") + key + "\" of a node has a wrong length");
-    std::vector<double> result;
-    for (const Json& value : values) {
-      if (!value.is_number())
-        document_.fail(std::string("\"") + key + "\" of a node holds something other than numbers");
-      result.push_back(value.get<double>());
-    }
-    return result;
-  }
-
-  Eigen::Affine3d local_transform(const Json& node) const {
-    if (node.contains("matrix")) {
-      const std::vector<double> columns = numbers(node, "matrix", std::vector<double>(16));
-      Eigen::Affine3d transform;
-      transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
-      return transform;
-    }
-    const auto t = numbers(node, "translation", {0, 0, 0});
-    const auto r = numbers(node, "rotation", {0, 0, 0, 1});  // x, y, z, w
-    const auto s = numbers(node, "scale", {1, 1, 1});
-    return Eigen::Translation3d(t[0], t[1], t[2]) * Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized() *
-           Eigen::Scaling(s[0], s[1], s[2]);
-  }
-
   void add_node(const Json& node, const Json& mesh, const Eigen::Affine3d& world) {
     const Json* const instances = document_.extension(node, "EXT_mesh_gpu_instancing");
     if (!instances) {
       add_object(node, mesh);
-      add_mesh(mesh, world);
+      add_mesh(node, mesh, world);
       return;
+    }
+    if (gltf::Poses::has_skin(node)) {
+      document_.fail_as(ErrorCode::mesh_unsupported, "a node has both a skin and instances, which cannot be read");
     }
     const auto ids = features_ ? features_->of_node(node) : std::nullopt;
     const auto attributes = instances->find("attributes");
@@ -201,7 +225,7 @@ class GltfReader {
       } else {
         add_object(node, mesh);
       }
-      add_mesh(mesh, world * placed);
+      add_mesh(node, mesh, world * placed);
       progress_.tick(visited_, nodes_);
     }
   }
@@ -253,25 +277,37 @@ class GltfReader {
     builder_.set_object(object_);
   }
 
-  void add_mesh(const Json& mesh, const Eigen::Affine3d& world) {
+  void add_mesh(const Json& node, const Json& mesh, const Eigen::Affine3d& world) {
     const std::uint32_t own = object_;
     for (const Json& primitive : document_.array(mesh, "primitives")) {
       if (!primitive.is_object()) document_.fail("a primitive is not an object");
       const std::uint64_t mode = document_.whole(primitive, "mode").value_or(kTriangleList);
-      if (mode < kTriangleList || mode > kTriangleFan) continue;
       object_ = own;
       builder_.set_object(own);
-      add_primitive(primitive, static_cast<int>(mode), world);
+      add_primitive({node, mesh, primitive, world}, mode);
     }
   }
 
-  void add_primitive(const Json& primitive, int mode, const Eigen::Affine3d& world) {
+  struct Placed {
+    const Json &node, &mesh, &primitive;
+    const Eigen::Affine3d& world;  // of the node
+  };
+
+  void add_primitive(const Placed& placed, std::uint64_t mode) {
+    const Json& primitive = placed.primitive;
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object()) document_.fail("a primitive has no \"attributes\"");
+    const auto position_index = document_.whole(*attributes, "POSITION");
+    if (!position_index) {  // the specification allows it; there is nothing to draw
+      tell({}, placed, "a primitive without positions", "the file does not say where it is");
+      return;
+    }
+    if (mode < kTriangleList || mode > kTriangleFan) {
+      tell_thin(placed, mode, document_.accessor(*position_index));
+      return;
+    }
     const auto packed = document_.draco(primitive);
     if (packed) mode = kTriangleList;  // Draco gives a list, whatever the triangles were before
-    const auto position_index = document_.whole(*attributes, "POSITION");
-    if (!position_index) return;  // the specification allows it; there is nothing to draw
     if (packed && !packed->attributes.contains("POSITION")) document_.fail("its Draco data has no positions");
     const Accessor positions = packed ? packed->attributes.at("POSITION") : document_.accessor(*position_index);
     if (positions.components() != 3) document_.fail("a primitive's positions are not of type VEC3");
@@ -290,8 +326,9 @@ class GltfReader {
     const std::uint64_t corners = indices ? indices->count() : positions.count();
     const std::uint64_t triangles = mode == kTriangleList ? corners / 3 : corners < 3 ? 0 : corners - 2;
     check_total(triangles);
+    const gltf::Pose pose = poses_.of(placed.node, placed.mesh, primitive, positions, placed.world);
     start_vertices(positions.count());
-    const bool mirrored = world.linear().determinant() < 0;
+    const bool mirrored = pose.is_mirrored();
     for (std::uint64_t i = 0; i < triangles; ++i) {
       progress_.tick(visited_, nodes_);
       // The turn of a strip's every second triangle is reversed.
@@ -301,12 +338,91 @@ class GltfReader {
       Triangle triangle;
       const std::array<std::uint64_t, 3> corner = {first, second, second + 1};
       for (std::size_t k = 0; k < 3; ++k) {
-        triangle[k] = vertex(indices ? indices->index(corner[k]) : corner[k], positions, world);
+        triangle[k] = vertex(indices ? indices->index(corner[k]) : corner[k], pose);
       }
       if (mirrored != odd) std::swap(triangle[1], triangle[2]);
       if (features) set_object(*features, indices ? indices->index(first) : first, own);
       builder_.add_triangle(triangle);
     }
+  }
+
+  /// The entry of what is not built. The box is in the file's axes; `holds`: whether it may stand in.
+  void tell(const Box& box, const Placed& placed, std::string what, std::string reason, bool holds = false) {
+    if (ledger_.size() >= limits_.repeated_triangles)
+      document_.fail_as(ErrorCode::mesh_too_large, "it has too many parts");
+    LedgerEntry entry;
+    std::string name = document_.text(placed.node, "name");
+    if (name.empty()) name = document_.text(placed.mesh, "name");
+    entry.object = object_named(clean_name(name));
+    if (tile_) entry.object.source_id = tile_->name;
+    entry.what = std::move(what);
+    entry.reason = std::move(reason);
+    if (!box.empty()) entry.box = box;
+    if (holds && entry.box) {
+      ledger_.push_back(held_by_box(std::move(entry), box));
+    } else {
+      ledger_.push_back({std::move(entry), {}});
+    }
+  }
+
+  /// Points, whose box may stand in, and lines, which are as thin as nothing.
+  void tell_thin(const Placed& placed, std::uint64_t mode, const Accessor& positions) {
+    if (mode > kTriangleFan) document_.fail("a primitive has a mode that is not known");
+    if (positions.components() != 3) document_.fail("a primitive's positions are not of type VEC3");
+    tell(box_of(poses_.of(placed.node, placed.mesh, placed.primitive, positions, placed.world)), placed,
+         std::to_string(positions.count()) + (mode == 0 ? " points" : " points of lines"), "only triangles are built",
+         mode == 0);
+  }
+
+  Box box_of(const gltf::Pose& pose) {
+    checked_points_ += pose.count();
+    const std::uint64_t room = limits_.repeated_triangles + document_.buffer_bytes();
+    if (checked_points_ > room) {
+      document_.fail_as(ErrorCode::mesh_too_large,
+                        "its nodes repeat its points and lines to more than " + std::to_string(room));
+    }
+    Box box;
+    for (std::uint64_t i = 0; i < pose.count(); ++i) {
+      progress_.tick(visited_, nodes_);
+      const Vec3 point = pose.at(i);
+      if (point.allFinite()) box.extend(point);
+    }
+    return box;
+  }
+
+  /// Meshes that only other scenes than the default one have, or none.
+  void tell_other_scenes(const std::vector<bool>& seen) {
+    LedgerEntry entry;
+    std::size_t count = 0;
+    Box box;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Json& node = document_.item("nodes", i);
+      if (seen[i] || !node.contains("mesh")) continue;
+      if (count++ == 0) entry.object.name = clean_name(document_.text(node, "name"));
+      try {
+        const Json& mesh = document_.item("meshes", document_.required_whole(node, "mesh"));
+        for (const Json& primitive : document_.array(mesh, "primitives")) box.extend(box_of_unseen(i, mesh, primitive));
+      } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;  // what is garbled there hides nothing
+      }
+    }
+    if (count == 0) return;
+    entry.what = core::count_text(count, "node with a mesh", "nodes with meshes");
+    entry.reason = "not in the default scene of the file, but in another one or in none";
+    if (!box.empty()) entry.box = box;
+    ledger_.push_back({std::move(entry), {}});
+  }
+
+  /// Of a primitive of a node that the default scene does not have.
+  Box box_of_unseen(std::uint64_t number, const Json& mesh, const Json& primitive) {
+    if (!primitive.is_object()) return {};
+    const auto attributes = primitive.find("attributes");
+    const bool has_any = attributes != primitive.end() && attributes->is_object();
+    const auto positions = has_any ? document_.whole(*attributes, "POSITION") : std::nullopt;
+    if (!positions || document_.draco(primitive)) return {};
+    const Accessor accessor = document_.accessor(*positions);
+    if (accessor.components() != 3) return {};
+    return box_of(poses_.of(document_.item("nodes", number), mesh, primitive, accessor, poses_.world_of(number)));
   }
 
   /// The object of a triangle: that of the feature of its first corner, or else `own`, of the node.
@@ -334,15 +450,14 @@ class GltfReader {
     ++primitive_;
   }
 
-  std::uint32_t vertex(std::uint64_t index, const Accessor& positions, const Eigen::Affine3d& world) {
-    if (index >= positions.count()) {
+  std::uint32_t vertex(std::uint64_t index, const gltf::Pose& pose) {
+    if (index >= pose.count()) {
       document_.fail("a primitive refers to vertex " + std::to_string(index) + ", but has only " +
-                     std::to_string(positions.count()) + " (counted from 0)");
+                     std::to_string(pose.count()) + " (counted from 0)");
     }
     Known& known = vertex_of_[index];
     if (known.primitive != primitive_) {
-      const Vec3 position(positions.number(index, 0), positions.number(index, 1), positions.number(index, 2));
-      const Vec3 moved = world * position;
+      const Vec3 moved = pose.at(index);
       if (!moved.allFinite()) {
         document_.fail_as(ErrorCode::coordinate_not_finite,
                           "a coordinate of vertex " + std::to_string(index) + " is not finite");
@@ -363,6 +478,9 @@ class GltfReader {
   const TileContext* tile_;
   Document document_;
   MeshBuilder builder_;
+  gltf::Poses poses_{document_};
+  std::vector<Missing> ledger_;
+  std::uint64_t hidden_ = 0, checked_points_ = 0;
   std::optional<gltf::Features> features_;
   std::uint32_t object_ = 0;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t> object_of_feature_;  // table, id
@@ -383,7 +501,12 @@ TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& 
   progress.begin("parse glTF");
   GltfReader reader(source, progress, limits, &tile);
   TileMesh result;
-  result.mesh = reader.read();
+  try {
+    result.mesh = reader.read();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::mesh_empty) throw;
+    result.mesh.ledger = reader.take_ledger();
+  }
   result.center = reader.center();
   result.unreadable_properties = reader.unreadable_properties();
   result.features_by_texture = reader.features_by_texture();
