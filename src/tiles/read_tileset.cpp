@@ -72,6 +72,10 @@ std::size_t keep_within(Scene& scene, double radius_m) {
     new_index[i] = static_cast<std::uint32_t>(objects.size());
     objects.push_back(std::move(scene.objects[i]));
   }
+  for (LedgerEntry& entry : scene.ledger) {
+    if (entry.stand_in) entry.stand_in = new_index[*entry.stand_in];
+  }
+  std::erase_if(scene.ledger, [](const LedgerEntry& entry) { return entry.stand_in == kNoObject; });  // beyond, too
   const std::size_t left_out = scene.objects.size() - objects.size();
   scene.objects = std::move(objects);
   std::vector<std::uint32_t> new_vertex(scene.mesh.vertices.size(), kNoObject);
@@ -156,7 +160,8 @@ TilesetScene read(TileSource& source, const std::filesystem::path& file, const T
   const Reach reach = reach_of(world, bounds, options, file);
 
   Collector collected;
-  Walk(source, collected, reach, options.detail_m, result.report, progress, limits).run(document);
+  Walk(source, collected, {reach, options.detail_m, world, options.missing}, result.report, progress, limits)
+      .run(document);
   if (collected.triangles.empty()) fail_for_nothing(result.report, reach.is_limited(), file.string());
   result.scene = placed_scene(world, std::move(collected), options, file);
   if (options.radius_m) result.report.objects_outside = keep_within(result.scene, *options.radius_m);
