@@ -11,10 +11,9 @@ using ObjectJson = nlohmann::json;
 
 constexpr std::string_view kObjectMark = "vantage object:";
 
-constexpr std::array kObjectKinds = {ObjectKind::other,    ObjectKind::ground,        ObjectKind::surface,
-                                     ObjectKind::building, ObjectKind::building_part, ObjectKind::wall,
-                                     ObjectKind::tower,    ObjectKind::bridge,        ObjectKind::tree,
-                                     ObjectKind::stand_in};
+constexpr std::array kObjectKinds = {
+    ObjectKind::other, ObjectKind::ground, ObjectKind::surface, ObjectKind::building, ObjectKind::building_part,
+    ObjectKind::wall,  ObjectKind::tower,  ObjectKind::bridge,  ObjectKind::tree,     ObjectKind::stand_in};
 
 std::optional<ObjectKind> object_kind_named(std::string_view name) {
   for (const ObjectKind kind : kObjectKinds) {
@@ -22,6 +21,8 @@ std::optional<ObjectKind> object_kind_named(std::string_view name) {
   }
   return std::nullopt;
 }
+
+}  // namespace
 
 std::optional<SceneObject> parse_object(const ObjectJson& written) {
   if (!written.is_object()) return std::nullopt;
@@ -39,8 +40,6 @@ std::optional<SceneObject> parse_object(const ObjectJson& written) {
   }
   return object;
 }
-
-}  // namespace
 
 bool says_more_than_name(const SceneObject& object) { return !(object == object_named(display_name(object))); }
 

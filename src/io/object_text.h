@@ -19,6 +19,9 @@ std::string object_text(const SceneObject& object);
 /// The comment of an OBJ file that holds it: "vantage object: {…}".
 std::string object_comment(const SceneObject& object);
 
+/// Reads what object_text has written. Nothing for what is garbled.
+std::optional<SceneObject> parse_object(const nlohmann::json& written);
+
 /// Reads the value of "object" in the object "vantage" of `extras`. Nothing where it is missing or garbled: the name in
 /// the file then counts.
 std::optional<SceneObject> object_in(const nlohmann::json& extras);
