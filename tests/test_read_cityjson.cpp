@@ -440,10 +440,10 @@ TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
     const bool has_extent = entry.object.source_id == "extent";
     EXPECT_EQ(holder.triangles.size(), has_extent ? 12u : 0u) << entry.object.source_id;
     EXPECT_EQ(entry.box.has_value(), has_extent || entry.object.source_id == "tree") << entry.object.source_id;
-    if (entry.object.source_id == "empty") EXPECT_EQ(entry.height_m, 30);
-    if (entry.object.source_id == "extent") EXPECT_EQ(entry.height_m, 15);
-    if (entry.object.source_id == "tree") EXPECT_EQ(entry.box->min, Vec3(60, 70, 31));
   }
+  EXPECT_EQ(mesh.ledger[0].entry.height_m, 30);  // in the order of their ids
+  EXPECT_EQ(mesh.ledger[1].entry.height_m, 15);
+  EXPECT_EQ(mesh.ledger[4].entry.box->min, Vec3(60, 70, 31));
 }
 
 TEST(ReadCityJson, RaisesFootprintsToTheirHeight) {

@@ -137,20 +137,24 @@ def _curved(vertices: Numbers, faces: npt.NDArray[np.int64]) -> npt.NDArray[np.i
 
 
 def _thickened(vertices: Numbers, faces: npt.NDArray[np.int64], by_m: float) -> tuple[Numbers, npt.NDArray[np.int64]]:
-    """Closed boxes, one about each facet, that hold all that is no farther than `by_m` from it."""
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    rows = np.arange(len(faces))
-    sides = np.stack([b - a, c - b, a - c], axis=1)
-    longest = np.linalg.norm(sides, axis=2).argmax(axis=1)
-    start, along = np.stack([a, b, c], axis=1)[rows, longest], sides[rows, longest]
-    tip = np.stack([c, a, b], axis=1)[rows, longest] - start
-    length = np.linalg.norm(along, axis=1, keepdims=True)
-    along = along / length
-    across = tip - (tip * along).sum(axis=1, keepdims=True) * along
+    """Closed boxes, one about each facet, that hold all that is no farther than `by_m` from it. They stand on the side on
+    which they are smallest; half of a rectangle has that rectangle."""
+    rows, corner = np.arange(len(faces)), vertices[faces]
+    sides = np.roll(corner, -1, axis=1) - corner
+    tips = np.roll(corner, -2, axis=1) - corner
+    lengths = np.linalg.norm(sides, axis=2)
+    ends = (tips * sides).sum(axis=2) / lengths
+    longest = lengths == lengths.max(axis=1, keepdims=True)
+    widths = (np.maximum(lengths, ends) - np.minimum(0, ends)) / lengths * (1 + 1e-6 * longest)
+    best = widths.argmin(axis=1)
+    start, length, end = corner[rows, best], lengths[rows, best, None], ends[rows, best, None]
+    along = sides[rows, best] / length
+    across = tips[rows, best] - end * along
     height = np.linalg.norm(across, axis=1, keepdims=True)
     across = across / height
     normal = np.cross(along, across)
-    corners = [start + along * (length + by_m if i & 1 else -by_m) + across * (height + by_m if i & 2 else -by_m)
+    low, high = np.minimum(0, end) - by_m, np.maximum(length, end) + by_m
+    corners = [start + along * (high if i & 1 else low) + across * (height + by_m if i & 2 else -by_m)
                + normal * (by_m if i & 4 else -by_m) for i in range(8)]
     box = np.array([(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
                     (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)])
@@ -255,12 +259,12 @@ def _on_map(vertices: Numbers, conversion: Any, project_unit_m: float, unit_m: f
     return np.column_stack([flat, vertices[:, 2] + conversion.OrthogonalHeight * unit_m])
 
 
-def _in_frame(vertices: Numbers, file: Any, conversion: Any, crs: Any) -> tuple[Numbers, Georeference]:
-    """In the scene's frame, about the middle of the model."""
+def _in_frame(vertices: Numbers, count: int, file: Any, conversion: Any, crs: Any) -> tuple[Numbers, Georeference]:
+    """In the scene's frame, about the middle of the model: of the first `count` vertices. The others stand in."""
     unit_m = float(require("ifcopenshell.util.unit", "ifc").calculate_unit_scale(file))
     text = crs_text(crs if crs is not None else conversion.TargetCRS.Name)
     placed = _on_map(vertices, conversion, unit_m, _map_unit_m(text, conversion.TargetCRS.MapUnit))
-    middle = (placed[:, :2].min(axis=0) + placed[:, :2].max(axis=0)) / 2
+    middle = (placed[:count, :2].min(axis=0) + placed[:count, :2].max(axis=0)) / 2
     longitude, latitude = _degrees(middle, text)
     flat = _core.plan_from_crs(Georeference(latitude, longitude), text, np.ascontiguousarray(placed[:, :2]))
     vertical = conversion.TargetCRS.VerticalDatum or ""
@@ -319,6 +323,7 @@ def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, a
                for guid in missing]
     ledger += [Missing(SceneObject(""), "part of the model", f"IfcOpenShell could not convert it: {one[:300]}") for one in lost]
     objects = [_identity(file.by_guid(guid)) for guid in shapes]
+    count = sum(len(vertices) for vertices, _ in shapes.values())
     _thicken(shapes, objects, ledger, deflection_m, policy == "block")
     if ledger and policy == "refuse":
         first = ledger[0]
@@ -331,7 +336,7 @@ def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, a
     conversion = _conversion(file) if is_placed else None
     place = None
     if conversion is not None:
-        vertices, place = _in_frame(vertices, file, conversion, crs)
+        vertices, place = _in_frame(vertices, count, file, conversion, crs)
     return Model(vertices, faces, object_of, objects, place, _with_boxes(ledger, vertices[faces], object_of, objects))
 
 

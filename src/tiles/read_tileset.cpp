@@ -181,9 +181,8 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
   std::vector<std::string> notes;
   if (report.holes > 0) {
     notes.push_back(internal::core::format(
-        "{} of the tileset's files cannot be read: what they hold is missing, so that volumes may "
-        "claim too much behind it. The first: {}",
-        report.holes, report.first_hole));
+        "{} of the tileset's files cannot be read: the ledger says what holds their place. The first: {}", report.holes,
+        report.first_hole));
   }
   if (report.coarser_kept > 0) {
     notes.push_back(internal::core::format(
@@ -202,7 +201,7 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
                     ", which are not told apart: no images are read");
   }
   if (report.without_surfaces > 0) {
-    notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: passed over",
+    notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: see the ledger",
                                            report.without_surfaces));
   }
   notes.push_back(internal::core::format("the largest geometric error of a tile that was taken is {:.6g} m",
