@@ -124,7 +124,7 @@ def test_classes_can_be_left_out(tmp_path):
     scene = vt.Scene.from_laz(file, without=(7, 18))
     assert scene.bounds[1, 2] == pytest.approx(2)
     (_, what, _, box, *_), = scene._core.ledger_rows
-    assert what == "1 points of the classes 7, 18" and box[5] > 2
+    assert what == "points of the classes 7, 18: 1" and box[5] > 2
     assert refused(lambda: vt.Scene.from_laz(file, without=(2, 6, 7))).code == "nothing-given"
     refused(lambda: vt.Scene.from_laz(file, without=(300,)))
 

@@ -58,7 +58,7 @@ class _LeftOut:
         corners = moved(np.array([[x, y, z] for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])
                                   for z in (self.low[2], self.high[2])]))
         return [Missing(SceneObject("points", "", "surface"),
-                        f"{self.count:,} points of the classes {', '.join(map(str, self.classes))}",
+                        f"points of the classes {', '.join(map(str, self.classes))}: {self.count:,}",
                         "they are left out by choice (without)", [*corners.min(axis=0).tolist(), *corners.max(axis=0).tolist()])]
 
 
