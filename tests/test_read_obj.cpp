@@ -181,6 +181,11 @@ TEST(ReadObj, TakesBothDiagonalsWhereAFaceIsNotFlat) {
   const RawMesh mesh = read_quad("8");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}));
   EXPECT_TRUE(mesh.ledger.empty());
+  core::ReadLimits limits;
+  limits.both_diagonals = false;
+  const RawMesh once = read_as("a.obj", "v 30 30 0\nv 40 30 8\nv 40 40 0\nv 30 40 8\no roof\nf 1 2 3 4\n", limits);
+  EXPECT_EQ(once.triangles.size(), 2u);
+  EXPECT_EQ(once.ledger.size(), 1u);
   // Of more corners only one way is taken, and the ledger says how far it may be off.
   const RawMesh five = read_as("a.obj", "o roof\nv 0 0 0\nv 9 0 0\nv 9 9 2\nv 5 12 0\nv 0 9 0\nf 1 2 3 4 5\n");
   EXPECT_EQ(five.triangles.size(), 3u);

@@ -61,7 +61,7 @@ void MeshBuilder::add_face() {
   for (const std::uint32_t corner : corners_) polygon_.push_back(mesh_.vertices[corner]);
   ears_.clear();
   const double farthest = off_plane();
-  if (farthest > 0 && corners_.size() == 4) {
+  if (farthest > 0 && corners_.size() == 4 && limits_.both_diagonals) {
     add_triangle({corners_[0], corners_[1], corners_[2]});
     add_triangle({corners_[0], corners_[2], corners_[3]});
     add_triangle({corners_[0], corners_[1], corners_[3]});

@@ -106,6 +106,7 @@ namespace vantage {
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
   internal::core::ReadLimits limits;
   if (options.scale > 0) limits.unit_m = options.scale;
+  limits.both_diagonals = options.missing == MissingPolicy::block;
   internal::io::RawMesh raw = internal::io::read_mesh_file(file, progress, limits, options.lod);
   const bool was_projected = !raw.crs.empty() || !options.crs.empty();
   SceneReadOptions used = options;
