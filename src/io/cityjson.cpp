@@ -12,10 +12,10 @@
 #include "io/cityjson_document.h"
 #include "io/cityjson_surfaces.h"
 #include "io/json_text.h"
-#include "io/ledger.h"
 #include "io/lod.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
+#include "io/object_text.h"
 
 namespace vantage::internal::io {
 namespace {

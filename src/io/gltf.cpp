@@ -12,9 +12,7 @@
 #include "io/georeference_text.h"
 #include "io/gltf_document.h"
 #include "io/gltf_features.h"
-#include "io/gltf_pose.h"
 #include "io/gltf_tile.h"
-#include "io/ledger.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
 #include "io/object_text.h"
@@ -27,6 +25,210 @@ using gltf::Accessor;
 using gltf::Document;
 using gltf::FeatureIds;
 using gltf::Json;
+
+// ---- where vertices are
+
+/// By its matrix, or by translation, rotation and scale.
+Eigen::Affine3d local_transform(const Document& document, const Json& node);
+
+/// `otherwise.size()` numbers, or `otherwise` if the key is missing.
+std::vector<double> numbers(const Document& document, const Json& object, const char* key,
+                            std::vector<double> otherwise);
+
+class Pose {
+ public:
+  Vec3 at(std::uint64_t vertex) const;
+  std::uint64_t count() const { return positions_.count(); }
+  /// Whether the turn of triangles is reversed.
+  bool is_mirrored() const { return (joints_ ? joints_->front() : world_).linear().determinant() < 0; }
+
+ private:
+  friend class Poses;
+  Accessor positions_;
+  std::vector<std::pair<double, Accessor>> morphs_;        // weight, and how far each vertex moves
+  std::vector<std::pair<Accessor, Accessor>> influences_;  // joints and weights, four of each for a vertex
+  const std::vector<Eigen::Affine3d>* joints_ = nullptr;   // of the skin; null where there is none
+  Eigen::Affine3d world_ = Eigen::Affine3d::Identity();    // of the node
+  const Document* document_ = nullptr;
+};
+
+class Poses {
+ public:
+  explicit Poses(Document& document) : document_(document) {}
+
+  /// Of a primitive of `mesh`, which `node` has, with the positions that the caller found. `world`: of the node.
+  Pose of(const Json& node, const Json& mesh, const Json& primitive, const Accessor& positions,
+          const Eigen::Affine3d& world);
+  /// Whether the node's mesh has a skin.
+  static bool has_skin(const Json& node) { return node.contains("skin"); }
+  /// Of a node, whichever scene it is in.
+  const Eigen::Affine3d& world_of(std::uint64_t node);
+
+ private:
+  void add_morphs(Pose& pose, const Json& node, const Json& mesh, const Json& primitive);
+  void add_skin(Pose& pose, const Json& node, const Json& attributes);
+  const std::vector<Eigen::Affine3d>& joints(std::uint64_t skin);
+  void stand_up();
+
+  Document& document_;
+  std::vector<std::optional<Eigen::Affine3d>> worlds_;            // of all nodes, when one is asked for
+  std::map<std::uint64_t, std::vector<Eigen::Affine3d>> joints_;  // by skin: from bind pose into the world
+};
+
+std::vector<double> numbers(const Document& document, const Json& object, const char* key,
+                            std::vector<double> otherwise) {
+  if (!object.contains(key)) return otherwise;
+  const Json& values = document.array(object, key);
+  if (values.size() != otherwise.size()) document.fail(std::string("\"") + key + "\" of a node has a wrong length");
+  std::vector<double> result;
+  for (const Json& value : values) {
+    if (!value.is_number()) document.fail(std::string("\"") + key + "\" of a node holds something other than numbers");
+    result.push_back(value.get<double>());
+  }
+  return result;
+}
+
+Eigen::Affine3d local_transform(const Document& document, const Json& node) {
+  if (node.contains("matrix")) {
+    const std::vector<double> columns = numbers(document, node, "matrix", std::vector<double>(16));
+    Eigen::Affine3d transform;
+    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
+    return transform;
+  }
+  const auto t = numbers(document, node, "translation", {0, 0, 0});
+  const auto r = numbers(document, node, "rotation", {0, 0, 0, 1});  // x, y, z, w
+  const auto s = numbers(document, node, "scale", {1, 1, 1});
+  return Eigen::Translation3d(t[0], t[1], t[2]) * Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized() *
+         Eigen::Scaling(s[0], s[1], s[2]);
+}
+
+Vec3 Pose::at(std::uint64_t vertex) const {
+  const auto vector = [vertex](const Accessor& values) {
+    return Vec3(values.number(vertex, 0), values.number(vertex, 1), values.number(vertex, 2));
+  };
+  Vec3 position = vector(positions_);
+  for (const auto& [weight, offsets] : morphs_) position += weight * vector(offsets);
+  if (!joints_) return world_ * position;
+  Vec3 sum = Vec3::Zero();
+  double weights = 0;
+  for (const auto& [joints, weights_of] : influences_) {
+    for (int k = 0; k < 4; ++k) {
+      const double weight = weights_of.number(vertex, k);
+      if (weight == 0) continue;
+      const double joint = joints.number(vertex, k);
+      if (!(joint >= 0 && joint < static_cast<double>(joints_->size()))) {
+        document_->fail("a vertex is moved by a joint that its skin does not have");
+      }
+      sum += weight * ((*joints_)[static_cast<std::size_t>(joint)] * position);
+      weights += weight;
+    }
+  }
+  if (!(weights > 0)) document_->fail("the weights of a vertex that a skin moves are 0");
+  return sum / weights;  // they are 1 together but for their rounding
+}
+
+Pose Poses::of(const Json& node, const Json& mesh, const Json& primitive, const Accessor& positions,
+               const Eigen::Affine3d& world) {
+  Pose pose;
+  pose.document_ = &document_;
+  pose.positions_ = positions;
+  pose.world_ = world;
+  add_morphs(pose, node, mesh, primitive);
+  if (has_skin(node)) add_skin(pose, node, primitive["attributes"]);
+  return pose;
+}
+
+void Poses::add_morphs(Pose& pose, const Json& node, const Json& mesh, const Json& primitive) {
+  const Json& targets = document_.array(primitive, "targets");
+  if (targets.empty()) return;
+  const Json& holder = node.contains("weights") ? node : mesh;
+  const std::vector<double> weights = numbers(document_, holder, "weights", std::vector<double>(targets.size()));
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!targets[i].is_object()) document_.fail("a morph target is not an object");
+    const auto index = document_.whole(targets[i], "POSITION");
+    if (weights[i] == 0 || !index) continue;
+    const Accessor offsets = document_.accessor(*index);
+    if (offsets.components() != 3 || offsets.count() != pose.count()) {
+      document_.fail("a morph target does not move all vertices of its primitive");
+    }
+    pose.morphs_.emplace_back(weights[i], offsets);
+  }
+}
+
+/// Primitives without joints are moved by the node.
+void Poses::add_skin(Pose& pose, const Json& node, const Json& attributes) {
+  for (int set = 0;; ++set) {
+    const std::string end = "_" + std::to_string(set);
+    const auto joints = document_.whole(attributes, ("JOINTS" + end).c_str());
+    const auto weights = document_.whole(attributes, ("WEIGHTS" + end).c_str());
+    if (!joints || !weights) break;
+    const std::pair<Accessor, Accessor> influence(document_.accessor(*joints), document_.accessor(*weights));
+    for (const Accessor& values : {influence.first, influence.second}) {
+      if (values.components() == 4 && values.count() == pose.count()) continue;
+      document_.fail("the joints or weights of a skin are not four for each vertex");
+    }
+    pose.influences_.push_back(influence);
+  }
+  if (!pose.influences_.empty()) pose.joints_ = &joints(document_.required_whole(node, "skin"));
+}
+
+const std::vector<Eigen::Affine3d>& Poses::joints(std::uint64_t skin) {
+  if (const auto known = joints_.find(skin); known != joints_.end()) return known->second;
+  const Json& described = document_.item("skins", skin);
+  const Json& nodes = document_.array(described, "joints");
+  if (nodes.empty()) document_.fail("a skin has no joints");
+  std::optional<Accessor> inverse;
+  if (const auto index = document_.whole(described, "inverseBindMatrices")) {
+    inverse = document_.accessor(*index);
+    if (inverse->components() != 16 || inverse->count() < nodes.size()) {
+      document_.fail("a skin has no inverse bind matrix for each of its joints");
+    }
+  }
+  std::vector<Eigen::Affine3d> result;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Eigen::Affine3d bind = Eigen::Affine3d::Identity();
+    for (int k = 0; inverse && k < 16; ++k) bind.matrix()(k % 4, k / 4) = inverse->number(i, k);
+    result.push_back(world_of(document_.as_whole(nodes[i], "joints")) * bind);
+  }
+  return joints_[skin] = std::move(result);
+}
+
+const Eigen::Affine3d& Poses::world_of(std::uint64_t node) {
+  if (worlds_.empty()) stand_up();
+  document_.item("nodes", node);  // throws where there is none
+  if (!worlds_[node]) document_.fail("node " + std::to_string(node) + ", a joint, is its own parent");
+  return *worlds_[node];
+}
+
+/// The transforms of all nodes, from those without a parent on. Nodes that are their own parents get none.
+void Poses::stand_up() {
+  const std::size_t count = document_.array(document_.root(), "nodes").size();
+  worlds_.resize(count);
+  std::vector<std::optional<std::uint64_t>> parent(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const Json& child : document_.array(document_.item("nodes", i), "children")) {
+      const std::uint64_t index = document_.as_whole(child, "children");
+      if (index < count) parent[index] = i;
+    }
+  }
+  std::vector<std::uint64_t> waiting;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!parent[i]) waiting.push_back(i);
+  }
+  while (!waiting.empty()) {
+    const std::uint64_t node = waiting.back();
+    waiting.pop_back();
+    const Json& described = document_.item("nodes", node);
+    const Eigen::Affine3d above = parent[node] ? *worlds_[*parent[node]] : Eigen::Affine3d::Identity();
+    worlds_[node] = above * local_transform(document_, described);
+    for (const Json& child : document_.array(described, "children")) {
+      const std::uint64_t index = document_.as_whole(child, "children");
+      if (index < count && parent[index] == node && !worlds_[index]) waiting.push_back(index);
+    }
+  }
+}
+
+// ---- the reader
 
 enum PrimitiveMode { kTriangleList = 4, kTriangleStrip, kTriangleFan };
 
@@ -63,7 +265,7 @@ class GltfReader {
       seen[visit.node] = true;
       progress_.report(visited_++, nodes_);
 
-      const Eigen::Affine3d world = visit.parent * gltf::local_transform(document_, node);
+      const Eigen::Affine3d world = visit.parent * local_transform(document_, node);
       const bool hidden = visit.is_hidden || is_hidden(node);
       hidden_ += hidden && !visit.is_hidden ? 1 : 0;
       const auto mesh = document_.whole(node, "mesh");
@@ -77,7 +279,7 @@ class GltfReader {
     RawMesh mesh = builder_.finish();
     mesh.georeference = georeference();
     mesh.rounding_m = rounding();
-    mesh.ledger = std::move(ledger_);
+    mesh.ledger = ledger();
     for (Missing& missing : stated_ledger()) mesh.ledger.push_back(std::move(missing));
     if (hidden_ > 0) {
       mesh.notes.push_back(core::count_text(hidden_, "node is hidden", "nodes are hidden") +
@@ -86,8 +288,13 @@ class GltfReader {
     return mesh;
   }
 
-  /// What is not built, where there is nothing else.
-  std::vector<Missing> take_ledger() { return std::move(ledger_); }
+  /// What is not built, also where there is nothing else.
+  std::vector<Missing> ledger() const {
+    std::vector<Missing> ledger;
+    for (const Unbuilt& unbuilt : unbuilt_) ledger.push_back(told(unbuilt));
+    if (elsewhere_) ledger.push_back({*elsewhere_, {}});
+    return ledger;
+  }
 
   UnreadableProperties unreadable_properties() const {
     return features_ ? features_->unreadable() : UnreadableProperties{};
@@ -99,7 +306,7 @@ class GltfReader {
   Vec3 center() const {
     const Json* const about = document_.extension(document_.root(), "CESIUM_RTC");
     if (!about) return Vec3::Zero();
-    const std::vector<double> center = gltf::numbers(document_, *about, "center", {0, 0, 0});
+    const std::vector<double> center = numbers(document_, *about, "center", {0, 0, 0});
     return {center[0], center[1], center[2]};
   }
 
@@ -199,7 +406,7 @@ class GltfReader {
       add_mesh(node, mesh, world);
       return;
     }
-    if (gltf::Poses::has_skin(node)) {
+    if (Poses::has_skin(node)) {
       document_.fail_as(ErrorCode::mesh_unsupported, "a node has both a skin and instances, which cannot be read");
     }
     const auto ids = features_ ? features_->of_node(node) : std::nullopt;
@@ -299,7 +506,7 @@ class GltfReader {
     if (attributes == primitive.end() || !attributes->is_object()) document_.fail("a primitive has no \"attributes\"");
     const auto position_index = document_.whole(*attributes, "POSITION");
     if (!position_index) {  // the specification allows it; there is nothing to draw
-      tell({}, placed, "a primitive without positions", "the file does not say where it is");
+      count_unbuilt(placed, Kind::unplaced, 1, {});
       return;
     }
     if (mode < kTriangleList || mode > kTriangleFan) {
@@ -326,7 +533,7 @@ class GltfReader {
     const std::uint64_t corners = indices ? indices->count() : positions.count();
     const std::uint64_t triangles = mode == kTriangleList ? corners / 3 : corners < 3 ? 0 : corners - 2;
     check_total(triangles);
-    const gltf::Pose pose = poses_.of(placed.node, placed.mesh, primitive, positions, placed.world);
+    const Pose pose = poses_.of(placed.node, placed.mesh, primitive, positions, placed.world);
     start_vertices(positions.count());
     const bool mirrored = pose.is_mirrored();
     for (std::uint64_t i = 0; i < triangles; ++i) {
@@ -346,35 +553,51 @@ class GltfReader {
     }
   }
 
-  /// The entry of what is not built. The box is in the file's axes; `holds`: whether it may stand in.
-  void tell(const Box& box, const Placed& placed, std::string what, std::string reason, bool holds = false) {
-    if (ledger_.size() >= limits_.repeated_triangles)
-      document_.fail_as(ErrorCode::mesh_too_large, "it has too many parts");
-    LedgerEntry entry;
-    std::string name = document_.text(placed.node, "name");
-    if (name.empty()) name = document_.text(placed.mesh, "name");
-    entry.object = object_named(clean_name(name));
-    if (tile_) entry.object.source_id = tile_->name;
-    entry.what = std::move(what);
-    entry.reason = std::move(reason);
-    if (!box.empty()) entry.box = box;
-    if (holds && entry.box) {
-      ledger_.push_back(held_by_box(std::move(entry), box));
-    } else {
-      ledger_.push_back({std::move(entry), {}});
-    }
+  /// What of a node's mesh is not built, all its instances together.
+  enum class Kind { points, lines, unplaced };
+  struct Unbuilt {
+    const Json *node, *mesh;
+    Kind kind;
+    std::uint64_t count = 0;  // of points, or of primitives
+    Box box = {};
+  };
+
+  void count_unbuilt(const Placed& placed, Kind kind, std::uint64_t count, const Box& box) {
+    const auto [entry, is_new] = unbuilt_number_.try_emplace({&placed.node, kind}, unbuilt_.size());
+    if (is_new) unbuilt_.push_back({&placed.node, &placed.mesh, kind});
+    Unbuilt& unbuilt = unbuilt_[entry->second];
+    unbuilt.count += count;
+    unbuilt.box.extend(box);
   }
 
-  /// Points, whose box may stand in, and lines, which are as thin as nothing.
+  /// Points are held by their box; lines are as thin as nothing.
+  Missing told(const Unbuilt& unbuilt) const {
+    LedgerEntry entry;
+    std::string name = document_.text(*unbuilt.node, "name");
+    if (name.empty()) name = document_.text(*unbuilt.mesh, "name");
+    entry.object = object_named(clean_name(name));
+    if (tile_) entry.object.source_id = tile_->name;
+    entry.reason = "only triangles are built";
+    if (unbuilt.kind == Kind::points) entry.what = core::count_text(unbuilt.count, "point", "points");
+    if (unbuilt.kind == Kind::lines) entry.what = core::count_text(unbuilt.count, "point of lines", "points of lines");
+    if (unbuilt.kind == Kind::unplaced) {
+      entry.what = core::count_text(unbuilt.count, "primitive without positions", "primitives without positions");
+      entry.reason = "the file does not say where it is";
+    }
+    if (unbuilt.box.empty()) return {std::move(entry), {}};
+    if (unbuilt.kind == Kind::points) return held_by_box(std::move(entry), unbuilt.box);
+    entry.box = unbuilt.box;
+    return {std::move(entry), {}};
+  }
+
   void tell_thin(const Placed& placed, std::uint64_t mode, const Accessor& positions) {
     if (mode > kTriangleFan) document_.fail("a primitive has a mode that is not known");
     if (positions.components() != 3) document_.fail("a primitive's positions are not of type VEC3");
-    tell(box_of(poses_.of(placed.node, placed.mesh, placed.primitive, positions, placed.world)), placed,
-         std::to_string(positions.count()) + (mode == 0 ? " points" : " points of lines"), "only triangles are built",
-         mode == 0);
+    const Pose pose = poses_.of(placed.node, placed.mesh, placed.primitive, positions, placed.world);
+    count_unbuilt(placed, mode == 0 ? Kind::points : Kind::lines, positions.count(), box_of(pose));
   }
 
-  Box box_of(const gltf::Pose& pose) {
+  Box box_of(const Pose& pose) {
     checked_points_ += pose.count();
     const std::uint64_t room = limits_.repeated_triangles + document_.buffer_bytes();
     if (checked_points_ > room) {
@@ -410,7 +633,7 @@ class GltfReader {
     entry.what = core::count_text(count, "node with a mesh", "nodes with meshes");
     entry.reason = "not in the default scene of the file, but in another one or in none";
     if (!box.empty()) entry.box = box;
-    ledger_.push_back({std::move(entry), {}});
+    elsewhere_ = std::move(entry);
   }
 
   /// Of a primitive of a node that the default scene does not have.
@@ -450,7 +673,7 @@ class GltfReader {
     ++primitive_;
   }
 
-  std::uint32_t vertex(std::uint64_t index, const gltf::Pose& pose) {
+  std::uint32_t vertex(std::uint64_t index, const Pose& pose) {
     if (index >= pose.count()) {
       document_.fail("a primitive refers to vertex " + std::to_string(index) + ", but has only " +
                      std::to_string(pose.count()) + " (counted from 0)");
@@ -478,8 +701,10 @@ class GltfReader {
   const TileContext* tile_;
   Document document_;
   MeshBuilder builder_;
-  gltf::Poses poses_{document_};
-  std::vector<Missing> ledger_;
+  Poses poses_{document_};
+  std::vector<Unbuilt> unbuilt_;
+  std::map<std::pair<const Json*, Kind>, std::size_t> unbuilt_number_;  // by node
+  std::optional<LedgerEntry> elsewhere_;                                // in other scenes
   std::uint64_t hidden_ = 0, checked_points_ = 0;
   std::optional<gltf::Features> features_;
   std::uint32_t object_ = 0;
@@ -505,7 +730,7 @@ TileMesh read_gltf_tile(const MeshSource& source, const core::ProgressReporter& 
     result.mesh = reader.read();
   } catch (const Error& error) {
     if (error.code() != ErrorCode::mesh_empty) throw;
-    result.mesh.ledger = reader.take_ledger();
+    result.mesh.ledger = reader.ledger();
   }
   result.center = reader.center();
   result.unreadable_properties = reader.unreadable_properties();

@@ -5,8 +5,8 @@
 #include <new>
 #include <utility>
 
-#include "io/ledger.h"
 #include "io/mesh_readers.h"
+#include "io/object_text.h"
 #include "io/sidecar.h"
 #include "io/text_cursor.h"
 #include "io/tileset.h"

@@ -12,7 +12,6 @@
 #include "core/text.h"
 #include "io/axes_text.h"
 #include "io/georeference_text.h"
-#include "io/ledger.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
 #include "io/object_text.h"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "geo/local_frame.h"
-#include "io/ledger.h"
 #include "io/mesh_file.h"
+#include "io/object_text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::io {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "io/georeference_text.h"
-#include "io/ledger.h"
+#include "io/object_text.h"
 #include "io/rounding_text.h"
 #include "io/text_cursor.h"
 

@@ -4,7 +4,7 @@
 
 #include "common/output.h"
 #include "io/georeference_text.h"
-#include "io/ledger.h"
+#include "io/object_text.h"
 #include "io/rounding_text.h"
 #include "vantage/error.h"
 

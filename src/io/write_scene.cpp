@@ -8,7 +8,6 @@
 #include "core/volume_check.h"
 #include "io/axes_text.h"
 #include "io/georeference_text.h"
-#include "io/ledger.h"
 #include "io/object_text.h"
 #include "io/output_formats.h"
 #include "io/scene_writers.h"

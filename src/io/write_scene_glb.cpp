@@ -9,7 +9,6 @@
 
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
-#include "io/ledger.h"
 #include "io/object_text.h"
 #include "io/scene_writers.h"
 #include "io/writers.h"

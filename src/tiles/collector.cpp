@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "io/ledger.h"
+#include "io/object_text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/ledger.h"
+#include "io/object_text.h"
 #include "tiles/instances.h"
 #include "tiles/tables.h"
 #include "vantage/error.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/read_limits.h"
-#include "io/ledger.h"
 #include "io/mesh_file.h"
+#include "io/object_text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {
