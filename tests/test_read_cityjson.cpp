@@ -430,7 +430,8 @@ TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
   objects["empty"] = {{"type", "Building"}, {"attributes", {{"measuredHeight", 30}}}, {"geometry", json::array()}};
   objects["extent"] = {{"type", "Bridge"}, {"geographicalExtent", {100, 100, 30, 120, 110, 45}}};
   objects["garbled"] = {{"type", "Bridge"}, {"geographicalExtent", {100, 100, 30, 0, 0, 0}}};
-  objects["tree"] = {{"type", "SolitaryVegetationObject"}, {"geometry", {geometry("MultiPoint", "1", {8})}}};
+  objects["tree"] = {{"type", "SolitaryVegetationObject"},
+                     {"geometry", json::array({geometry("MultiPoint", "1", json::array({8}))})}};
   objects["parent"] = {{"type", "Building"}, {"children", {"b1"}}};
   objects["orphaned"] = {{"type", "Building"}, {"children", {"gone"}}};
   const RawMesh mesh = read(file);
@@ -449,7 +450,7 @@ TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
 TEST(ReadCityJson, RaisesFootprintsToTheirHeight) {
   json file = document();
   json& building = file["CityObjects"]["b1"];
-  building["geometry"] = {geometry("MultiSurface", "0", {{{0, 1, 3, 2}}})};
+  building["geometry"] = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
   EXPECT_TRUE(read(file).ledger.at(0).holder.triangles.empty());
   building["attributes"]["measuredHeight"] = 30;
   const RawMesh mesh = read(file);

@@ -407,6 +407,8 @@ TEST(ReadGltf, PutsWhatIsNotBuiltIntoTheLedger) {
   EXPECT_TRUE(mesh.ledger[1].holder.triangles.empty());
   EXPECT_FALSE(mesh.ledger[2].entry.box);
   EXPECT_EQ(mesh.ledger[3].entry.box->max, Vec3(51, 1, 0));
+  gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = json::array({2});  // a coarser form of what is built
+  EXPECT_EQ(read(gltf).ledger.size(), 3u);
 }
 
 }  // namespace

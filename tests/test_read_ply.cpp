@@ -184,7 +184,7 @@ TEST(ReadPly, ReadsStripsOfTriangles) {
   const RawMesh mesh = read_as("a.ply", text + "11 0 1 2 3 -1 1 2 -1 3 2 1\n");
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}, {3, 2, 1}}));
   // Corners that repeat only lead on.
-  EXPECT_EQ(read_as("a.ply", text + "6 0 1 1 2 3 3\n").triangles, (std::vector<Triangle>{{1, 3, 2}}));
+  EXPECT_EQ(read_as("a.ply", text + "6 0 1 1 2 3 3\n").triangles, (std::vector<Triangle>{{1, 2, 3}}));
 }
 
 TEST(ReadPly, PutsElementsThatReferToVerticesIntoTheLedger) {

@@ -279,7 +279,7 @@ TEST(WriteScene, KeepsTheLedgerInEveryFormat) {
     const Scene read = read_scene(folder / name);
     ASSERT_EQ(read.ledger.size(), 3u);
     const LedgerEntry& held = read.ledger[0];
-    EXPECT_EQ(held.object, (SceneObject{"Wal\"l?", "relation/7", ObjectKind::building}));
+    EXPECT_EQ(held.object, (SceneObject{"Wal\"l", "relation/7", ObjectKind::building}));
     EXPECT_EQ(held.what, "relation");
     EXPECT_EQ(held.reason, scene.ledger[0].reason);
     ASSERT_TRUE(held.box);

@@ -275,6 +275,7 @@ class GltfReader {
         waiting.push_back({document_.as_whole(*child, "children"), world, hidden});
       }
     }
+    pass_coarser(seen);
     tell_other_scenes(seen);
     RawMesh mesh = builder_.finish();
     mesh.georeference = georeference();
@@ -611,6 +612,25 @@ class GltfReader {
       if (point.allFinite()) box.extend(point);
     }
     return box;
+  }
+
+  /// Marks the nodes, and all below, that are coarser forms of nodes that are seen (MSFT_lod).
+  void pass_coarser(std::vector<bool>& seen) const {
+    std::vector<std::uint64_t> waiting;
+    const auto wait_for = [&](const Json& holder, const char* key) {
+      for (const Json& index : document_.array(holder, key)) waiting.push_back(document_.as_whole(index, key));
+    };
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Json* const levels = seen[i] ? document_.extension(document_.item("nodes", i), "MSFT_lod") : nullptr;
+      if (levels) wait_for(*levels, "ids");
+    }
+    while (!waiting.empty()) {
+      const std::uint64_t index = waiting.back();
+      waiting.pop_back();
+      const Json& node = document_.item("nodes", index);
+      if (!seen[index]) wait_for(node, "children");
+      seen[index] = true;
+    }
   }
 
   /// Meshes that only other scenes than the default one have, or none.
