@@ -278,9 +278,15 @@ std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> s
   if (!(entry.object == SceneObject{})) json["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
   json["what"] = entry.what;
   json["reason"] = entry.reason;
-  if (entry.box) json["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
+  const auto is_readable = [](double number) { return std::abs(number) <= core::kMaxCoordinate; };
+  const auto is_place = [&](const Vec3& corner) {
+    return is_readable(corner.x()) && is_readable(corner.y()) && (std::isinf(corner.z()) || is_readable(corner.z()));
+  };
+  if (entry.box && is_place(entry.box->min) && is_place(entry.box->max)) {
+    json["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
+  }
   if (!entry.outlines.empty()) json["outlines"] = entry.outlines;
-  if (entry.height_m) json["height_m"] = *entry.height_m;
+  if (entry.height_m && is_readable(*entry.height_m)) json["height_m"] = *entry.height_m;
   if (stand_in) json["stand_in"] = *stand_in;
   if (!entry.instead.empty()) json["instead"] = entry.instead;
   if (entry.may_be_larger) json["may_be_larger"] = true;
