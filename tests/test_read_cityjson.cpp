@@ -414,5 +414,93 @@ TEST(ReadCityJson, IsToldByItsContent) {
   EXPECT_EQ(format("a.city.jsonl.gz", "?"), MeshFormat::cityjson);
 }
 
+/// What of the ledger matters: name, what, why, and what stands in.
+std::vector<std::string> told(const RawMesh& mesh) {
+  std::vector<std::string> lines;
+  for (const auto& [entry, holder] : mesh.ledger) {
+    lines.push_back(display_name(entry.object) + ": " + entry.what + ": " + entry.reason + ": " + entry.instead);
+  }
+  return lines;
+}
+
+TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
+  json file = document();
+  file["vertices"].push_back({5000, 5000, 100});
+  json& objects = file["CityObjects"];
+  objects["empty"] = {{"type", "Building"}, {"attributes", {{"measuredHeight", 30}}}, {"geometry", json::array()}};
+  objects["extent"] = {{"type", "Bridge"}, {"geographicalExtent", {100, 100, 30, 120, 110, 45}}};
+  objects["garbled"] = {{"type", "Bridge"}, {"geographicalExtent", {100, 100, 30, 0, 0, 0}}};
+  objects["tree"] = {{"type", "SolitaryVegetationObject"},
+                     {"geometry", json::array({geometry("MultiPoint", "1", json::array({8}))})}};
+  objects["parent"] = {{"type", "Building"}, {"children", {"b1"}}};
+  objects["orphaned"] = {{"type", "Building"}, {"children", {"gone"}}};
+  const RawMesh mesh = read(file);
+  testing::expect_wording(told(mesh));
+  ASSERT_EQ(mesh.ledger.size(), 5u);
+  for (const auto& [entry, holder] : mesh.ledger) {
+    const bool has_extent = entry.object.source_id == "extent";
+    EXPECT_EQ(holder.triangles.size(), has_extent ? 12u : 0u) << entry.object.source_id;
+    EXPECT_EQ(entry.box.has_value(), has_extent || entry.object.source_id == "tree") << entry.object.source_id;
+  }
+  EXPECT_EQ(mesh.ledger[0].entry.height_m, 30);  // in the order of their ids
+  EXPECT_EQ(mesh.ledger[1].entry.height_m, 15);
+  EXPECT_EQ(mesh.ledger[4].entry.box->min, Vec3(60, 70, 31));
+}
+
+TEST(ReadCityJson, RaisesFootprintsToTheirHeight) {
+  json file = document();
+  json& building = file["CityObjects"]["b1"];
+  building["geometry"] = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
+  EXPECT_TRUE(read(file).ledger.at(0).holder.triangles.empty());
+  building["attributes"]["measuredHeight"] = 30;
+  const RawMesh mesh = read(file);
+  ASSERT_EQ(mesh.ledger.size(), 1u);
+  const Mesh& holder = mesh.ledger[0].holder;
+  EXPECT_NEAR(std::abs(enclosed_volume(holder)), 120, 1e-9);
+  EXPECT_EQ(bounding_box(holder).max, Vec3(12, 22, 60));
+  testing::expect_wording(told(mesh));
+  building["type"] = "Road";
+  EXPECT_TRUE(read(file).ledger.empty());
+}
+
+TEST(ReadCityJson, HoldsOpenShellsByTheBoxOfTheirOpenEdges) {
+  json file = document();
+  json& shell = file["CityObjects"]["b1"]["geometry"][0]["boundaries"][0];
+  shell.erase(5);  // the wall at x = 12
+  const RawMesh mesh = read(file);
+  ASSERT_EQ(mesh.ledger.size(), 1u);
+  EXPECT_EQ(mesh.ledger[0].entry.box->min, Vec3(12, 20, 30));
+  EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(12, 22, 32));
+  EXPECT_TRUE(mesh.ledger[0].entry.may_be_larger);
+  shell = json::array({shell[0], shell[1]});  // floor and roof alone
+  EXPECT_EQ(bounding_box(read(file).ledger.at(0).holder).min, Vec3(10, 20, 30));
+  testing::expect_wording(told(mesh));
+}
+
+// In the scene the stand-ins are objects, or the file is refused.
+TEST(ReadCityJson, StandInsAreObjectsOfTheScene) {
+  testing::TemporaryDirectory folder;
+  json file = document();
+  file["CityObjects"]["gone"] = {{"type", "Bridge"}, {"geographicalExtent", {100, 100, 30, 120, 110, 45}}};
+  testing::write_bytes(folder / "a.city.json", file.dump());
+  const Scene scene = read_scene(folder / "a.city.json");
+  ASSERT_EQ(scene.ledger.size(), 1u);
+  ASSERT_EQ(scene.ledger[0].stand_in, 1u);
+  EXPECT_EQ(scene.objects[1], (SceneObject{"", "gone", ObjectKind::stand_in}));
+  EXPECT_EQ(bounding_box(scene.mesh).max, Vec3(120, 110, 45));
+  EXPECT_EQ(scene.ledger[0].box->max, Vec3(120, 110, 45));
+  const Scene without = read_scene(folder / "a.city.json", {.missing = MissingPolicy::warn});
+  EXPECT_EQ(without.objects.size(), 1u);
+  ASSERT_EQ(without.ledger.size(), 1u);
+  EXPECT_FALSE(without.ledger[0].stand_in);
+  EXPECT_TRUE(without.ledger[0].instead.empty());
+  expect_error([&] { read_scene(folder / "a.city.json", {.missing = MissingPolicy::refuse}); },
+               ErrorCode::scene_incomplete, "a.city.json");
+  // An extent that is nowhere near is garbled.
+  file["CityObjects"]["gone"]["geographicalExtent"] = {1e7, 1e7, 0, 2e7, 2e7, 9};
+  testing::write_bytes(folder / "a.city.json", file.dump());
+  EXPECT_FALSE(read_scene(folder / "a.city.json").ledger.at(0).stand_in);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -312,5 +312,104 @@ TEST(ReadGltf, ReadsManyNestedNodesInLinearTime) {
   EXPECT_LT(many, 30 * few + 0.5);  // 10 times, where linear; 100 times, where not
 }
 
+// glTF 2.0, section 3.7.2.2: a mesh is drawn with its default weights, or with those of its node.
+TEST(ReadGltf, MovesVerticesByDefaultMorphWeights) {
+  std::string bytes = square();
+  for (const float value : {0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 30.f, 0.f, 0.f, 30.f, 0.f}) bytes += bytes_of(value);
+  json gltf = document();
+  gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 60}, {"byteLength", 48}});
+  gltf["accessors"].push_back({{"bufferView", 2}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
+  gltf["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 2}}, {{"NORMAL", 2}}};
+  const auto height = [&] { return read_as("a.gltf", embedded(gltf, bytes).dump()).vertices[2].y(); };
+  EXPECT_EQ(height(), 1);  // weights are 0 where the file has none
+  gltf["meshes"][0]["weights"] = {1.0, 1.0};
+  EXPECT_EQ(height(), 31);
+  gltf["nodes"][0]["weights"] = {0.5, 0};
+  EXPECT_EQ(height(), 16);
+  gltf["nodes"][0]["translation"] = {0, 100, 0};
+  EXPECT_EQ(height(), 116);
+  gltf["accessors"][2]["count"] = 3;
+  expect_unreadable(embedded(gltf, bytes), ErrorCode::mesh_syntax);
+  gltf["nodes"][0]["weights"] = {0.5};
+  expect_unreadable(embedded(gltf, bytes), ErrorCode::mesh_syntax);
+}
+
+// Section 3.7.3.3: by the joints, as the nodes stand, and not by the node of the mesh.
+TEST(ReadGltf, MovesVerticesByTheirSkins) {
+  std::string bytes = square();
+  for (const std::uint8_t joint : {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}) bytes += bytes_of(joint);
+  for (const float weight : {1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 0.5f, 0.5f, 0.f, 0.f, 2.f, 0.f, 0.f, 0.f}) {
+    bytes += bytes_of(weight);
+  }
+  for (int joint = 0; joint < 2; ++joint) {  // 1 down, along y
+    for (int i = 0; i < 16; ++i) bytes += bytes_of(i % 5 == 0 ? 1.f : i == 13 ? -1.f : 0.f);
+  }
+  json gltf = document();
+  for (const auto& [offset, length] : {std::pair{60, 16}, {76, 64}, {140, 128}}) {
+    gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}});
+  }
+  gltf["accessors"].push_back({{"bufferView", 2}, {"componentType", 5121}, {"count", 4}, {"type", "VEC4"}});
+  gltf["accessors"].push_back({{"bufferView", 3}, {"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
+  gltf["accessors"].push_back({{"bufferView", 4}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+  gltf["meshes"][0]["primitives"][0]["attributes"].update({{"JOINTS_0", 2}, {"WEIGHTS_0", 3}});
+  gltf["nodes"] = json::parse(R"([{"mesh": 0, "skin": 0, "translation": [1000, 0, 0]}, {"translation": [0, 0, 5],
+    "children": [2]}, {"translation": [0, 10, 0]}])");
+  gltf["scenes"][0]["nodes"] = {0, 1};
+  gltf["skins"] = json::parse(R"([{"joints": [1, 2], "inverseBindMatrices": 4}])");
+  const auto read_skin = [&] { return read_as("a.gltf", embedded(gltf, bytes).dump()); };
+  EXPECT_EQ(read_skin().vertices, (std::vector<Vec3>{Vec3(0, -1, 5), Vec3(1, -1, 5), Vec3(1, 5, 5), Vec3(0, 10, 5)}));
+  gltf["skins"][0].erase("inverseBindMatrices");
+  EXPECT_EQ(read_skin().vertices[3], Vec3(0, 11, 5));
+  json bad = gltf;
+  bad["skins"][0]["joints"] = {1};
+  expect_unreadable(embedded(bad, bytes), ErrorCode::mesh_syntax);  // vertex 2 has joint 1
+  bad = gltf;
+  bad["nodes"][2]["children"] = {1};
+  bad["scenes"][0]["nodes"] = {0};
+  expect_unreadable(embedded(bad, bytes), ErrorCode::mesh_syntax);
+  bad = gltf;
+  bad["accessors"][3]["count"] = 3;
+  expect_unreadable(embedded(bad, bytes), ErrorCode::mesh_syntax);
+  gltf["nodes"][0].erase("skin");
+  EXPECT_EQ(read_skin().vertices[3], Vec3(1000, 1, 0));
+}
+
+TEST(ReadGltf, DoesNotBuildNodesThatTheFileHides) {
+  json gltf = document();
+  gltf["nodes"].push_back(json::parse(
+      R"({"name": "off", "mesh": 0, "children": [2], "extensions": {"KHR_node_visibility": {"visible": false}}})"));
+  gltf["nodes"].push_back({{"name", "below"}, {"mesh", 0}});
+  gltf["scenes"][0]["nodes"] = {0, 1};
+  gltf["extensionsRequired"] = {"KHR_node_visibility"};
+  const RawMesh mesh = read(gltf);
+  EXPECT_EQ(names_of(mesh.objects), Names{"way/17"});
+  EXPECT_TRUE(mesh.ledger.empty());
+  testing::expect_wording(mesh.notes);
+}
+
+TEST(ReadGltf, PutsWhatIsNotBuiltIntoTheLedger) {
+  json gltf = document();
+  gltf["meshes"].push_back(json::parse(R"({"primitives": [{"attributes": {"POSITION": 0}, "mode": 0},
+    {"attributes": {"POSITION": 0}, "mode": 3}, {"attributes": {"NORMAL": 0}}]})"));
+  gltf["nodes"].push_back({{"name", "cloud"}, {"mesh", 1}, {"translation", {0, 0, 7}}});
+  gltf["nodes"].push_back({{"name", "spare"}, {"mesh", 0}, {"translation", {50, 0, 0}}});
+  gltf["scenes"] = {{{"nodes", {0, 1}}}, {{"nodes", {2}}}};
+  const RawMesh mesh = read(gltf);
+  ASSERT_EQ(mesh.ledger.size(), 4u);
+  std::vector<std::string> told;
+  for (const Missing& missing : mesh.ledger) {
+    told.push_back(missing.entry.object.name + ": " + missing.entry.what + ": " + missing.entry.reason);
+  }
+  testing::expect_wording(told);
+  EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 1, 7));
+  EXPECT_EQ(mesh.ledger[0].holder.triangles.size(), 12u);
+  EXPECT_EQ(mesh.ledger[1].entry.box->min, Vec3(0, 0, 7));
+  EXPECT_TRUE(mesh.ledger[1].holder.triangles.empty());
+  EXPECT_FALSE(mesh.ledger[2].entry.box);
+  EXPECT_EQ(mesh.ledger[3].entry.box->max, Vec3(51, 1, 0));
+  gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = json::array({2});  // a coarser form of what is built
+  EXPECT_EQ(read(gltf).ledger.size(), 3u);
+}
+
 }  // namespace
 }  // namespace vantage::internal::io

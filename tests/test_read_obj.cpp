@@ -155,5 +155,45 @@ TEST(ReadObj, RefusesPolygonsWithTooManyCorners) {
   expect_error([&] { read_as("a.obj", kThree + "f 1 2 3 3 3\n", limits); }, ErrorCode::mesh_too_large, "line 4");
 }
 
+TEST(ReadObj, RefusesFreeFormSurfacesAndOtherFiles) {
+  for (const std::string line : {"curv 0 1 1 2 3", "surf 0 1 0 1 1 2 3 4", "bzp 1 2 3", "call other.obj"}) {
+    expect_unreadable("bad.obj", kThree + "f 1 2 3\ncstype bspline\n" + line + "\n", ErrorCode::mesh_unsupported,
+                      "line 6");
+  }
+}
+
+TEST(ReadObj, PutsLinesAndPointsIntoTheLedger) {
+  const RawMesh mesh = read_as("a.obj", kThree + "f 1 2 3\nv 0 0 9\no mast\nl 1/1 4\nl -1 2\np 4\n");
+  ASSERT_EQ(mesh.ledger.size(), 2u);
+  EXPECT_EQ(mesh.ledger[0].entry.object.name, "mast");
+  EXPECT_EQ(mesh.ledger[0].entry.what, "2 lines");
+  EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 0, 9));
+  EXPECT_EQ(mesh.ledger[1].entry.box->min, Vec3(0, 0, 9));
+}
+
+// Whatever a quadrilateral means that is not flat lies between its two diagonals.
+TEST(ReadObj, TakesBothDiagonalsWhereAFaceIsNotFlat) {
+  const auto read_quad = [](const std::string& z) {
+    return read_as("a.obj", "v 30 30 0\nv 40 30 " + z + "\nv 40 40 0\nv 30 40 " + z + "\no roof\nf 1 2 3 4\n");
+  };
+  EXPECT_EQ(read_quad("0").triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(read_quad("0.019").triangles.size(), 2u);  // within a centimetre of a plane
+  const RawMesh mesh = read_quad("8");
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}));
+  EXPECT_TRUE(mesh.ledger.empty());
+  core::ReadLimits limits;
+  limits.both_diagonals = false;
+  const RawMesh once = read_as("a.obj", "v 30 30 0\nv 40 30 8\nv 40 40 0\nv 30 40 8\no roof\nf 1 2 3 4\n", limits);
+  EXPECT_EQ(once.triangles.size(), 2u);
+  EXPECT_EQ(once.ledger.size(), 1u);
+  // Of more corners only one way is taken, and the ledger says how far it may be off.
+  const RawMesh five = read_as("a.obj", "o roof\nv 0 0 0\nv 9 0 0\nv 9 9 2\nv 5 12 0\nv 0 9 0\nf 1 2 3 4 5\n");
+  EXPECT_EQ(five.triangles.size(), 3u);
+  ASSERT_EQ(five.ledger.size(), 1u);
+  EXPECT_EQ(five.ledger[0].entry.object.name, "roof");
+  EXPECT_EQ(five.ledger[0].entry.box->max, Vec3(9, 12, 2));
+  testing::expect_wording(five.ledger[0].entry.what + ": " + five.ledger[0].entry.reason);
+}
+
 }  // namespace
 }  // namespace vantage::internal::io

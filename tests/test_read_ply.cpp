@@ -176,5 +176,28 @@ TEST(ReadPly, PassesOverElementsWithoutProperties) {
   EXPECT_EQ(mesh.triangles.size(), 1u);
 }
 
+TEST(ReadPly, ReadsStripsOfTriangles) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const RawMesh mesh = read_as("a.ply", text + "11 0 1 2 3 -1 1 2 -1 3 2 1\n");
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}, {3, 2, 1}}));
+  // Corners that repeat only lead on.
+  EXPECT_EQ(read_as("a.ply", text + "6 0 1 1 2 3 3\n").triangles, (std::vector<Triangle>{{1, 2, 3}}));
+}
+
+TEST(ReadPly, PutsElementsThatReferToVerticesIntoTheLedger) {
+  const RawMesh mesh = read_as(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nelement edge 2\nproperty int vertex1\nproperty int "
+      "vertex2\nelement camera 1\nproperty float far\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 9\n3 0 1 2\n0 3\n1 77\n5\n");
+  ASSERT_EQ(mesh.ledger.size(), 1u);
+  EXPECT_EQ(mesh.ledger[0].entry.what, "2 of \"edge\"");
+  EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 1, 9));
+}
+
 }  // namespace
 }  // namespace vantage::internal::io

@@ -70,5 +70,14 @@ TEST(ReadStl, NamesThePlaceOfWhatIsWrong) {
   expect_unreadable("bad.stl", "solid a\n" + kFacet + "endsolid a\nrubbish\n", ErrorCode::mesh_syntax, "line 10");
 }
 
+TEST(ReadStl, PassesOverSomeBytesTooMany) {
+  for (const std::size_t more : {1u, 2u, 49u}) {
+    const RawMesh mesh = read_as("a.stl", binary(3, 3) + std::string(more, '\n'));
+    EXPECT_EQ(mesh.triangles.size(), 3u);
+    EXPECT_EQ(mesh.notes.size(), 1u);
+  }
+  testing::expect_code([] { read_as("a.stl", binary(3, 3) + std::string(50, '\0')); }, ErrorCode::mesh_syntax);
+}
+
 }  // namespace
 }  // namespace vantage::internal::io

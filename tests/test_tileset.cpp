@@ -549,5 +549,67 @@ TEST(Tileset, ManyChildrenAreReadInTime) {
   EXPECT_EQ(tiles.read().report.tiles, 100'002u);
 }
 
+/// The entries, by id.
+std::map<std::string, LedgerEntry> ledger_of(const TilesetScene& tiles) {
+  std::map<std::string, LedgerEntry> entries;
+  for (const LedgerEntry& entry : tiles.scene.ledger) entries[entry.object.source_id] = entry;
+  return entries;
+}
+
+// What a tile holds that is missing still stands there.
+TEST(Tileset, HoldsThePlaceOfTilesThatAreMissing) {
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = json::array({tile_json(0, "a.glb"), tile_json(0, "gone.glb", 20)});
+  root["children"][1]["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 60, 0, 0, 1};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  const LedgerEntry entry = ledger_of(read)["gone.glb"];
+  ASSERT_EQ(entry.stand_in, 1u);
+  EXPECT_EQ(read.scene.objects[1].kind, ObjectKind::stand_in);
+  EXPECT_EQ(entry.box->min, Vec3(40, -20, -20));
+  EXPECT_EQ(entry.box->max, Vec3(80, 20, 20));
+  EXPECT_EQ(bounding_box(read.scene.mesh).max, Vec3(80, 20, 20));
+  EXPECT_TRUE(entry.may_be_larger);
+  TilesetOptions options;
+  options.missing = MissingPolicy::warn;
+  EXPECT_EQ(tiles.read(options).scene.objects.size(), 1u);
+  EXPECT_EQ(tiles.read(options).scene.ledger.size(), 1u);
+  options.missing = MissingPolicy::refuse;
+  expect_error([&] { tiles.read(options); }, ErrorCode::scene_incomplete, "tileset.json");
+}
+
+TEST(Tileset, ACoarserTileHoldsThePlaceOfAFinerOne) {
+  json root = tile_json(50, "coarse.glb");
+  root["refine"] = "REPLACE";
+  root["children"] = json::array({tile_json(0, "fine.glb"), tile_json(0, "other.glb")});
+  Tileset tiles(tileset_json(root));
+  for (const char* name : {"coarse.glb", "other.glb"}) tiles.add(name, box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  const LedgerEntry entry = ledger_of(read)["fine.glb"];
+  ASSERT_TRUE(entry.stand_in);
+  EXPECT_EQ(read.scene.objects[*entry.stand_in].source_id, "coarse.glb");
+  EXPECT_EQ(read.scene.objects.size(), 2u);
+}
+
+TEST(Tileset, HoldsThePlaceOfCloudsOfPoints) {
+  std::string points;
+  for (const float value : {1.f, 2.f, 3.f, 4.f, 5.f, 6.f}) points += testing::bytes_of(value);
+  Tileset tiles(tileset_json(tile_json(0, "all.cmpt", 1000)));
+  tiles.add("all.cmpt",
+            testing::cmpt(
+                {b3dm(box_glb({{}})),
+                 testing::pnts({{"POINTS_LENGTH", 2}, {"RTC_CENTER", {10, 0, 0}}, {"POSITION", {{"byteOffset", 0}}}},
+                               points)}));
+  const TilesetScene read = tiles.read();
+  const LedgerEntry entry = ledger_of(read)["all.cmpt"];
+  EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;
+  ASSERT_TRUE(entry.box);
+  EXPECT_EQ(entry.box->min, Vec3(11, 2, 3));
+  EXPECT_EQ(entry.box->max, Vec3(14, 5, 6));
+  EXPECT_TRUE(entry.stand_in);
+}
+
 }  // namespace
 }  // namespace vantage

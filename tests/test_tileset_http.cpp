@@ -153,6 +153,12 @@ class Photorealistic {
     GTEST_SKIP() << error.what();        \
   }
 
+TilesetOptions in_part() {
+  TilesetOptions options;
+  options.missing = MissingPolicy::warn;
+  return options;
+}
+
 TEST(TilesetHttp, PassesTheKeyAndTheSessionOn) {
   VANTAGE_REQUIRE_CURL();
   Photorealistic tiles;
@@ -227,7 +233,7 @@ TEST(TilesetHttp, AServerThatNoLongerAnswersEndsTheReading) {
     return {200, tileset_json(root).dump()};
   });
   const Error over =
-      expect_code([&] { read_tileset(server.url("/tileset.json")); }, ErrorCode::file_unreadable, "4.glb");
+      expect_code([&] { read_tileset(server.url("/tileset.json"), in_part()); }, ErrorCode::file_unreadable, "4.glb");
   EXPECT_TRUE(has(over.problem(), " 5 ")) << over.what();
   EXPECT_TRUE(has(over.problem(), " 2 ")) << over.what();
   EXPECT_EQ(server.asked().size(), 2u + 3 + 4);  // the first is tried three times
@@ -264,10 +270,28 @@ TEST(TilesetHttp, MissingFilesAreHolesAndOtherServersAreNotAsked) {
                         tile_json(0, "file:///etc/passwd"), tile_json(0, "../../busy.glb")};
     return {200, tileset_json(root).dump()};
   });
-  const TilesetScene read = read_tileset(server.url("/x/tileset.json"));
+  const TilesetScene read = read_tileset(server.url("/x/tileset.json"), in_part());
   EXPECT_EQ(read.report.contents, 1u);
   EXPECT_EQ(read.report.holes, 4u);
+  EXPECT_EQ(read.scene.ledger.size(), 4u);
   EXPECT_EQ(server.asked().back(), "/busy.glb");
+}
+
+// What did not come may come next time: the tileset is not read in part, unless that is asked for.
+TEST(TilesetHttp, AFileThatDidNotComeRefusesTheTileset) {
+  VANTAGE_REQUIRE_CURL();
+  Server server([](const std::string& target) -> Answer {
+    if (has(target, "b.glb")) return {503, "later"};
+    if (has(target, ".glb")) return {200, box_glb({{}})};
+    json root = tile_json(10);
+    root["refine"] = "ADD";
+    root["children"] = json::array({tile_json(0, "a.glb"), tile_json(0, "b.glb"), tile_json(0, "c.glb")});
+    return {200, tileset_json(root).dump()};
+  });
+  expect_code([&] { read_tileset(server.url("/tileset.json")); }, ErrorCode::scene_incomplete, "b.glb");
+  const TilesetScene read = read_tileset(server.url("/tileset.json"), in_part());
+  EXPECT_EQ(read.report.contents, 2u);
+  EXPECT_EQ(read.scene.ledger.size(), 1u);
 }
 
 TEST(TilesetHttp, AServerThatIsOutOfOrderEndsTheReading) {
@@ -279,7 +303,7 @@ TEST(TilesetHttp, AServerThatIsOutOfOrderEndsTheReading) {
     for (int i = 0; i < 1000; ++i) root["children"].push_back(tile_json(0, std::to_string(i) + ".glb"));
     return {200, tileset_json(root).dump()};
   });
-  expect_code([&] { read_tileset(server.url("/tileset.json")); }, ErrorCode::file_unreadable, "4.glb");
+  expect_code([&] { read_tileset(server.url("/tileset.json"), in_part()); }, ErrorCode::file_unreadable, "4.glb");
 }
 
 TEST(TilesetHttp, ShowsNoKeysAndNoPasswords) {

@@ -247,5 +247,80 @@ TEST(WriteScene, KeepsTheOldFileWhenItCannotWrite) {
   EXPECT_THROW(write_scene(awkward_scene(), directory / "missing" / "scene.obj"), Error);
 }
 
+/// Two entries: one that an object holds, and one of which only the place is known, up to no height.
+Scene scene_with_ledger() {
+  Scene scene = awkward_scene();
+  scene.objects[4].kind = ObjectKind::stand_in;
+  LedgerEntry held;
+  held.object = {"Wal\"l\n", "relation/7", ObjectKind::building};
+  held.what = "relation";
+  held.reason = "its ring is open at 7.41, 1.11";
+  held.box = Box{Vec3(0.1, 1.0 / 3, -2), Vec3(5, 6, 45)};
+  held.outlines = {{{0.1, 1.0 / 3}, {5, 0}, {5, 6}}};
+  held.height_m = 45;
+  held.stand_in = 4;
+  held.instead = "its outline without holes, 45 m high";
+  held.may_be_larger = true;
+  LedgerEntry open;
+  open.what = "posts without a height";
+  open.reason = "void";
+  open.box =
+      Box{Vec3(1, 2, -std::numeric_limits<double>::infinity()), Vec3(3, 4, std::numeric_limits<double>::infinity())};
+  scene.ledger = {held, open, LedgerEntry{{}, "wood", "no height"}};
+  return scene;
+}
+
+TEST(WriteScene, KeepsTheLedgerInEveryFormat) {
+  TemporaryDirectory folder;
+  const Scene scene = scene_with_ledger();
+  for (const char* name : {"a.obj", "a.glb", "a.ply", "a.stl"}) {
+    SCOPED_TRACE(name);
+    write_scene(scene, folder / name);
+    const Scene read = read_scene(folder / name);
+    ASSERT_EQ(read.ledger.size(), 3u);
+    const LedgerEntry& held = read.ledger[0];
+    EXPECT_EQ(held.object, (SceneObject{"Wal\"l", "relation/7", ObjectKind::building}));
+    EXPECT_EQ(held.what, "relation");
+    EXPECT_EQ(held.reason, scene.ledger[0].reason);
+    ASSERT_TRUE(held.box);
+    EXPECT_EQ(held.box->min, scene.ledger[0].box->min);
+    EXPECT_EQ(held.box->max, scene.ledger[0].box->max);
+    EXPECT_EQ(held.outlines, scene.ledger[0].outlines);
+    EXPECT_EQ(held.height_m, 45);
+    EXPECT_EQ(held.instead, scene.ledger[0].instead);
+    EXPECT_TRUE(held.may_be_larger);
+    ASSERT_TRUE(held.stand_in);
+    ASSERT_LT(*held.stand_in, read.objects.size());
+    const bool has_kinds = read.objects.size() > 1;
+    EXPECT_EQ(read.objects[*held.stand_in].kind, has_kinds ? ObjectKind::stand_in : ObjectKind::other);
+    ASSERT_TRUE(read.ledger[1].box);
+    EXPECT_EQ(read.ledger[1].box->min, scene.ledger[1].box->min);
+    EXPECT_EQ(read.ledger[1].box->max, scene.ledger[1].box->max);
+    EXPECT_FALSE(read.ledger[1].stand_in);
+    EXPECT_FALSE(read.ledger[2].box);
+    // Written once more it is the same.
+    write_scene(read, folder / ("again" + std::string(name).substr(1)));
+    EXPECT_EQ(read_scene(folder / ("again" + std::string(name).substr(1))).ledger.size(), 3u);
+  }
+}
+
+// It may come from a stranger.
+TEST(WriteScene, LedgersThatAreGarbledAreRefused) {
+  TemporaryDirectory folder;
+  const auto read = [&](const std::string& entry) {
+    testing::write_bytes(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n# vantage ledger: " + entry + "\n");
+    return read_scene(folder / "a.obj");
+  };
+  EXPECT_EQ(read("{}").ledger.size(), 1u);
+  EXPECT_FALSE(read(R"({"stand_in": 7, "instead": "nothing"})").ledger.at(0).stand_in);  // there is no such object
+  for (const char* bad : {"{", "7", R"({"what": 7})", R"({"box": [[0, 0], [1, 1]]})",
+                          R"({"box": [[0, 0, 0], [1, -1, 0]]})", R"({"box": [[0, 0, 0], [1, 1, 1e99]]})",
+                          R"({"box": [[null, 0, 0], [1, 1, 1]]})", R"({"outlines": [[[0, "a"]]]})",
+                          R"({"height_m": "tall"})", R"({"stand_in": -1})", R"({"object": {"kind": "castle"}})"}) {
+    SCOPED_TRACE(bad);
+    testing::expect_error([&] { read(bad); }, ErrorCode::record_garbled, "a.obj, line 5");
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -42,6 +42,12 @@ namespace {
 /// Name, id in the source, kind by number.
 using ObjectRow = std::tuple<std::string, std::string, int>;
 
+/// An entry of the ledger: its object, what, reason, box (min, max), height, stand-in, instead, may be larger,
+/// outlines.
+using Outlines = std::vector<std::vector<std::array<double, 2>>>;
+using LedgerRow = std::tuple<ObjectRow, std::string, std::string, std::optional<std::array<double, 6>>,
+                             std::optional<double>, std::optional<std::uint32_t>, std::string, bool, Outlines>;
+
 std::shared_ptr<PyScene> load(const std::string& text, const std::string& name, nb::object progress) {
   return computed(std::move(progress), 0, [&](const Progress& told) {
     const MissionFile mission = read_scene_text(text, name);
@@ -56,11 +62,42 @@ std::vector<SceneObject> objects_of(const std::vector<ObjectRow>& rows) {
   return objects;
 }
 
+std::vector<LedgerEntry> ledger_of(const std::vector<LedgerRow>& rows) {
+  std::vector<LedgerEntry> ledger;
+  for (const auto& [object, what, reason, box, height_m, stand_in, instead, may_be_larger, outlines] : rows) {
+    LedgerEntry entry{objects_of({object}).front(), what, reason};
+    if (box) entry.box = Box{Vec3(box->data()), Vec3(box->data() + 3)};
+    entry.height_m = height_m;
+    entry.stand_in = stand_in;
+    entry.instead = instead;
+    entry.may_be_larger = may_be_larger;
+    entry.outlines = outlines;
+    ledger.push_back(std::move(entry));
+  }
+  return ledger;
+}
+
+/// As ledger_of takes them.
+std::vector<LedgerRow> ledger_rows(const PyScene& scene) {
+  std::vector<LedgerRow> rows;
+  for (const LedgerEntry& entry : scene.scene().ledger) {
+    std::optional<std::array<double, 6>> box;
+    if (entry.box) {
+      const auto& [min, max] = *entry.box;
+      box = {min.x(), min.y(), min.z(), max.x(), max.y(), max.z()};
+    }
+    const ObjectRow object{entry.object.name, entry.object.source_id, static_cast<int>(entry.object.kind)};
+    rows.emplace_back(object, entry.what, entry.reason, box, entry.height_m, entry.stand_in, entry.instead,
+                      entry.may_be_larger, entry.outlines);
+  }
+  return rows;
+}
+
 std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray& faces, const IndexArray& object_of,
                                      const std::vector<ObjectRow>& objects, const std::optional<PlaceRow>& place,
                                      std::optional<double> sea_level_m,
-                                     const std::optional<std::array<double, 6>>& whole,
-                                     const std::string& attribution) {
+                                     const std::optional<std::array<double, 6>>& whole, const std::string& attribution,
+                                     const std::vector<LedgerRow>& ledger) {
   LoadedScene loaded;
   loaded.scene.mesh = mesh_of(vertices, faces);
   loaded.scene.object_of.assign(object_of.data(), object_of.data() + object_of.shape(0));
@@ -68,6 +105,7 @@ std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray
   if (place) {
     loaded.scene.georeference = place_of(*place);
   }
+  loaded.scene.ledger = ledger_of(ledger);
   loaded.scene.attribution = attribution;
   if (auto& known = loaded.scene.georeference) known->attribution = attribution_of(loaded.scene);  // for files
   if (whole) loaded.scene.whole = Box{Vec3(whole->data()), Vec3(whole->data() + 3)};
@@ -98,6 +136,7 @@ void bind_scene(nb::module_& module) {
       .def_prop_ro(
           "object_of", [](const PyScene& s) { return list_view(s.scene().object_of, s.loaded()); }, kKept)
       .def_prop_ro("objects", &object_rows)
+      .def_prop_ro("ledger_rows", &ledger_rows)
       .def_prop_ro("place", [](const PyScene& s) { return place_row(s.scene().georeference); })
       .def_prop_ro("projection", [](const PyScene& s) { return projection_row(s.scene().georeference); })
       .def_prop_ro("attribution", [](const PyScene& s) { return attribution_of(s.scene()); })
@@ -133,7 +172,7 @@ void bind_scene(nb::module_& module) {
   module.def("load_scene", &load, "text"_a, "name"_a, "progress"_a = nb::none());
   module.def("scene_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(),
              "object_of"_a.noconvert(), "objects"_a, "place"_a, "sea_level_m"_a, "whole"_a = nb::none(),
-             "attribution"_a = "");
+             "attribution"_a = "", "ledger"_a = std::vector<LedgerRow>());
   module.def("object_kinds", [] {
     std::vector<std::string> names;
     for (int i = 0; i <= static_cast<int>(ObjectKind::stand_in); ++i)

@@ -86,7 +86,8 @@ def face_set(name, faces):
 def test_products_are_objects_in_metres(tmp_path):
     scene = vt.Scene.from_ifc(written(tmp_path, TOWER, COLUMN, ROOM))
     assert [(one.name, one.source_id, one.kind) for one in scene.objects] == [
-        ("tower", "0000000000000000000002", "building"), ("column", "0000000000000000000003", "building")]  # and no room
+        ("tower", "0000000000000000000002", "building"), ("column", "0000000000000000000003", "building"),
+        ("column", "0000000000000000000003", "stand-in")]  # and no room
     tower = scene.vertices[np.unique(scene.faces[scene.object_of == 0])]
     assert np.allclose([tower.min(axis=0), tower.max(axis=0)], [[-1, -1, 3], [3, 5, 8]], atol=1e-9)
     assert (scene.object_of == 0).sum() == 12 and scene.georeference is None
@@ -94,13 +95,37 @@ def test_products_are_objects_in_metres(tmp_path):
 
 def test_curved_surfaces_keep_to_the_deflection(tmp_path):
     for deflection_m in (0.1, 0.01, 0.001):
-        scene = vt.Scene.from_ifc(written(tmp_path, COLUMN), deflection_m=deflection_m)
+        scene = vt.Scene.from_ifc(written(tmp_path, COLUMN), deflection_m=deflection_m, missing="warn")
         corners = scene.vertices[scene.faces]
         sides = corners[np.ptp(corners[..., 2], axis=1) > 1]  # and not the caps
         middles = (sides + np.roll(sides, 1, axis=1)) / 2
         chords = middles[np.isclose(middles[..., 2], 0) | np.isclose(middles[..., 2], 3)]
         rim = np.concatenate([np.hypot(*chords[:, :2].T), np.hypot(*scene.vertices[:, :2].T)])
         assert len(chords) >= 6 and 0.5 - deflection_m <= rim.min() and rim.max() <= 0.5 + deflection_m
+
+
+def test_what_stands_in_holds_curved_surfaces(tmp_path):
+    """Each point of the true cylinder lies in one of the boxes, and these reach little beyond it."""
+    for deflection_m in (0.1, 0.01, 0.001):
+        scene = vt.Scene.from_ifc(written(tmp_path, COLUMN), deflection_m=deflection_m)
+        boxes = scene.vertices[np.unique(scene.faces[scene.object_of == 1])].reshape(-1, 8, 3)
+        angle, z = np.random.default_rng(1).uniform(0, [[2 * np.pi], [3]], (2, 2000))
+        points = np.column_stack([0.5 * np.cos(angle), 0.5 * np.sin(angle), z])
+        sides = boxes[:, [1, 2, 4]] - boxes[:, :1]
+        share = np.einsum("pbi,bki->pbk", points[:, None] - boxes[None, :, 0], sides) / (sides ** 2).sum(axis=2)
+        assert ((share > -1e-9) & (share < 1 + 1e-9)).all(axis=2).any(axis=1).all()
+        assert np.hypot(*boxes.reshape(-1, 3)[:, :2].T).max() < 0.5 + 3 * deflection_m
+        row, = scene._core.ledger_rows
+        assert row[1] == "curved surfaces" and row[5] == 1
+
+
+def test_what_has_no_body_is_in_the_ledger(tmp_path):
+    axis = ("#50=IFCPOLYLINE((#3,#10));\n#56=IFCSHAPEREPRESENTATION(#5,'Axis','Curve3D',(#50));\n"
+            "#57=IFCPRODUCTDEFINITIONSHAPE($,$,(#56));\n#58=IFCBEAM('0000000000000000000009',$,'beam',$,$,$,#57,$,$);\n")
+    scene = vt.Scene.from_ifc(written(tmp_path, TOWER, axis, BROKEN), allow_missing=True)
+    rows = scene._core.ledger_rows
+    assert [row[0][0] for row in rows[:2]] == ["beam", "broken wall"] and all(row[5] is None for row in rows)
+    assert refused(lambda: vt.Scene.from_ifc(written(tmp_path, TOWER, axis), missing="refuse")).code == "scene-incomplete"
 
 
 def test_a_map_conversion_places_the_scene(tmp_path):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import struct
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ from ._checks import items, whole
 from ._errors import Error, input_error
 from ._extras import require
 from ._las_crs import file_crs, keys_of, z_unit_m as z_unit
+from ._objects import Missing, SceneObject
 from ._place import WGS84, Georeference, crs_text
 
 Numbers = npt.NDArray[np.float64]
@@ -35,6 +36,30 @@ class Cloud(NamedTuple):
     vertices: Numbers
     faces: npt.NDArray[np.int64]
     place: Georeference | None
+    ledger: Sequence[Missing] = ()
+
+
+class _LeftOut:
+    """Points that are left out by their classes."""
+
+    def __init__(self, classes: list[int]):
+        self.classes = classes
+        self.count, self.low, self.high = 0, np.full(3, np.inf), np.full(3, -np.inf)
+
+    def add(self, points: Numbers) -> None:
+        if len(points):
+            self.count += len(points)
+            self.low, self.high = np.minimum(self.low, points.min(axis=0)), np.maximum(self.high, points.max(axis=0))
+
+    def ledger(self, moved: Callable[[Numbers], Numbers] = lambda points: points) -> list[Missing]:
+        """`moved`: into the scene's frame."""
+        if not self.count:
+            return []
+        corners = moved(np.array([[x, y, z] for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])
+                                  for z in (self.low[2], self.high[2])]))
+        return [Missing(SceneObject("points", "", "surface"),
+                        f"points of the classes {', '.join(map(str, self.classes))}: {self.count:,}",
+                        "they are left out by choice (without)", [*corners.min(axis=0).tolist(), *corners.max(axis=0).tolist()])]
 
 
 def _too_many(cell_m: float) -> Error:
@@ -188,10 +213,12 @@ def _check_header(file: str) -> None:
         raise input_error("record-garbled", f"the header states more records than the file's {size:,} bytes can hold", file, fix)
 
 
-def _chunks(reader: Any, without: list[int]) -> Iterator[Numbers]:
+def _chunks(reader: Any, left_out: _LeftOut) -> Iterator[Numbers]:
     for chunk in reader.chunk_iterator(max(1, _CHUNK_BYTES // reader.header.point_format.size)):
-        taken = ~np.isin(np.array(chunk.classification), without)
-        yield np.column_stack([np.array(chunk.x), np.array(chunk.y), np.array(chunk.z)])[taken]
+        taken = ~np.isin(np.array(chunk.classification), left_out.classes)
+        points = np.column_stack([np.array(chunk.x), np.array(chunk.y), np.array(chunk.z)])
+        left_out.add(points[~taken])
+        yield points[taken]
 
 
 def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any, z_unit_m: Any) -> Cloud:
@@ -199,7 +226,7 @@ def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any,
     laspy = require("laspy", "laz")
     if file.lower().endswith(".laz"):
         require("lazrs", "laz")
-    left_out = [whole(one, f"without[{i}]", 0, 255) for i, one in enumerate(items(without, "without", "classes"))]
+    left_out = _LeftOut([whole(one, f"without[{i}]", 0, 255) for i, one in enumerate(items(without, "without", "classes"))])
     if not os.path.isfile(file):
         raise input_error("file-not-found", "there is no such file", file, "check the name")
     _check_header(file)
@@ -211,14 +238,18 @@ def cloud_of_file(file: str, cell_m: float, without: Any, crs: Any, origin: Any,
                 if z_unit_m is not None or origin is not None:
                     raise input_error("crs-missing", "the file does not say what its coordinates are", "crs", "pass crs='EPSG:...'")
                 vertices, faces = solid_of(_chunks(reader, left_out), cell_m)
-                return Cloud(vertices, faces, None)
+                return Cloud(vertices, faces, None, left_out.ledger())
             text = crs_text(named)
             latitude, longitude = _place_of(reader.header, text, origin)
             unit_m = z_unit(text, z_unit_m, keys, crs is not None)
-            parts = (np.column_stack([_core.plan_from_crs(Georeference(latitude, longitude), text, np.ascontiguousarray(points[:, :2])),
-                                      points[:, 2] * unit_m]) for points in _chunks(reader, left_out))
-            vertices, faces = solid_of(parts, cell_m)
-            return Cloud(vertices, faces, Georeference(latitude, longitude, "", text if len(text) <= 40 else "WKT"))
+
+            def moved(points: Numbers) -> Numbers:
+                flat = _core.plan_from_crs(Georeference(latitude, longitude), text, np.ascontiguousarray(points[:, :2]))
+                return np.column_stack([flat, points[:, 2] * unit_m])
+
+            vertices, faces = solid_of(map(moved, _chunks(reader, left_out)), cell_m)
+            return Cloud(vertices, faces, Georeference(latitude, longitude, "", text if len(text) <= 40 else "WKT"),
+                         left_out.ledger(moved))
     except Error:
         raise
     except (laspy.errors.LaspyException, OSError, ValueError, RuntimeError, EOFError) as error:

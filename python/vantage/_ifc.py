@@ -14,7 +14,7 @@ from . import _core
 from ._checks import flag
 from ._errors import Error, input_error
 from ._extras import require
-from ._objects import SceneObject
+from ._objects import KINDS, Missing, SceneObject
 from ._place import WGS84, Georeference, crs_text
 
 Numbers = npt.NDArray[np.float64]
@@ -26,6 +26,7 @@ _NO_SURFACES = ("Point", "PointCloud", "Curve", "Curve2D", "Curve3D", "Segment",
                 "LightSource")
 """Types of representations in which nothing hides."""
 _KINDS = {"IfcSite": "ground"}
+_STAND_IN = KINDS[-1]
 _SCALE_NEAR_1 = 0.01
 """How far a map's scale factor may be from 1: those of projections are within 0.1 %."""
 _SAME_UNIT = 5e-7
@@ -49,6 +50,7 @@ class Model(NamedTuple):
     object_of: npt.NDArray[np.int64]
     objects: list[SceneObject]
     place: Georeference | None
+    ledger: list[Missing]
 
 
 def _lost(log: str) -> list[str]:
@@ -93,8 +95,8 @@ def _opened(file: str) -> Any:
                           "export it again as IFC 2x3, 4 or 4x3, in the STEP format (.ifc)") from None
 
 
-def _bodies(file: Any) -> dict[str, Any]:
-    """Products that have a body, by their GlobalIds."""
+def _bodies(file: Any, without: list[Missing]) -> dict[str, Any]:
+    """Products that have a body, by their GlobalIds. `without` gets those that have representations, and no body."""
     found = {}
     for product in file.by_type("IfcProduct"):
         shape = product.Representation
@@ -103,7 +105,60 @@ def _bodies(file: Any) -> dict[str, Any]:
         if any(one.RepresentationIdentifier in _BODIES and one.RepresentationType not in _NO_SURFACES
                for one in shape.Representations):
             found[product.GlobalId] = product
+        else:
+            kinds = sorted({f"{one.RepresentationIdentifier or 'no name'} ({one.RepresentationType})"
+                            for one in shape.Representations})
+            without.append(Missing(_identity(product), product.is_a(), f"it has no body with surfaces, but {', '.join(kinds)}"))
     return found
+
+
+def _identity(product: Any) -> SceneObject:
+    return SceneObject(product.Name or product.is_a(), product.GlobalId, _KINDS.get(product.is_a(), "building"))
+
+
+def _curved(vertices: Numbers, faces: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+    """The facets that may be of a curved surface: their plane turns towards that of a neighbour by less than a radian. (The
+    mesher turns by half of that at most.) Those of flat walls that meet at such an angle are among them."""
+    places, number = np.unique(np.round(vertices, 7), axis=0, return_inverse=True)
+    faces = number.reshape(-1)[faces]
+    normals = np.cross(places[faces[:, 1]] - places[faces[:, 0]], places[faces[:, 2]] - places[faces[:, 0]])
+    lengths = np.linalg.norm(normals, axis=1)
+    facets = np.flatnonzero(lengths > 0)
+    normals[facets] /= lengths[facets, None]
+    edges = np.sort(np.concatenate([faces[facets][:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    of = np.tile(facets, 3)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    edges, of = edges[order], of[order]
+    same = np.flatnonzero((edges[1:] == edges[:-1]).all(axis=1))
+    first, second = of[same], of[same + 1]
+    turn = np.abs((normals[first] * normals[second]).sum(axis=1))
+    bent = (turn < np.cos(1e-4)) & (turn > np.cos(1.0))
+    return np.unique(np.concatenate([first[bent], second[bent]]))
+
+
+def _thickened(vertices: Numbers, faces: npt.NDArray[np.int64], by_m: float) -> tuple[Numbers, npt.NDArray[np.int64]]:
+    """Closed boxes, one about each facet, that hold all that is no farther than `by_m` from it. They stand on the side on
+    which they are smallest; half of a rectangle has that rectangle."""
+    rows, corner = np.arange(len(faces)), vertices[faces]
+    sides = np.roll(corner, -1, axis=1) - corner
+    tips = np.roll(corner, -2, axis=1) - corner
+    lengths = np.linalg.norm(sides, axis=2)
+    ends = (tips * sides).sum(axis=2) / lengths
+    longest = lengths == lengths.max(axis=1, keepdims=True)
+    widths = (np.maximum(lengths, ends) - np.minimum(0, ends)) / lengths * (1 + 1e-6 * longest)
+    best = widths.argmin(axis=1)
+    start, length, end = corner[rows, best], lengths[rows, best, None], ends[rows, best, None]
+    along = sides[rows, best] / length
+    across = tips[rows, best] - end * along
+    height = np.linalg.norm(across, axis=1, keepdims=True)
+    across = across / height
+    normal = np.cross(along, across)
+    low, high = np.minimum(0, end) - by_m, np.maximum(length, end) + by_m
+    corners = [start + along * (high if i & 1 else low) + across * (height + by_m if i & 2 else -by_m)
+               + normal * (by_m if i & 4 else -by_m) for i in range(8)]
+    box = np.array([(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
+                    (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)])
+    return np.stack(corners, axis=1).reshape(-1, 3), (rows[:, None, None] * 8 + box).reshape(-1, 3)
 
 
 def _shapes(file: Any, deflection_m: float) -> dict[str, tuple[Numbers, npt.NDArray[np.int64]]]:
@@ -112,6 +167,7 @@ def _shapes(file: Any, deflection_m: float) -> dict[str, tuple[Numbers, npt.NDAr
     settings = geom.settings()
     settings.set("use-world-coords", True)
     settings.set("mesher-linear-deflection", deflection_m)
+    settings.set("mesher-angular-deflection", 0.5)
     known = {declaration for declaration in NOT_BUILT if _is_known(file, declaration)}
     shapes: dict[str, tuple[Numbers, npt.NDArray[np.int64]]] = {}
     steps = geom.iterator(settings, file, 1, exclude=sorted(known))
@@ -203,12 +259,12 @@ def _on_map(vertices: Numbers, conversion: Any, project_unit_m: float, unit_m: f
     return np.column_stack([flat, vertices[:, 2] + conversion.OrthogonalHeight * unit_m])
 
 
-def _in_frame(vertices: Numbers, file: Any, conversion: Any, crs: Any) -> tuple[Numbers, Georeference]:
-    """In the scene's frame, about the middle of the model."""
+def _in_frame(vertices: Numbers, count: int, file: Any, conversion: Any, crs: Any) -> tuple[Numbers, Georeference]:
+    """In the scene's frame, about the middle of the model: of the first `count` vertices. The others stand in."""
     unit_m = float(require("ifcopenshell.util.unit", "ifc").calculate_unit_scale(file))
     text = crs_text(crs if crs is not None else conversion.TargetCRS.Name)
     placed = _on_map(vertices, conversion, unit_m, _map_unit_m(text, conversion.TargetCRS.MapUnit))
-    middle = (placed[:, :2].min(axis=0) + placed[:, :2].max(axis=0)) / 2
+    middle = (placed[:count, :2].min(axis=0) + placed[:count, :2].max(axis=0)) / 2
     longitude, latitude = _degrees(middle, text)
     flat = _core.plan_from_crs(Georeference(latitude, longitude), text, np.ascontiguousarray(placed[:, :2]))
     vertical = conversion.TargetCRS.VerticalDatum or ""
@@ -242,13 +298,17 @@ def _read(file_name: str, deflection_m: float) -> tuple[Any, dict[str, tuple[Num
         return file, shapes, _lost(ifc.get_log())
 
 
-def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, allow_missing: Any) -> Model:
+def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, allow_missing: Any,
+             policy: Any = "block") -> Model:
     """The triangles of a building model: see `Scene.from_ifc`."""
     is_placed, is_missing_allowed = flag(georeference, "georeference"), flag(allow_missing, "allow_missing")
     if not 0 < deflection_m <= 1:
         raise input_error("value-out-of-range", f"deflection_m is {deflection_m:g}", "deflection_m", "give metres, up to 1")
+    if policy not in ("block", "warn", "refuse"):
+        raise input_error("unknown-choice", f"missing is {policy!r}", "missing", "choose block, warn or refuse")
     file, shapes, lost = _read(file_name, deflection_m)
-    wanted = _bodies(file)
+    ledger: list[Missing] = []
+    wanted = _bodies(file, ledger)
     missing = [guid for guid in wanted if guid not in shapes]
     if missing and not is_missing_allowed:
         named = ", ".join(f"{wanted[guid].is_a()} {wanted[guid].Name or ''} ({guid})" for guid in missing[:5])
@@ -259,10 +319,16 @@ def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, a
                           file_name, "mend them, or pass allow_missing=True: then they hide nothing")
     if not shapes:
         raise input_error("mesh-empty", "the file has no product with a body", file_name, "export the model with its geometry")
-    objects = []
-    for guid in shapes:
-        product = file.by_guid(guid)
-        objects.append(SceneObject(product.Name or product.is_a(), guid, _KINDS.get(product.is_a(), "building")))
+    ledger += [Missing(_identity(wanted[guid]), wanted[guid].is_a(), "IfcOpenShell made no triangles of it")
+               for guid in missing]
+    ledger += [Missing(SceneObject(""), "part of the model", f"IfcOpenShell could not convert it: {one[:300]}") for one in lost]
+    objects = [_identity(file.by_guid(guid)) for guid in shapes]
+    count = sum(len(vertices) for vertices, _ in shapes.values())
+    _thicken(shapes, objects, ledger, deflection_m, policy == "block")
+    if ledger and policy == "refuse":
+        first = ledger[0]
+        raise input_error("scene-incomplete", f"{len(ledger)} things are not built as they stand; the first: "
+                          f"{first.object.name} {first.what}: {first.reason}", file_name, "pass missing='block', or mend them")
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in shapes.values()][:-1])
     vertices = np.concatenate([vertices for vertices, _ in shapes.values()])
     faces = np.concatenate([faces + start for (_, faces), start in zip(shapes.values(), starts)])
@@ -270,5 +336,31 @@ def model_of(file_name: str, deflection_m: float, georeference: Any, crs: Any, a
     conversion = _conversion(file) if is_placed else None
     place = None
     if conversion is not None:
-        vertices, place = _in_frame(vertices, file, conversion, crs)
-    return Model(vertices, faces, object_of, objects, place)
+        vertices, place = _in_frame(vertices, count, file, conversion, crs)
+    return Model(vertices, faces, object_of, objects, place, _with_boxes(ledger, vertices[faces], object_of, objects))
+
+
+def _thicken(shapes: dict[str, tuple[Numbers, npt.NDArray[np.int64]]], objects: list[SceneObject], ledger: list[Missing],
+             deflection_m: float, holds: bool) -> None:
+    """Adds what holds the curved surfaces of each product, as an object of its own, and says so."""
+    for number, (guid, (vertices, faces)) in enumerate(list(shapes.items())):
+        curved = _curved(vertices, faces)
+        if not len(curved):
+            continue
+        ledger.append(Missing(objects[number], "curved surfaces", f"their facets lie up to {deflection_m:g} m from them",
+                              None, len(objects) if holds else None,
+                              f"the facets, {deflection_m:g} m thicker on each side" if holds else ""))
+        if holds:
+            shapes[f"{guid} thicker"] = _thickened(vertices, faces[curved], deflection_m)
+            objects.append(SceneObject(objects[number].name, guid, _STAND_IN))
+
+
+def _with_boxes(ledger: list[Missing], corners: Numbers, object_of: npt.NDArray[np.int64],
+                objects: list[SceneObject]) -> list[Missing]:
+    """Where what has triangles is."""
+    result = []
+    for missing in ledger:
+        of = [i for i, one in enumerate(objects) if one.source_id and one.source_id == missing.object.source_id]
+        own = corners[np.isin(object_of, of)].reshape(-1, 3)
+        result.append(missing._replace(box=[*own.min(axis=0).tolist(), *own.max(axis=0).tolist()]) if len(own) else missing)
+    return result

@@ -196,7 +196,7 @@ class Scene(Triangles):
     def from_arrays(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, object_of: npt.ArrayLike | None = None,
                     objects: Iterable[SceneObject | str] | None = None, georeference: Georeference | None = None,
                     sea_level: float | None = None, attribution: str = "",
-                    _whole: Sequence[float] | None = None) -> Scene:
+                    _whole: Sequence[float] | None = None, _ledger: Sequence[Any] = ()) -> Scene:
         """Makes a scene of triangles; the arrays are copied.
 
         Args:
@@ -231,7 +231,7 @@ class Scene(Triangles):
             rows.append((one.name, one.source_id, KINDS.index(one.kind)))
         level = None if sea_level is None else _arrays.number(sea_level, "sea_level")
         return cls(_core.scene_from_arrays(points, triangles, of, rows, _place(georeference), level, _whole,
-                                           checked_text(attribution, "attribution")))
+                                           checked_text(attribution, "attribution"), list(_ledger)))
 
     @classmethod
     def _load(cls, keys: Mapping[str, Any], progress: Progress) -> Scene:
@@ -330,7 +330,8 @@ class Scene(Triangles):
         Args:
             path: the file.
             cell_m: side of a cell, metres.
-            without: classes that are left out, and hide nothing: (7, 18) is noise. Default: all points are taken.
+            without: classes that are left out, and hide nothing: (7, 18) is noise. Default: all points are taken. What is
+                left out is in the scene's ledger.
             crs: of the coordinates: "EPSG:25832". Default: what the file says; where it says nothing, they are metres in the
                 frame.
             z_unit_m: metres in the unit of z: 0.3048 for feet. Default: that of the CRS's vertical axis, or of the file's
@@ -344,11 +345,11 @@ class Scene(Triangles):
         made = cloud_of_file(checked_path(path), _arrays.number(cell_m, "cell_m"), without, crs, origin,
                              z_unit_m)
         return cls.from_arrays(made.vertices, made.faces, objects=[SceneObject("points", "", "surface")],
-                               georeference=made.place, sea_level=sea_level)
+                               georeference=made.place, sea_level=sea_level, _ledger=[one.row() for one in made.ledger])
 
     @classmethod
     def from_ifc(cls, path: Path, *, deflection_m: float = 0.001, georeference: bool = True, crs: str | None = None,
-                 allow_missing: bool = False, sea_level: float | None = None) -> Scene:
+                 allow_missing: bool = False, missing: str = "block", sea_level: float | None = None) -> Scene:
         """Reads a building model, IFC 2x3, 4 or 4x3 (.ifc), by IfcOpenShell, the extra `ifc`: docs/scene.md.
 
         Each product with a body is an object: its Name, and its GlobalId as `source_id`. Openings are cut out, doors and
@@ -356,22 +357,25 @@ class Scene(Triangles):
 
         Args:
             path: the file. IfcOpenShell reads it in this process: it may come to grief with files that were made to harm.
-            deflection_m: curved surfaces become flat facets, no farther than this from them, **on either side**: a column may
-                be so much too thin. Keep that much clearance.
+            deflection_m: curved surfaces become flat facets, no farther than this from them, on either side. Facets that
+                may be of a curved surface are made so much thicker on each side: an object of the kind "stand-in".
             georeference: whether the file's IfcMapConversion says where the scene lies. Its origin then is the middle of the
                 model, and z the height of the map. Without one, or with False, the frame is that of the file, with no place.
             crs: of the map, where PROJ does not know the file's name of it: "EPSG:28992".
             allow_missing: products, and parts of them, that no triangles can be made of are left out, and hide nothing,
-                instead of refused.
+                instead of refused. They are in the scene's ledger.
+            missing: "block", or "warn": curved surfaces are not made thicker; or "refuse": the model is refused where
+                anything cannot be built as it stands.
             sea_level: z of the mean sea level.
 
         Raises:
             Error: the file cannot be read, has no bodies, or products or parts of them that no triangles can be made of; its
                 map conversion is not understood, or has another unit than the map's CRS.
         """
-        made = model_of(checked_path(path), _arrays.number(deflection_m, "deflection_m"), georeference, crs, allow_missing)
+        made = model_of(checked_path(path), _arrays.number(deflection_m, "deflection_m"), georeference, crs, allow_missing,
+                        missing)
         return cls.from_arrays(made.vertices, made.faces, object_of=made.object_of, objects=made.objects,
-                               georeference=made.place, sea_level=sea_level)
+                               georeference=made.place, sea_level=sea_level, _ledger=[one.row() for one in made.ledger])
 
     def _recall(self, needs_map: bool) -> None:
         """Tells a scene that was unpickled its map again, if that is still the same."""
@@ -543,7 +547,8 @@ class Scene(Triangles):
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (np.array(self.vertices), np.array(self.faces), np.array(self.object_of), self.objects,
                            self.georeference, self._core.sea_level_m, self._core.whole,
-                           None if self._source is None else self._source.kept(), self.attribution)
+                           None if self._source is None else self._source.kept(), self.attribution,
+                           self._core.ledger_rows)
 
     def _repr_html_(self) -> str:
         return html(self)
@@ -591,8 +596,8 @@ def _with_reader(error: Error, given: Mapping[str, Any]) -> Error:
 
 def _restored(vertices: npt.ArrayLike, faces: npt.ArrayLike, object_of: npt.ArrayLike, objects: list[SceneObject],
               georeference: Georeference | None, sea_level: float | None, whole: Sequence[float] | None = None,
-              source: Source | None = None, attribution: str = "") -> Scene:
+              source: Source | None = None, attribution: str = "", ledger: Sequence[Any] = ()) -> Scene:
     scene = Scene.from_arrays(vertices, faces, object_of=object_of, objects=objects, georeference=georeference,
-                              sea_level=sea_level, attribution=attribution, _whole=whole)
+                              sea_level=sea_level, attribution=attribution, _whole=whole, _ledger=ledger)
     scene._source = source
     return scene

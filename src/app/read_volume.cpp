@@ -144,7 +144,9 @@ double most_rounding(const std::filesystem::path& file, const Mesh& mesh) {
 
 VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions& obj,
                        const std::optional<Georeference>& frame, const Progress& progress) {
-  Scene read = read_scene(file, is_obj(file) ? obj : SceneReadOptions{}, progress);
+  SceneReadOptions options = is_obj(file) ? obj : SceneReadOptions{};
+  options.missing = MissingPolicy::warn;  // what would stand in is not claimed
+  Scene read = read_scene(file, options, progress);
   VolumeFile result;
   result.file = file;
   result.volume.mesh = std::move(read.mesh);

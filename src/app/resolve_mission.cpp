@@ -30,6 +30,7 @@ std::vector<internal::app::NavigationMesh> read_navigation_meshes(const MissionF
     internal::app::NavigationMesh mesh;
     if (i < mission.places.navigation_meshes.size()) mesh.place = mission.places.navigation_meshes[i];
     SceneReadOptions options;
+    options.missing = MissingPolicy::warn;  // what would stand in must not be allowed
     if (named.up) options.up = *named.up;
     if (named.scale) options.scale = *named.scale;
     const Scene read = read_scene(named.file, options);

@@ -39,6 +39,13 @@ struct ReadLimits {
   /// Memory that the parsed JSON may take, as far as it can be told. Numbers take 32 bytes, empty objects 200.
   std::uint64_t json_bytes = std::uint64_t{5} << 28;
 
+  /// Metres in one unit of the mesh: to tell which of its polygons are flat.
+  double unit_m = 1;
+
+  /// Whether quadrilaterals that are not flat become the triangles of both their diagonals: as blockers, and not as what
+  /// is allowed or claimed.
+  bool both_diagonals = true;
+
   /// Corners of one polygon: the time to triangulate it may grow with the square.
   std::size_t corners = 16'384;
 };

@@ -2,6 +2,8 @@
 // objects. Semantics, textures and materials are passed over, and so are points and lines. See docs/scene.md.
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "io/lod.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
+#include "io/object_text.h"
 
 namespace vantage::internal::io {
 namespace {
@@ -119,19 +122,21 @@ class CityJsonReader {
       progress_.tick(done++, objects.size());
       trail_.set_object(id.empty() ? "(no id)" : id);
       if (!object.is_object()) trail_.fail("it is not an object");
-      read_object(id, object, vertices);
+      read_object(id, object, objects, vertices);
     }
     trail_.set_object("");
     objects_ += objects.size();
   }
 
-  void read_object(const std::string& id, const Json& object, Vertices& vertices) {
+  void read_object(const std::string& id, const Json& object, const Json& objects, Vertices& vertices) {
     type_of(object, trail_);  // any type that has surfaces may hide something
     const auto geometry = object.find("geometry");
     const bool has_geometry = geometry != object.end() && !geometry->is_null();
     if (has_geometry && !geometry->is_array()) trail_.fail("\"geometry\" is not an array");
     if (!has_geometry || geometry->empty()) {
-      if (!object.contains("children")) empty_.add(id);
+      if (has_child_among(objects, object)) return;
+      empty_.add(id);
+      tell_missing(id, object, {}, "it has neither surfaces nor parts");
       return;
     }
     std::vector<std::pair<std::size_t, double>> candidates;  // which of them hold surfaces, and their levels
@@ -144,10 +149,12 @@ class CityJsonReader {
       levels.push_back(lod_of(item));
       candidates.emplace_back(i, levels.back());
     }
-    if (levels.empty()) return;
+    if (levels.empty()) {
+      tell_missing(id, object, box_of_points(*geometry, vertices), "it has points or lines, and no surfaces");
+      return;
+    }
     found_lods_.insert(levels.begin(), levels.end());
     const double chosen = choose_lod(levels, asked_);
-    if (asked_ && !meets_lod(chosen, *asked_)) other_lod_.add(id);
 
     const std::size_t before = builder_.triangle_count();
     builder_.identify_object(builder_.add_object(id), identity_of(id, object));
@@ -155,7 +162,154 @@ class CityJsonReader {
       const Trail::Step step(trail_, "geometry", i);
       if (lod == chosen) read_geometry((*geometry)[i], vertices);
     }
-    if (builder_.triangle_count() == before) empty_.add(id);
+    if (builder_.triangle_count() == before) {
+      empty_.add(id);
+      tell_missing(id, object, {}, "its surfaces have no extent");
+      return;
+    }
+    Box box;
+    for (std::size_t i = before; i < builder_.triangle_count(); ++i) {
+      for (const std::uint32_t corner : builder_.triangle(i)) box.extend(builder_.vertex(corner));
+    }
+    if (asked_ && !meets_lod(chosen, *asked_)) {
+      other_lod_.add(id);
+      own_faults_.push_back(
+          {id, "geometry of LoD " + lod_text(*asked_), "it has none", "its geometry of LoD " + lod_text(chosen), box});
+    }
+    if (chosen >= 0 && chosen < 1) tell_footprint(id, object, before, box);
+  }
+
+  /// Whether what an object consists of is in the file.
+  static bool has_child_among(const Json& objects, const Json& object) {
+    const auto children = object.find("children");
+    if (children == object.end() || !children->is_array()) return false;
+    return std::any_of(children->begin(), children->end(), [&](const Json& child) {
+      return child.is_string() && objects.contains(child.get_ref<const std::string&>());
+    });
+  }
+
+  /// "measuredHeight" in units of the file.
+  std::optional<double> height_of(const Json& object) const {
+    const auto attributes = object.find("attributes");
+    if (attributes == object.end() || !attributes->is_object()) return std::nullopt;
+    const auto height = attributes->find("measuredHeight");
+    if (height == attributes->end() || !height->is_number()) return std::nullopt;
+    const double metres = height->get<double>();
+    return metres > 0 && metres < core::kMaxCoordinate ? std::optional(metres / limits_.unit_m) : std::nullopt;
+  }
+
+  /// "geographicalExtent"; an empty box where it is missing or makes no sense: the object is in the ledger all the
+  /// same.
+  static Box extent_of(const Json& object) {
+    const auto extent = object.find("geographicalExtent");
+    if (extent == object.end() || !extent->is_array() || extent->size() != 6) return {};
+    std::array<double, 6> n{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (!(*extent)[i].is_number()) return {};
+      n[i] = (*extent)[i].get<double>();
+    }
+    const Box box{Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5])};
+    const bool has_width = box.min.x() < box.max.x() && box.min.y() < box.max.y() && box.min.z() <= box.max.z();
+    return has_width && box.min.allFinite() && box.max.allFinite() ? box : Box{};
+  }
+
+  /// Of all vertices that geometries of points and lines refer to, as far as these can be read.
+  static Box box_of_points(const Json& geometries, const Vertices& vertices) {
+    Box box;
+    for (const Json& geometry : geometries) {
+      const auto boundaries = geometry.find("boundaries");
+      if (boundaries == geometry.end()) continue;
+      std::vector<const Json*> waiting = {&*boundaries};
+      while (!waiting.empty()) {
+        const Json& next = *waiting.back();
+        waiting.pop_back();
+        if (next.is_array()) {
+          for (const Json& one : next) waiting.push_back(&one);
+        } else if (next.is_number_unsigned() && next.get<std::uint64_t>() < vertices.size()) {
+          box.extend(vertices.position(next.get<std::size_t>()));
+        }
+      }
+    }
+    return box;
+  }
+
+  LedgerEntry entry_of(const std::string& id, const Json& object, std::string reason) const {
+    LedgerEntry entry;
+    entry.object = identity_of(id, object);
+    entry.what = type_of(object, trail_);
+    entry.reason = std::move(reason);
+    if (const auto height = height_of(object)) entry.height_m = *height * limits_.unit_m;
+    return entry;
+  }
+
+  /// An object without surfaces: its stated extent holds its place. `points`: where it has points.
+  void tell_missing(const std::string& id, const Json& object, const Box& points, std::string reason) {
+    LedgerEntry entry = entry_of(id, object, std::move(reason));
+    const Box extent = extent_of(object);
+    if (extent.empty()) {
+      if (!points.empty()) entry.box = points;
+      ledger_.push_back({std::move(entry), {}});
+      return;
+    }
+    if (!entry.height_m) entry.height_m = (extent.max.z() - extent.min.z()) * limits_.unit_m;
+    Missing missing = held_by_box(std::move(entry), extent);
+    missing.entry.instead = "the box of its extent";
+    ledger_.push_back(std::move(missing));
+  }
+
+  /// A building, bridge or tree of which the file has only the footprint: raised to its height, where that is stated.
+  void tell_footprint(const std::string& id, const Json& object, std::size_t first, Box box) {
+    LedgerEntry entry = entry_of(id, object, "the file has only its footprint (LoD 0)");
+    if (entry.object.kind == ObjectKind::other) return;
+    const auto height = height_of(object);
+    if (!height) {
+      entry.reason += ", and no measuredHeight";
+      entry.box = Box{box.min, Vec3(box.max.x(), box.max.y(), std::numeric_limits<double>::infinity())};
+      ledger_.push_back({std::move(entry), {}});
+      return;
+    }
+    Missing missing{std::move(entry), {}};
+    auto& [vertices, triangles] = missing.holder;
+    for (std::size_t i = first; i < builder_.triangle_count(); ++i) {
+      const auto at = static_cast<std::uint32_t>(vertices.size());
+      for (const double up : {0.0, *height}) {
+        for (const std::uint32_t corner : builder_.triangle(i)) {
+          vertices.push_back(builder_.vertex(corner) + Vec3(0, 0, up));
+        }
+      }
+      triangles.push_back({at, at + 2, at + 1});
+      triangles.push_back({at + 3, at + 4, at + 5});
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = at + k, b = at + (k + 1) % 3;
+        triangles.push_back({a, b, b + 3});
+        triangles.push_back({a, b + 3, a + 3});
+      }
+    }
+    box.max.z() += *height;
+    missing.entry.box = box;
+    missing.entry.instead = core::format("its footprint, {:.4g} m high", *missing.entry.height_m);
+    ledger_.push_back(std::move(missing));
+  }
+
+  /// What is wrong with objects that are built.
+  void tell_faults(RawMesh& mesh) {
+    std::map<std::string_view, std::uint32_t> number;
+    for (std::uint32_t i = 0; i < mesh.objects.size(); ++i) number.try_emplace(mesh.objects[i].source_id, i);
+    const auto tell = [&](const cityjson::SurfaceBuilder::Fault& fault) {
+      LedgerEntry entry;
+      const auto known = number.find(clean_name(fault.object));
+      entry.object = known == number.end() ? SceneObject{"", fault.object} : mesh.objects[known->second];
+      entry.what = fault.what;
+      entry.reason = fault.reason;
+      entry.box = fault.box;
+      entry.instead = fault.instead;
+      entry.may_be_larger = fault.is_held;
+      if (!fault.is_held && known != number.end()) entry.stand_in = known->second;
+      mesh.ledger.push_back({std::move(entry), fault.is_held ? box_mesh(fault.box) : Mesh{}});
+    };
+    for (const auto& fault : surfaces_.faults()) tell(fault);
+    for (const auto& fault : own_faults_) tell(fault);
+    for (Missing& missing : ledger_) mesh.ledger.push_back(std::move(missing));
   }
 
   /// What an object's type says of it (CityJSON 2.0, chapter 2).
@@ -318,6 +472,7 @@ class CityJsonReader {
     no_surfaces_.note(mesh.notes, "geometry of points or lines is passed over",
                       "geometries of points or lines are passed over");
     surfaces_.add_notes(mesh.notes);
+    tell_faults(mesh);
     return mesh;
   }
 
@@ -333,6 +488,8 @@ class CityJsonReader {
   std::set<double> found_lods_;
   std::size_t objects_ = 0;
   Finding other_lod_, empty_, no_surfaces_;
+  std::vector<cityjson::SurfaceBuilder::Fault> own_faults_;
+  std::vector<Missing> ledger_;
 
   // For the geometry that is being read.
   Vertices* vertices_ = nullptr;

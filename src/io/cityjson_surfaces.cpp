@@ -3,14 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "core/format.h"
 #include "io/join_holes.h"
 
 namespace vantage::internal::io::cityjson {
 namespace {
-
-// What val3dity (H. Ledoux, 2018) allows by default for a surface to count as flat.
-constexpr double kFlatM = 0.01;
 
 using Ring = std::vector<std::uint32_t>;
 
@@ -41,6 +37,8 @@ void SurfaceBuilder::end_shell() {
   switch (shell_.result()) {
     case ShellCheck::Result::open:
       open_.add(trail_.object());
+      faults_.push_back({trail_.object(), "solid", "its shell is not closed", "the box of its open edges", {}, true});
+      for (const std::uint32_t end : shell_.open_ends()) faults_.back().box.extend(builder_.vertex(end));
       break;
     case ShellCheck::Result::misoriented:
       misoriented_.add(trail_.object());
@@ -80,33 +78,14 @@ void SurfaceBuilder::add(std::vector<Ring>& rings) {
     }
     std::size_t left_out = 0;
     for (const std::uint32_t i : join_holes(points, ends, left_out)) builder_.add_corner(vertices[i]);
-    for (; left_out > 0; --left_out) holes_outside_.add(trail_.object());
-  }
-  builder_.end_face();
-  if (!has_border) return;
-  check_flatness(rings);
-  if (in_shell_) check_shell(rings);
-}
-
-void SurfaceBuilder::check_flatness(const std::vector<Ring>& rings) {
-  const Ring& border = rings[0];
-  const Vec3& origin = builder_.vertex(border[0]);
-  Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
-  for (std::size_t i = 0; i < border.size(); ++i) {
-    const Vec3 a = builder_.vertex(border[i]) - origin, b = builder_.vertex(border[(i + 1) % border.size()]) - origin;
-    normal += a.cross(b);
-    middle += a / static_cast<double>(border.size());
-  }
-  if (normal.norm() == 0) return;
-  normal.normalize();
-  double farthest = 0;
-  for (const Ring& ring : rings) {
-    for (const std::uint32_t corner : ring) {
-      farthest = std::max(farthest, std::abs(normal.dot(builder_.vertex(corner) - origin - middle)));
+    for (; left_out > 0; --left_out) {
+      holes_outside_.add(trail_.object());
+      faults_.push_back({trail_.object(), "hole", "it lies outside its surface", "the surface without the hole", {}});
+      for (const std::uint32_t corner : vertices) faults_.back().box.extend(builder_.vertex(corner));
     }
   }
-  if (farthest > kFlatM) not_flat_.add(trail_.object());
-  farthest_m_ = std::max(farthest_m_, farthest);
+  builder_.end_face();
+  if (has_border && in_shell_) check_shell(rings);
 }
 
 void SurfaceBuilder::check_shell(const std::vector<Ring>& rings) {
@@ -126,8 +105,6 @@ void SurfaceBuilder::add_notes(std::vector<std::string>& notes) const {
   misoriented_.note(notes, "shell of a solid has surfaces that face the wrong way",
                     "shells of solids have surfaces that face the wrong way");
   inside_out_.note(notes, "shell of a solid is inside out", "shells of solids are inside out");
-  not_flat_.note(notes, "surface is not flat to 1 cm,", "surfaces are not flat to 1 cm,",
-                 core::format(" a corner lies up to {:.2f} m off", farthest_m_));
   holes_outside_.note(notes, "hole lies outside its surface and is left out",
                       "holes lie outside their surfaces and are left out");
 }

@@ -41,8 +41,16 @@ class SurfaceBuilder {
 
   void add_notes(std::vector<std::string>& notes) const;
 
+  /// What of an object is not built as it stands.
+  struct Fault {
+    std::string object;  ///< its id
+    std::string what, reason, instead = {};
+    Box box;
+    bool is_held = false;  ///< the box holds it; else, where `instead` is given, the object does as it is built
+  };
+  const std::vector<Fault>& faults() const { return faults_; }
+
  private:
-  void check_flatness(const std::vector<std::vector<std::uint32_t>>& rings);
   void check_shell(const std::vector<std::vector<std::uint32_t>>& rings);
 
   MeshBuilder& builder_;
@@ -54,8 +62,8 @@ class SurfaceBuilder {
   std::optional<Vec3> about_;  // a point of the shell
   double volume_ = 0;          // six times what the shell encloses
 
-  Finding open_, misoriented_, inside_out_, not_flat_, holes_outside_;
-  double farthest_m_ = 0;  // of a surface's corners from its plane
+  Finding open_, misoriented_, inside_out_, holes_outside_;
+  std::vector<Fault> faults_;
 };
 
 }  // namespace vantage::internal::io::cityjson

@@ -22,7 +22,7 @@ enum ComponentType : std::uint64_t { kInt8 = 5120, kUint8, kInt16, kUint16, kUin
 // It changes where triangles are, even if the file does not require it: about a place on the earth, which is a tile's.
 constexpr const char* kTileOnly = "CESIUM_RTC";
 // Extensions that a file may require: they change how surfaces look, or are understood, or are read here.
-constexpr std::array<std::string_view, 14> kHarmlessPrefixes = {"KHR_materials_",
+constexpr std::array<std::string_view, 15> kHarmlessPrefixes = {"KHR_materials_",
                                                                 "KHR_texture_",
                                                                 "EXT_texture_",
                                                                 "KHR_lights_",
@@ -35,6 +35,7 @@ constexpr std::array<std::string_view, 14> kHarmlessPrefixes = {"KHR_materials_"
                                                                 "KHR_draco_mesh_compression",
                                                                 "EXT_meshopt_compression",
                                                                 "CESIUM_primitive_outline",
+                                                                "KHR_node_visibility",
                                                                 "KHR_xmp"};
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
@@ -61,6 +62,7 @@ int components_of(std::string_view type) {
   if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   if (type == "VEC4") return 4;
+  if (type == "MAT4") return 16;
   return 0;
 }
 
@@ -334,7 +336,7 @@ Accessor Document::accessor(std::uint64_t index) {
 /// What a sparse accessor is without a buffer view (glTF 2.0, section 3.6.2.3).
 Accessor::Elements Document::zeros(std::uint64_t component_type, int components, std::uint64_t count,
                                    const std::string& name) const {
-  static constexpr std::array<char, 16> kZeros = {};
+  static constexpr std::array<char, 64> kZeros = {};
   constexpr std::uint64_t kMost = 1'000'000;  // they cost the file nothing
   if (count > kMost) fail(name + " has more than " + std::to_string(kMost) + " elements, and no buffer view");
   return {kZeros.data(), 0, count, component_type, components};

@@ -19,7 +19,7 @@ struct TileContext {
 };
 
 struct TileMesh {
-  RawMesh mesh;                ///< as read_gltf gives it, y up, but with an object for each feature
+  RawMesh mesh;                ///< as read_gltf gives it, y up, but with an object for each feature; may be empty
   Vec3 center = Vec3::Zero();  ///< CESIUM_RTC: to be added when z is up
   UnreadableProperties unreadable_properties = {};
   std::uint64_t features_by_texture = 0;  ///< primitives that have such

@@ -1,9 +1,13 @@
 #include "io/mesh_builder.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/input.h"
+#include "core/format.h"
+#include "core/text.h"
 #include "io/object_text.h"
 #include "io/triangulate_polygon.h"
 
@@ -56,8 +60,45 @@ void MeshBuilder::add_face() {
   polygon_.clear();
   for (const std::uint32_t corner : corners_) polygon_.push_back(mesh_.vertices[corner]);
   ears_.clear();
+  const double farthest = off_plane();
+  if (farthest > 0 && corners_.size() == 4 && limits_.both_diagonals) {
+    add_triangle({corners_[0], corners_[1], corners_[2]});
+    add_triangle({corners_[0], corners_[2], corners_[3]});
+    add_triangle({corners_[0], corners_[1], corners_[3]});
+    add_triangle({corners_[1], corners_[2], corners_[3]});
+    return;
+  }
+  if (farthest > 0) {
+    Uneven& uneven = uneven_[object_];
+    for (const Vec3& corner : polygon_) uneven.box.extend(corner);
+    uneven.farthest = std::max(uneven.farthest, farthest);
+    ++uneven.faces;
+  }
   triangulate_polygon(polygon_, ears_);
   for (const Triangle& ear : ears_) add_triangle({corners_[ear[0]], corners_[ear[1]], corners_[ear[2]]});
+}
+
+/// How far a corner of polygon_ lies off its plane at most; 0 where it is flat.
+double MeshBuilder::off_plane() const {
+  constexpr double kFlatM = 0.01;  // what val3dity (H. Ledoux, 2018) allows by default for a surface to count as flat
+  constexpr double kShare = 1e-3, kSingle = 0x1p-22;
+  const Vec3& origin = polygon_[0];
+  Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
+  Box box;
+  double largest = 0;
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const Vec3 a = polygon_[i] - origin, b = polygon_[(i + 1) % polygon_.size()] - origin;
+    normal += a.cross(b);
+    middle += a / static_cast<double>(polygon_.size());
+    box.extend(a);
+    largest = std::max(largest, polygon_[i].cwiseAbs().maxCoeff());
+  }
+  if (!(normal.norm() > 0)) return 0;
+  normal.normalize();
+  double farthest = 0;
+  for (const Vec3& corner : polygon_) farthest = std::max(farthest, std::abs(normal.dot(corner - origin - middle)));
+  const double allowed = std::min(kFlatM / limits_.unit_m, kShare * (box.max - box.min).norm());
+  return farthest > std::max(allowed, kSingle * largest) ? farthest : 0;
 }
 
 void MeshBuilder::add_late_faces() {
@@ -72,7 +113,8 @@ void MeshBuilder::add_late_faces() {
   }
 }
 
-void MeshBuilder::keep_used_objects() {
+/// Returns what has become of their numbers.
+std::vector<std::uint32_t> MeshBuilder::keep_used_objects() {
   std::vector<std::uint32_t> new_index(mesh_.objects.size(), kNone);
   for (const std::uint32_t object : mesh_.object_of) new_index[object] = 0;
   std::vector<SceneObject> used;
@@ -85,12 +127,33 @@ void MeshBuilder::keep_used_objects() {
   }
   mesh_.objects = std::move(used);
   for (std::uint32_t& object : mesh_.object_of) object = new_index[object];
+  return new_index;
+}
+
+void MeshBuilder::tell_uneven(const std::vector<std::uint32_t>& new_index) {
+  for (const auto& [object, uneven] : uneven_) {
+    LedgerEntry entry;
+    entry.object = mesh_.objects[new_index[object]];
+    entry.what = core::count_text(uneven.faces, "face that is not flat", "faces that are not flat");
+    entry.reason = core::format("a corner lies {:.3g} m off the plane: cut into triangles, which may be so much off",
+                                uneven.farthest * limits_.unit_m);
+    entry.box = uneven.box;
+    mesh_.ledger.push_back({std::move(entry), {}});
+  }
 }
 
 RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
   add_late_faces();
   if (!joined.empty()) {
     for (std::uint32_t& object : mesh_.object_of) object = joined[object];
+    std::map<std::uint32_t, Uneven> uneven;
+    for (const auto& [object, part] : std::exchange(uneven_, {})) {
+      Uneven& whole = uneven[joined[object]];
+      whole.box.extend(part.box);
+      whole.farthest = std::max(whole.farthest, part.farthest);
+      whole.faces += part.faces;
+    }
+    uneven_ = std::move(uneven);
   }
   if (mesh_.triangles.empty()) {
     source_.fail(ErrorCode::mesh_empty,
@@ -98,7 +161,7 @@ RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
                      std::to_string(mesh_.dropped_faces) + " faces with fewer than 3 corners)",
                  "export a surface mesh with faces");
   }
-  keep_used_objects();
+  tell_uneven(keep_used_objects());
   return std::move(mesh_);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,7 @@ class MeshBuilder {
 
   const Vec3& vertex(std::uint32_t index) const { return mesh_.vertices[index]; }
   std::size_t vertex_count() const { return mesh_.vertices.size(); }
+  const Triangle& triangle(std::size_t index) const { return mesh_.triangles[index]; }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
 
   /// Throws for a coordinate that is not finite. Returns the vertex's index.
@@ -55,7 +57,10 @@ class MeshBuilder {
   /// Where the file says more than a name.
   void identify_object(std::uint32_t object, const SceneObject& identity);
 
-  // A face: begin_face, add_corner for each corner, end_face. Corners count from 0 and may be vertices that come later
+  // A face: begin_face, add_corner for each corner, end_face. A polygon counts as flat where its corners lie within 1
+  // cm and a thousandth of its width of a plane, or within what single precision can tell there. A quadrilateral that
+  // is not becomes the four triangles of both its diagonals: whatever it means lies between them. Others become
+  // triangles, and an entry of the ledger for each object. Corners count from 0 and may be vertices that come later
   // in the file.
   void begin_face(std::uint64_t place) {
     place_ = place;
@@ -91,9 +96,18 @@ class MeshBuilder {
     std::uint32_t object;
   };
 
+  /// Polygons of an object that are not flat and were cut into triangles in one of several ways.
+  struct Uneven {
+    Box box;
+    double farthest = 0;  // of a corner from its polygon's plane
+    std::size_t faces = 0;
+  };
+
   void add_face();
   void add_late_faces();
-  void keep_used_objects();
+  double off_plane() const;
+  std::vector<std::uint32_t> keep_used_objects();
+  void tell_uneven(const std::vector<std::uint32_t>& new_index);
   [[noreturn]] void fail(ErrorCode code, std::uint64_t place, std::string problem, std::string fix) const;
   [[noreturn]] void fail_not_finite(const Vec3& vertex, std::uint64_t place) const;
   [[noreturn]] void fail_too_many(std::uint64_t place) const;
@@ -112,6 +126,7 @@ class MeshBuilder {
   std::vector<LateFace> late_faces_;
   std::vector<std::uint32_t> late_corners_;
   std::vector<Vec3> polygon_;
+  std::map<std::uint32_t, Uneven> uneven_;  // by object
   std::vector<Triangle> ears_;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/mesh_readers.h"
+#include "io/object_text.h"
 #include "io/sidecar.h"
 #include "io/text_cursor.h"
 #include "io/tileset.h"
@@ -89,6 +90,7 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
       Sidecar beside = read_sidecar(source, progress);
       mesh.georeference = std::move(beside.georeference);
       mesh.rounding_m = beside.rounding_m;
+      mesh.ledger = std::move(beside.ledger);
     }
     return mesh;
   } catch (const std::bad_alloc&) {
@@ -102,7 +104,10 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
 namespace vantage {
 
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
-  internal::io::RawMesh raw = internal::io::read_mesh_file(file, progress, {}, options.lod);
+  internal::core::ReadLimits limits;
+  if (options.scale > 0) limits.unit_m = options.scale;
+  limits.both_diagonals = options.missing == MissingPolicy::block;
+  internal::io::RawMesh raw = internal::io::read_mesh_file(file, progress, limits, options.lod);
   const bool was_projected = !raw.crs.empty() || !options.crs.empty();
   SceneReadOptions used = options;
   if (raw.axes) {
@@ -113,6 +118,7 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
     }
   }
   internal::io::to_scene_frame(raw, used, file);
+  internal::io::apply_policy(raw, options.missing, file);
   Scene result;
   result.mesh.vertices = std::move(raw.vertices);
   result.mesh.triangles = std::move(raw.triangles);
@@ -123,11 +129,12 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
               : raw.format == internal::io::MeshFormat::cityjson ? UpAxis::z
                                                                  : used.up;
   result.scale = was_projected ? 1 : used.scale;
-  result.states_axes = raw.axes.has_value();
+  result.states_axes = raw.axes.has_value() || raw.format == internal::io::MeshFormat::cityjson;
   result.dropped_faces = raw.dropped_faces;
   result.georeference = std::move(raw.georeference);
   result.rounding_m = raw.rounding_m;
   result.notes = std::move(raw.notes);
+  for (internal::io::Missing& missing : raw.ledger) result.ledger.push_back(std::move(missing.entry));
   return result;
 }
 

@@ -18,6 +18,13 @@ namespace vantage::internal::io {
 
 enum class MeshFormat { obj, ply, stl, gltf, cityjson };
 
+/// What a reader saw and did not build as it stands.
+struct Missing {
+  LedgerEntry entry;  ///< its box and outlines are in the file's axes, until to_scene_frame has moved them
+  /// What holds its place under MissingPolicy::block; empty where nothing can. `entry.instead` says what it is.
+  Mesh holder = {};
+};
+
 /// A mesh as its file describes it: in the file's unit and axes, polygons cut into triangles. All indices are in range,
 /// all coordinates finite, there is at least one triangle, and every object has one. Vertices that no triangle uses
 /// stay.
@@ -35,6 +42,7 @@ struct RawMesh {
   std::optional<Axes> axes;                  ///< likewise, of OBJ
   std::optional<double> rounding_m;          ///< likewise: how far the file's numbers moved a volume
   std::vector<std::string> notes;            ///< as Scene::notes
+  std::vector<Missing> ledger;               ///< as Scene::ledger
 };
 
 /// Reads a file of any known format, compressed or not. Throws as read_scene does.
@@ -43,8 +51,9 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progre
                        const core::ReadLimits& limits = {}, const std::string& lod = {});
 
 /// Moves a mesh from its file's axes and unit into the scene frame: z up, scaled, about the origin where it has a
-/// place. glTF is y up and CityJSON z up whatever the options say. Fills in `georeference`. Throws Error(input) if a
-/// coordinate is then beyond kMaxCoordinate, and for places as read_scene does.
+/// place. glTF is y up and CityJSON z up whatever the options say. Fills in `georeference`. Boxes of the ledger that
+/// cannot be moved are dropped, their entries are not. Throws Error(input) if a coordinate is then beyond
+/// kMaxCoordinate, and for places as read_scene does.
 void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file);
 
 }  // namespace vantage::internal::io

@@ -28,7 +28,7 @@ RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& pr
 /// Whether some JSON object in the text has the type "CityJSON" or "CityJSONFeature".
 bool is_cityjson(std::string_view bytes);
 
-/// Whether the content is a binary STL: its length is the one that its facet count asks for.
+/// Whether the content is a binary STL: its length is the one that its facet count asks for, or up to 49 bytes more.
 bool is_binary_stl(std::string_view bytes);
 /// Whether the content is text that begins with "solid".
 bool is_ascii_stl(std::string_view bytes);

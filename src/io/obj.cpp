@@ -1,5 +1,5 @@
 // Wavefront OBJ: the polygonal part of the format (Wavefront, Advanced Visualizer Manual, appendix B1, 1995). Normals,
-// texture coordinates, materials, lines, points and free-form surfaces are passed over.
+// texture coordinates and materials are passed over; free-form curves and surfaces are refused.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "io/axes_text.h"
 #include "io/georeference_text.h"
 #include "io/mesh_builder.h"
@@ -21,12 +22,13 @@ namespace vantage::internal::io {
 namespace {
 
 // Statements that add no polygon.
-constexpr std::array<std::string_view, 47> kPassedOver = {
-    "bevel",  "bmat",  "bsp",    "bzp",    "c_interp",  "call",      "cdc",  "cdp",    "con",    "csh",
-    "cstype", "ctech", "curv",   "curv2",  "d_interp",  "deg",       "end",  "hole",   "l",      "lod",
-    "maplib", "mg",    "mtllib", "p",      "parm",      "res",       "s",    "scmp",   "scrv",   "shadow_obj",
-    "sp",     "stech", "step",   "surf",   "tech",      "trace_obj", "trim", "usemap", "usemat", "usemtl",
-    "vn",     "vp",    "vt",     "matlib", "usemtllib", "xyzrgb",    "mrgb"};
+constexpr std::array<std::string_view, 38> kPassedOver = {
+    "bevel",  "bmat",       "c_interp", "con",   "csh",    "cstype",    "ctech",     "curv2", "d_interp", "deg",
+    "end",    "hole",       "lod",      "mg",    "maplib", "mtllib",    "parm",      "res",   "s",        "scmp",
+    "scrv",   "shadow_obj", "sp",       "stech", "step",   "tech",      "trace_obj", "trim",  "usemap",   "usemat",
+    "usemtl", "vn",         "vp",       "vt",    "matlib", "usemtllib", "xyzrgb",    "mrgb"};
+// Statements that add what is not read: free-form curves and surfaces, and other files.
+constexpr std::array<std::string_view, 7> kRefused = {"bsp", "bzp", "call", "cdc", "cdp", "curv", "surf"};
 
 class ObjReader {
  public:
@@ -48,6 +50,8 @@ class ObjReader {
     mesh.georeference = std::move(georeference_);
     mesh.axes = axes_;
     mesh.rounding_m = rounding_;
+    tell_thin(mesh);
+    for (Missing& missing : ledger_) mesh.ledger.push_back(std::move(missing));
     return mesh;
   }
 
@@ -92,6 +96,13 @@ class ObjReader {
     } else if (keyword == "g") {
       group_ = trimmed(text_.rest_of_line());
       part_is_known_ = false;
+    } else if (keyword == "l" || keyword == "p") {
+      thin(keyword);
+    } else if (std::find(kRefused.begin(), kRefused.end(), keyword) != kRefused.end()) {
+      fail(ErrorCode::mesh_unsupported,
+           keyword == "call" ? "the file takes in another file, which is not read"
+                             : "free-form curves and surfaces (" + std::string(keyword) + ") cannot be read",
+           "export the mesh with polygons alone, in one file");
     } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) != kPassedOver.end()) {
       pass_over();
     } else {
@@ -108,6 +119,9 @@ class ObjReader {
       read_georeference_comment(text.substr(1), georeference_);
       read_axes_comment(text.substr(1), axes_);
       read_rounding_comment(text.substr(1), rounding_);
+      read_ledger_comment(text.substr(1), ledger_);
+    } catch (const LedgerProblem& problem) {
+      fail(ErrorCode::record_garbled, problem.text, "correct or remove the line");
     } catch (const GeoreferenceProblem& problem) {
       fail(ErrorCode::record_garbled, problem.text, "correct or remove the line; the mesh is read without");
     } catch (const RoundingProblem& problem) {
@@ -160,6 +174,35 @@ class ObjReader {
     text_.rest_of_line();
     builder_.end_face();
     if (builder_.corner_count() >= 3) parts_[part_].has_triangles = true;
+  }
+
+  /// A line or points, which are not built. Numbers that cannot be read, or of vertices that come later, do not count.
+  void thin(std::string_view keyword) {
+    Thin& found = thin_[{object_, keyword == "p"}];
+    ++found.count;
+    const auto count = static_cast<std::int64_t>(builder_.vertex_count());
+    for (skip_blanks(); !text_.at_line_end() && text_.peek() != '#'; skip_blanks()) {
+      std::int64_t number = 0;
+      if (text_.integer(number)) {
+        if (number < 0) number += count + 1;
+        if (number > 0 && number <= count) found.box.extend(builder_.vertex(static_cast<std::uint32_t>(number - 1)));
+      }
+      if (!text_.at_word_end()) text_.word();
+    }
+    text_.rest_of_line();
+  }
+
+  void tell_thin(RawMesh& mesh) const {
+    for (const auto& [key, found] : thin_) {
+      const auto& [object, is_points] = key;
+      LedgerEntry entry;
+      if (object != kNoObject) entry.object = object_named(clean_name(object_names_[object]));
+      entry.what = is_points ? core::count_text(found.count, "statement of points", "statements of points")
+                             : core::count_text(found.count, "line", "lines");
+      entry.reason = "only faces are built";
+      if (!found.box.empty()) entry.box = found.box;
+      mesh.ledger.push_back({std::move(entry), {}});
+    }
   }
 
   /// "12", "12/5", "12//7" or "12/5/7": only the first number matters. Negative numbers count back from the last
@@ -258,12 +301,19 @@ class ObjReader {
   std::optional<Georeference> georeference_;
   std::optional<double> rounding_;
   std::optional<Axes> axes_;
+  std::vector<Missing> ledger_;
 
   static constexpr std::uint32_t kNoObject = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::string_view> object_names_;       // names lie in source_
   std::map<std::uint32_t, SceneObject> identities_;  // of objects, where a comment states them
   std::uint32_t object_ = kNoObject;
   std::string_view group_;
+  /// Lines or points of an object.
+  struct Thin {
+    std::size_t count = 0;
+    Box box;
+  };
+  std::map<std::pair<std::uint32_t, bool>, Thin> thin_;  // by object, and whether they are points
   std::vector<Part> parts_;
   std::map<std::pair<std::uint32_t, std::string_view>, std::uint32_t> part_numbers_;
   std::uint32_t part_ = 0;

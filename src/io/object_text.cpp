@@ -1,8 +1,19 @@
 #include "io/object_text.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "common/input.h"
+#include "core/read_limits.h"
+#include "core/text.h"
+#include "io/mesh_builder.h"
+#include "io/text_cursor.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::io {
 namespace {
@@ -11,10 +22,9 @@ using ObjectJson = nlohmann::json;
 
 constexpr std::string_view kObjectMark = "vantage object:";
 
-constexpr std::array kObjectKinds = {ObjectKind::other,    ObjectKind::ground,        ObjectKind::surface,
-                                     ObjectKind::building, ObjectKind::building_part, ObjectKind::wall,
-                                     ObjectKind::tower,    ObjectKind::bridge,        ObjectKind::tree,
-                                     ObjectKind::stand_in};
+constexpr std::array kObjectKinds = {
+    ObjectKind::other, ObjectKind::ground, ObjectKind::surface, ObjectKind::building, ObjectKind::building_part,
+    ObjectKind::wall,  ObjectKind::tower,  ObjectKind::bridge,  ObjectKind::tree,     ObjectKind::stand_in};
 
 std::optional<ObjectKind> object_kind_named(std::string_view name) {
   for (const ObjectKind kind : kObjectKinds) {
@@ -22,6 +32,8 @@ std::optional<ObjectKind> object_kind_named(std::string_view name) {
   }
   return std::nullopt;
 }
+
+}  // namespace
 
 std::optional<SceneObject> parse_object(const ObjectJson& written) {
   if (!written.is_object()) return std::nullopt;
@@ -39,8 +51,6 @@ std::optional<SceneObject> parse_object(const ObjectJson& written) {
   }
   return object;
 }
-
-}  // namespace
 
 bool says_more_than_name(const SceneObject& object) { return !(object == object_named(display_name(object))); }
 
@@ -80,6 +90,250 @@ SceneObject object_named(std::string name) {
   if (object.name == "ground") object.kind = ObjectKind::ground;
   if (object.name == "surface") object.kind = ObjectKind::surface;
   return object;
+}
+
+// ---- the ledger
+
+namespace {
+
+using LedgerJson = nlohmann::json;
+
+constexpr std::string_view kLedgerMark = "vantage ledger:";
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kTooFarM = 100e3;  // from all triangles: then its numbers are wrong
+
+[[noreturn]] void fail_entry(const std::string& problem) {
+  throw LedgerProblem{"an entry of the ledger of vantage in it cannot be read: " + problem};
+}
+
+/// A number; null is an infinite one where that may be.
+double coordinate(const LedgerJson& value, double if_null) {
+  if (value.is_null() && std::isinf(if_null)) return if_null;
+  const double number = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(std::abs(number) <= core::kMaxCoordinate)) fail_entry("a coordinate is no number up to 1e9");
+  return number;
+}
+
+Box parse_box(const LedgerJson& written) {
+  const auto is_triple = [](const LedgerJson& one) { return one.is_array() && one.size() == 3; };
+  if (!written.is_array() || written.size() != 2 || !is_triple(written[0]) || !is_triple(written[1])) {
+    fail_entry("\"box\" is not two corners");
+  }
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    box.min[axis] = coordinate(written[0][i], axis == 2 ? -kInfinite : 0);
+    box.max[axis] = coordinate(written[1][i], axis == 2 ? kInfinite : 0);
+  }
+  if (!(box.min.array() <= box.max.array()).all()) fail_entry("\"box\" is reversed");
+  return box;
+}
+
+std::vector<std::vector<std::array<double, 2>>> parse_outlines(const LedgerJson& written) {
+  std::vector<std::vector<std::array<double, 2>>> outlines;
+  if (!written.is_array()) fail_entry("\"outlines\" is not an array");
+  for (const LedgerJson& ring : written) {
+    if (!ring.is_array()) fail_entry("an outline is not an array");
+    outlines.emplace_back();
+    for (const LedgerJson& point : ring) {
+      if (!point.is_array() || point.size() != 2) fail_entry("a corner of an outline is not x and y");
+      outlines.back().push_back({coordinate(point[0], 0), coordinate(point[1], 0)});
+    }
+  }
+  return outlines;
+}
+
+std::string entry_text(const LedgerJson& written, const char* key) {
+  const auto found = written.find(key);
+  if (found == written.end()) return {};
+  if (!found->is_string()) fail_entry(std::string("\"").append(key).append("\" is not a text"));
+  return clean_name(found->get_ref<const std::string&>());
+}
+
+std::uint32_t parse_stand_in(const LedgerJson& written) {
+  if (!written.is_number_unsigned() || written.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    fail_entry("\"stand_in\" is not the number of an object");
+  }
+  return written.get<std::uint32_t>();
+}
+
+Missing parse_entry(const LedgerJson& written) {
+  if (!written.is_object()) fail_entry("it is no JSON object");
+  Missing missing;
+  LedgerEntry& entry = missing.entry;
+  if (const auto object = written.find("object"); object != written.end()) {
+    const auto parsed = parse_object(*object);
+    if (!parsed) fail_entry("\"object\" is garbled");
+    entry.object = {clean_name(parsed->name), clean_name(parsed->source_id), parsed->kind};
+  }
+  entry.what = entry_text(written, "what");
+  entry.reason = entry_text(written, "reason");
+  entry.instead = entry_text(written, "instead");
+  if (const auto box = written.find("box"); box != written.end()) entry.box = parse_box(*box);
+  if (const auto rings = written.find("outlines"); rings != written.end()) entry.outlines = parse_outlines(*rings);
+  if (const auto height = written.find("height_m"); height != written.end()) entry.height_m = coordinate(*height, 0);
+  if (const auto holder = written.find("stand_in"); holder != written.end()) entry.stand_in = parse_stand_in(*holder);
+  const auto larger = written.find("may_be_larger");
+  entry.may_be_larger = larger != written.end() && *larger == LedgerJson(true);
+  return missing;
+}
+
+/// A point as JSON, an infinite number as null.
+LedgerJson point_json(const Vec3& point) {
+  LedgerJson json = LedgerJson::array();
+  for (const double number : point) json.push_back(std::isfinite(number) ? LedgerJson(number) : LedgerJson());
+  return json;
+}
+
+}  // namespace
+
+Mesh hexahedron(std::vector<Vec3> corners) {
+  Mesh mesh{std::move(corners),
+            {{0, 2, 3},
+             {0, 3, 1},
+             {4, 5, 7},
+             {4, 7, 6},
+             {0, 1, 5},
+             {0, 5, 4},
+             {2, 6, 7},
+             {2, 7, 3},
+             {0, 4, 6},
+             {0, 6, 2},
+             {1, 3, 7},
+             {1, 7, 5}}};
+  const std::vector<Vec3>& v = mesh.vertices;
+  if ((v[1] - v[0]).cross(v[2] - v[0]).dot(v[4] - v[0]) < 0) {
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
+}
+
+Mesh box_mesh(const Box& box) {
+  std::vector<Vec3> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    corners.emplace_back((i & 1U) != 0 ? box.max.x() : box.min.x(), (i & 2U) != 0 ? box.max.y() : box.min.y(),
+                         (i & 4U) != 0 ? box.max.z() : box.min.z());
+  }
+  return hexahedron(std::move(corners));
+}
+
+Missing held_by_box(LedgerEntry entry, const Box& box) {
+  entry.box = box;
+  entry.instead = "its box";
+  return {std::move(entry), box_mesh(box)};
+}
+
+void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file) {
+  Box built;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) built.extend(mesh.vertices[vertex]);
+  }
+  const std::size_t objects = mesh.objects.size();
+  for (Missing& missing : mesh.ledger) {
+    if (missing.entry.stand_in) {  // as the file has it
+      if (*missing.entry.stand_in >= objects) missing.entry.stand_in.reset();
+      if (!missing.entry.stand_in) missing.entry.instead.clear();
+      continue;
+    }
+    const Mesh holder = std::exchange(missing.holder, {});
+    const bool is_near = std::all_of(holder.vertices.begin(), holder.vertices.end(), [&](const Vec3& vertex) {
+      return ((vertex - built.min).array() > -kTooFarM).all() && ((vertex - built.max).array() < kTooFarM).all();
+    });
+    if (policy != MissingPolicy::block || holder.triangles.empty() || !is_near) {
+      if (!is_near) missing.entry.reason += "; its place is more than 100 km from all else";
+      missing.entry.instead.clear();
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    missing.entry.stand_in = static_cast<std::uint32_t>(mesh.objects.size());
+    mesh.objects.push_back({missing.entry.object.name, missing.entry.object.source_id, ObjectKind::stand_in});
+    if (display_name(mesh.objects.back()).empty()) mesh.objects.back().name = missing.entry.what;
+    mesh.vertices.insert(mesh.vertices.end(), holder.vertices.begin(), holder.vertices.end());
+    for (Triangle triangle : holder.triangles) {
+      for (std::uint32_t& corner : triangle) corner += first;
+      mesh.triangles.push_back(triangle);
+      mesh.object_of.push_back(*missing.entry.stand_in);
+    }
+  }
+  if (policy != MissingPolicy::refuse) return;
+  std::vector<LedgerEntry> entries;
+  for (const Missing& missing : mesh.ledger) entries.push_back(missing.entry);
+  refuse_incomplete(entries, file.string());
+}
+
+void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string& where) {
+  if (ledger.empty()) return;
+  const LedgerEntry& first = ledger.front();
+  const std::string name = display_name(first.object);
+  throw Error(ErrorCode::scene_incomplete,
+              core::count_text(ledger.size(), "thing that the source says stands there is",
+                               "things that the source says stand there are") +
+                  " not built as they stand; the first: " + (name.empty() ? first.what : in_quotes(name)) + ": " +
+                  first.reason,
+              where, "mend the source, or take them as they can be built with 'missing: block' or 'missing: warn'");
+}
+
+std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (!(entry.object == SceneObject{})) json["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
+  json["what"] = entry.what;
+  json["reason"] = entry.reason;
+  const auto is_readable = [](double number) { return std::abs(number) <= core::kMaxCoordinate; };
+  const auto is_place = [&](const Vec3& corner) {
+    return is_readable(corner.x()) && is_readable(corner.y()) && (std::isinf(corner.z()) || is_readable(corner.z()));
+  };
+  if (entry.box && is_place(entry.box->min) && is_place(entry.box->max)) {
+    json["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
+  }
+  if (!entry.outlines.empty()) json["outlines"] = entry.outlines;
+  if (entry.height_m && is_readable(*entry.height_m)) json["height_m"] = *entry.height_m;
+  if (stand_in) json["stand_in"] = *stand_in;
+  if (!entry.instead.empty()) json["instead"] = entry.instead;
+  if (entry.may_be_larger) json["may_be_larger"] = true;
+  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<std::string> ledger_texts(const Scene& scene, FileObjects objects) {
+  std::vector<std::string> texts;
+  if (scene.ledger.empty()) return texts;
+  std::vector<std::uint32_t> number(scene.objects.size(), 0);
+  for (const std::uint32_t object : scene.object_of) number[object] = 1;
+  std::uint32_t count = 0;
+  for (std::uint32_t& one : number) one = one == 0 ? std::numeric_limits<std::uint32_t>::max() : count++;
+  for (const LedgerEntry& entry : scene.ledger) {
+    std::optional<std::uint32_t> stand_in;
+    if (entry.stand_in && *entry.stand_in < number.size() && number[*entry.stand_in] < count) {
+      stand_in = objects == FileObjects::apart ? number[*entry.stand_in] : 0;
+    }
+    texts.push_back(ledger_text(entry, stand_in));
+  }
+  return texts;
+}
+
+std::string ledger_comments(const Scene& scene, FileObjects objects, const char* start) {
+  std::string lines;
+  for (const std::string& text : ledger_texts(scene, objects)) {
+    lines.append(start).append(kLedgerMark).append(" ").append(text).append("\n");
+  }
+  return lines;
+}
+
+void read_ledger_comment(std::string_view comment, std::vector<Missing>& known) {
+  while (!comment.empty() && TextCursor::is_blank(comment.front())) comment.remove_prefix(1);
+  if (!comment.starts_with(kLedgerMark)) return;
+  known.push_back(parse_entry(LedgerJson::parse(comment.substr(kLedgerMark.size()), nullptr, false)));
+}
+
+std::vector<Missing> ledger_in(const nlohmann::json& object) {
+  std::vector<Missing> ledger;
+  if (!object.is_object()) return ledger;
+  const auto ours = object.find("vantage");
+  if (ours == object.end() || !ours->is_object()) return ledger;
+  const auto found = ours->find("ledger");
+  if (found == ours->end()) return ledger;
+  if (!found->is_array()) throw LedgerProblem{"the ledger of vantage in it is not an array"};
+  for (const LedgerJson& entry : *found) ledger.push_back(parse_entry(entry));
+  return ledger;
 }
 
 }  // namespace vantage::internal::io

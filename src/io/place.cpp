@@ -5,6 +5,7 @@
 
 #include "geo/local_frame.h"
 #include "io/mesh_file.h"
+#include "io/object_text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::io {
@@ -26,11 +27,52 @@ Box bounds_of(const RawMesh& mesh) {
   return box;
 }
 
+/// From axes with y up to those with z up.
+Box turned_up(const Box& box) {
+  return {Vec3(box.min.x(), -box.max.z(), box.min.y()), Vec3(box.max.x(), -box.min.z(), box.max.y())};
+}
+
 /// "EPSG:7415 (Amersfoort / RD New + NAP height)" without what is in brackets.
 std::string short_name(const std::string& name) {
   const std::size_t bracket = name.find(" (");
   const bool is_code = bracket != std::string::npos && name.find(':') < bracket;
   return is_code ? name.substr(0, bracket) : name;
+}
+
+/// Moves the boxes and outlines of the ledger, and what is to stand in. One that lies where the move has no value is
+/// dropped.
+template <typename Move>
+void move_ledger(RawMesh& mesh, const Move& move) {
+  for (auto& [entry, holder] : mesh.ledger) {
+    if (!entry.box) continue;
+    Box box;
+    try {
+      for (Vec3& vertex : holder.vertices) vertex = move(vertex);
+      for (const Vec3& corner : box_mesh(*entry.box).vertices) {
+        Vec3 finite = corner;
+        if (!std::isfinite(corner.z())) finite.z() = 0;
+        Vec3 moved = move(finite);
+        if (!std::isfinite(corner.z())) moved.z() = corner.z();
+        box.extend(moved);
+      }
+      const double z = std::isfinite(entry.box->min.z()) ? entry.box->min.z() : 0;
+      for (auto& ring : entry.outlines) {
+        for (auto& [x, y] : ring) {
+          const Vec3 moved = move(Vec3(x, y, z));
+          x = moved.x();
+          y = moved.y();
+        }
+      }
+      const bool is_place = box.min.head<2>().allFinite() && box.max.head<2>().allFinite();
+      if (is_place) entry.box = box;
+      if (!is_place) entry.box.reset();
+    } catch (const Error&) {
+      entry.box.reset();
+    }
+    if (entry.box) continue;
+    entry.outlines.clear();
+    holder = {};
+  }
 }
 
 /// x and y from the coordinate system `text` into the local frame.
@@ -60,10 +102,12 @@ void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesyst
       mesh.notes.emplace_back("its x and y are in feet, z is taken as metres: give the scale 0.3048 if it is in feet");
     }
   }
-  for (Vec3& vertex : mesh.vertices) {
-    vertex.head<2>() = local(vertex.head<2>());
-    vertex.z() *= unit_m;
-  }
+  const auto moved = [&](const Vec3& point) {
+    const Eigen::Vector2d at = local(point.head<2>());
+    return Vec3(at.x(), at.y(), point.z() * unit_m);
+  };
+  for (Vec3& vertex : mesh.vertices) vertex = moved(vertex);
+  move_ledger(mesh, moved);
   mesh.georeference =
       Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg,
                    system.vertical_name().empty() ? as_in(file) : system.vertical_name(), short_name(system.name())};
@@ -77,6 +121,11 @@ void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg, const std::
   moved.latitude_deg = origin_deg[0];
   moved.longitude_deg = origin_deg[1];
   geo::move_origin(mesh.vertices, *mesh.georeference, moved);
+  move_ledger(mesh, [&](const Vec3& point) {
+    std::vector<Vec3> one = {point};
+    geo::move_origin(one, *mesh.georeference, moved);
+    return one[0];
+  });
   mesh.georeference = moved;
 }
 
@@ -106,6 +155,7 @@ void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::files
     return;
   }
   for (Vec3& vertex : mesh.vertices) vertex *= options.scale;
+  move_ledger(mesh, [&](const Vec3& point) { return Vec3(point * options.scale); });
   if (!options.origin_deg) return;
   if (mesh.georeference) {
     move_to(mesh, *options.origin_deg, file);
@@ -124,6 +174,10 @@ void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::f
   const bool y_up = mesh.format == MeshFormat::gltf || (options.up == UpAxis::y && mesh.format != MeshFormat::cityjson);
   if (y_up) {
     for (Vec3& v : mesh.vertices) v = Vec3(v.x(), -v.z(), v.y());
+    for (Missing& missing : mesh.ledger) {
+      if (missing.entry.box) missing.entry.box = turned_up(*missing.entry.box);
+      for (Vec3& v : missing.holder.vertices) v = Vec3(v.x(), -v.z(), v.y());
+    }
   }
   find_place(mesh, options, file);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

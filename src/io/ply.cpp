@@ -1,9 +1,12 @@
 // PLY (G. Turk, The PLY Polygon File Format, Stanford 1994): ASCII and binary of either byte order. Read are the
-// elements "vertex" (x, y, z) and "face" (vertex_indices or vertex_index); others are passed over.
+// elements "vertex" (x, y, z), "face" and "tristrips" (vertex_indices or vertex_index). Others are passed over; those
+// that refer to vertices, such as "edge", are in the ledger.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
@@ -156,8 +159,11 @@ class PlyReader {
       } else if (element.name == "face") {
         faces(element);
         has_faces = true;
+      } else if (element.name == "tristrips") {
+        lists(element, "strips", [&](const Property& property) { strip(property); });
+        has_faces = true;
       } else {
-        rows(element, [&](const Property& property, std::size_t) { pass_over(property); });
+        other(element);
       }
     }
     if (!has_vertices) source_.fail(ErrorCode::mesh_empty, "the PLY file has no element \"vertex\"", "export a mesh");
@@ -168,6 +174,8 @@ class PlyReader {
     RawMesh mesh = builder_.finish();
     mesh.georeference = header_.georeference;
     mesh.rounding_m = header_.rounding_m;
+    tell_others(mesh);
+    for (const Missing& missing : header_.ledger) mesh.ledger.push_back(missing);
     return mesh;
   }
 
@@ -238,17 +246,24 @@ class PlyReader {
   }
 
   void faces(const Element& element) {
+    builder_.reserve(builder_.vertex_count(), element.count);
+    lists(element, "faces", [&](const Property& property) { face(property); });
+  }
+
+  /// Calls `read(property)` for the list of vertices of each row.
+  template <class Read>
+  void lists(const Element& element, const std::string& what, const Read& read) {
     int corners = element.find("vertex_indices");
     if (corners < 0) corners = element.find("vertex_index");
     if (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].is_list ||
         !ply::is_integer(element.properties[static_cast<std::size_t>(corners)].type)) {
-      source_.fail(ErrorCode::mesh_syntax, "the PLY file's faces have no list of whole numbers \"vertex_indices\"",
+      source_.fail(ErrorCode::mesh_syntax,
+                   "the PLY file's " + what + " have no list of whole numbers \"vertex_indices\"",
                    "export the mesh with faces");
     }
-    builder_.reserve(builder_.vertex_count(), element.count);
     rows(element, [&](const Property& property, std::size_t i) {
       if (i == static_cast<std::size_t>(corners)) {
-        face(property);
+        read(property);
       } else {
         pass_over(property);
       }
@@ -266,11 +281,69 @@ class PlyReader {
     builder_.end_face();
   }
 
+  /// Strips of triangles, one behind the other with -1 between them. The turn of every second triangle is reversed; one
+  /// with a corner twice only leads on.
+  void strip(const Property& property) {
+    const std::uint64_t length = list_length(property);
+    std::array<std::int64_t, 3> last{};
+    std::uint64_t count = 0;  // corners of the strip so far
+    for (std::uint64_t i = 0; i < length; ++i) {
+      const std::int64_t index = values_.integer(property.type);
+      if (index < -1) values_.fail("a strip refers to vertex " + std::to_string(index));
+      last = {last[1], last[2], index};
+      count = index < 0 ? 0 : count + 1;
+      if (count < 3 || last[0] == last[1] || last[1] == last[2] || last[0] == last[2]) continue;
+      if (i % 256 == 0) progress_.check();
+      builder_.begin_face(values_.place());
+      const bool odd = count % 2 == 0;
+      for (const std::int64_t corner : {last[0], last[odd ? 2 : 1], last[odd ? 1 : 2]}) {
+        builder_.add_corner(static_cast<std::uint64_t>(corner));
+      }
+      builder_.end_face();
+    }
+  }
+
+  /// An element that is not built: in the ledger where it refers to vertices.
+  void other(const Element& element) {
+    const auto refers = [](const Property& property) {
+      return property.name.starts_with("vertex") && ply::is_integer(property.type);
+    };
+    std::vector<std::int64_t> corners;
+    rows(element, [&](const Property& property, std::size_t) {
+      if (!refers(property)) {
+        pass_over(property);
+        return;
+      }
+      const std::uint64_t length = property.is_list ? list_length(property) : 1;
+      for (std::uint64_t i = 0; i < length; ++i) corners.push_back(values_.integer(property.type));
+    });
+    if (element.count > 0 && std::any_of(element.properties.begin(), element.properties.end(), refers)) {
+      others_.emplace_back(&element, std::move(corners));
+    }
+  }
+
+  /// When all vertices are known.
+  void tell_others(RawMesh& mesh) const {
+    for (const auto& [element, corners] : others_) {
+      LedgerEntry entry;
+      entry.what = std::to_string(element->count) + " of \"" + printable(element->name) + "\"";
+      entry.reason = "only faces and strips of triangles are built";
+      Box box;
+      for (const std::int64_t corner : corners) {
+        const auto i = static_cast<std::uint64_t>(corner);
+        if (corner >= 0 && i < mesh.vertices.size()) box.extend(mesh.vertices[i]);
+      }
+      if (!box.empty()) entry.box = box;
+      mesh.ledger.push_back({std::move(entry), {}});
+    }
+  }
+
   const MeshSource& source_;
   const PlyHeader& header_;
   const core::ProgressReporter& progress_;
   MeshBuilder builder_;
   Values values_;
+  std::vector<std::pair<const Element*, std::vector<std::int64_t>>> others_;  // and the vertices that they refer to
 };
 
 }  // namespace

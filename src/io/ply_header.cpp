@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/georeference_text.h"
+#include "io/object_text.h"
 #include "io/rounding_text.h"
 #include "io/text_cursor.h"
 
@@ -76,9 +77,12 @@ class HeaderReader {
     try {
       read_georeference_comment(text, header_.georeference);
       read_rounding_comment(text, header_.rounding_m);
+      read_ledger_comment(text, header_.ledger);
     } catch (const GeoreferenceProblem& problem) {
       source_.fail_at_line(ErrorCode::record_garbled, text_.line(), problem.text,
                            "correct or remove the comment; the mesh is read without");
+    } catch (const LedgerProblem& problem) {
+      source_.fail_at_line(ErrorCode::record_garbled, text_.line(), problem.text, "correct or remove the comment");
     } catch (const RoundingProblem& problem) {
       source_.fail_at_line(ErrorCode::record_garbled, text_.line(), problem.text, "correct or remove the comment");
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh_file.h"
 #include "io/mesh_source.h"
 #include "vantage/georeference.h"
 
@@ -44,6 +45,7 @@ struct Header {
   std::size_t data = 0;                      ///< byte where the rows begin
   std::uint64_t data_line = 0;               ///< line where they begin
   std::optional<double> rounding_m;          ///< from a comment of vantage
+  std::vector<Missing> ledger;               ///< likewise
 };
 
 /// Reads and checks a header. Throws Error(input) with the line for whatever it does not understand.

@@ -19,6 +19,8 @@ class ShellCheck {
   enum class Result { closed, open, misoriented };
   /// `open`: some edge has an odd number of rings. `misoriented`: none has, but some is run more often one way.
   Result result();
+  /// The ends of the edges with an odd number of rings, as the last result found them: what is missing lies between.
+  const std::vector<std::uint32_t>& open_ends() const { return open_ends_; }
 
  private:
   struct Edge {
@@ -26,6 +28,7 @@ class ShellCheck {
     int direction;
   };
   std::vector<Edge> edges_;
+  std::vector<std::uint32_t> open_ends_;
 };
 
 }  // namespace vantage::internal::io

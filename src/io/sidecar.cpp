@@ -4,6 +4,7 @@
 
 #include "common/output.h"
 #include "io/georeference_text.h"
+#include "io/object_text.h"
 #include "io/rounding_text.h"
 #include "vantage/error.h"
 
@@ -20,6 +21,9 @@ std::string sidecar_text(const Sidecar& content) {
   json["vantage"]["georeference"] = nullptr;
   if (content.georeference) json["vantage"]["georeference"] = georeference_json(*content.georeference);
   if (content.rounding_m) json["vantage"]["rounding_m"] = *content.rounding_m;
+  for (const std::string& entry : content.ledger_texts) {
+    json["vantage"]["ledger"].push_back(nlohmann::ordered_json::parse(entry));
+  }
   if (!content.volume.empty()) json["vantage"]["volume"] = nlohmann::ordered_json::parse(content.volume);
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -35,7 +39,10 @@ Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progr
     Sidecar content;
     if (!place->is_null()) content.georeference = parse_georeference(*place);
     content.rounding_m = rounding_in(json);
+    content.ledger = ledger_in(json);
     return content;
+  } catch (const LedgerProblem& problem) {
+    throw Error(ErrorCode::record_garbled, problem.text, file.string(), "correct or remove the file");
   } catch (const RoundingProblem& problem) {
     throw Error(ErrorCode::record_garbled, problem.text, file.string(), "correct or remove the file");
   } catch (const GeoreferenceProblem& problem) {
@@ -48,7 +55,8 @@ void stage_sidecar(const Sidecar& content, const std::filesystem::path& mesh_fil
                    std::vector<std::unique_ptr<AtomicFile>>& files) {
   const std::filesystem::path file = sidecar_file(mesh_file);
   std::error_code ignored;
-  if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return;
+  const bool is_empty = !content.georeference && !content.rounding_m && content.ledger_texts.empty();
+  if (is_empty && !std::filesystem::exists(file, ignored)) return;
   check_derived_output(file);
   files.push_back(std::make_unique<AtomicFile>(file));
   files.back()->write(sidecar_text(content));

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/text.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
 #include "io/text_cursor.h"
@@ -32,7 +33,7 @@ RawMesh read_binary(const MeshSource& source, const core::ProgressReporter& prog
   const std::string_view bytes = source.bytes();
   if (bytes.size() < kCountEnd)
     source.fail_at_byte(ErrorCode::mesh_syntax, bytes.size(), "the binary STL ends in its header", "export it again");
-  if (binary_length(bytes) != bytes.size()) {
+  if (!is_binary_stl(bytes)) {
     source.fail_at_byte(ErrorCode::mesh_syntax, kHeader,
                         "the binary STL announces " + std::to_string(value_at<std::uint32_t>(bytes, kHeader)) +
                             " facets, which take " + std::to_string(binary_length(bytes)) + " bytes, but has " +
@@ -40,10 +41,10 @@ RawMesh read_binary(const MeshSource& source, const core::ProgressReporter& prog
                         "export the mesh again; the file is cut off or garbled");
   }
   MeshBuilder builder(source, MeshFormat::stl, MeshBuilder::PlaceUnit::byte, limits);
-  const std::size_t facets = (bytes.size() - kCountEnd) / kFacet;
+  const std::size_t facets = value_at<std::uint32_t>(bytes, kHeader), end = binary_length(bytes);
   builder.reserve(3 * facets, facets);
   builder.add_object(source.stem());
-  for (std::size_t at = kCountEnd; at < bytes.size(); at += kFacet) {
+  for (std::size_t at = kCountEnd; at < end; at += kFacet) {
     progress.tick(at, bytes.size());
     Triangle triangle;
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -54,7 +55,12 @@ RawMesh read_binary(const MeshSource& source, const core::ProgressReporter& prog
     }
     builder.add_triangle(triangle);
   }
-  return builder.finish();
+  RawMesh mesh = builder.finish();
+  if (end < bytes.size()) {
+    mesh.notes.push_back("the file has " + core::count_text(bytes.size() - end, "byte", "bytes") +
+                         " more than its facets take: passed over");
+  }
+  return mesh;
 }
 
 class AsciiStlReader {
@@ -134,7 +140,10 @@ class AsciiStlReader {
 
 }  // namespace
 
-bool is_binary_stl(std::string_view bytes) { return bytes.size() >= kCountEnd && binary_length(bytes) == bytes.size(); }
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kCountEnd && binary_length(bytes) <= bytes.size() &&
+         bytes.size() - binary_length(bytes) < kFacet;
+}
 
 bool is_ascii_stl(std::string_view bytes) {
   bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));

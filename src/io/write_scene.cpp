@@ -65,6 +65,7 @@ double write_scene_obj(const Scene& scene, AtomicFile& file) {
   const std::vector<Triangle>& triangles = scene.mesh.triangles;
   file.write("# vantage " VANTAGE_VERSION " scene\n# " + io::axes_text({}) + "\n");
   file.write(place_comment(scene.georeference, "# "));
+  file.write(ledger_comments(scene, FileObjects::apart, "# "));
   UsedVertices used(scene.mesh);
   std::string vertex_lines, face_lines;
   ObjectTriangles(scene).for_each([&](std::size_t object, const std::uint32_t* first, const std::uint32_t* end) {
@@ -114,6 +115,7 @@ double write_scene_ply(const Scene& scene, AtomicFile& file) {
   file.write("ply\nformat binary_little_endian 1.0\n");
   file.write("comment vantage " VANTAGE_VERSION " scene\ncomment vantage frame: scene, metres, z up\n");
   file.write(place_comment(scene.georeference, "comment "));
+  file.write(ledger_comments(scene, FileObjects::one, "comment "));
   file.write("element vertex " + std::to_string(count) + "\n");
   file.write("property double x\nproperty double y\nproperty double z\n");
   file.write("element face " + std::to_string(triangles.size()) + "\n");
@@ -146,7 +148,9 @@ StagedScene stage_scene(const Scene& scene, const std::filesystem::path& file) {
   staged.files.push_back(std::make_unique<AtomicFile>(file));
   const OutputFormat& format = scene_format(file);
   staged.rounding_m = format.write_scene(scene, *staged.files.back());
-  if (format.has_sidecar) stage_sidecar({scene.georeference, std::nullopt, {}}, file, staged.files);
+  if (format.has_sidecar) {
+    stage_sidecar({scene.georeference, std::nullopt, {}, ledger_texts(scene, FileObjects::one)}, file, staged.files);
+  }
   return staged;
 }
 

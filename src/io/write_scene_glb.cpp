@@ -143,10 +143,16 @@ class SceneGlb {
     }
     text += R"(},"scene":0,)";
     text.append(R"("scenes":[{"nodes":[)").append(roots_).append("]");
+    std::string ours;
     if (scene_.georeference) {
-      text.append(R"(,"extras":{"vantage":{"georeference":)").append(io::georeference_text(*scene_.georeference));
-      text += "}}";
+      ours.append(R"("georeference":)").append(io::georeference_text(*scene_.georeference));
     }
+    if (const std::vector<std::string> ledger = ledger_texts(scene_, FileObjects::apart); !ledger.empty()) {
+      ours.append(ours.empty() ? "" : ",").append(R"("ledger":[)");
+      for (const std::string& entry : ledger) ours.append(&entry == &ledger.front() ? "" : ",").append(entry);
+      ours += "]";
+    }
+    if (!ours.empty()) text.append(R"(,"extras":{"vantage":{)").append(ours).append("}}");
     text.append(R"(}],"nodes":[)").append(nodes_).append(R"(],"meshes":[)").append(meshes_);
     // A light grey, seen from both sides: the surfaces need not close.
     text += R"(],"materials":[{"name":"scene","pbrMetallicRoughness":{"baseColorFactor":[0.6,0.6,0.58,1],)";

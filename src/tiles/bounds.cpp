@@ -83,6 +83,52 @@ std::optional<Sphere> around(const Volume& volume) {
   return std::nullopt;
 }
 
+namespace {
+
+std::vector<Vec3> box_corners(const OrientedBox& box) {
+  std::vector<Vec3> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vec3 sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+    corners.emplace_back(box.center + box.half_axes * sign);
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<Vec3> corners_of(const Volume& volume) {
+  constexpr double kWidest = 0.1;  // radians
+  constexpr int kSteps = 16;       // between them the ellipsoid bulges by less than 1e-3 of a region's width
+  if (const auto* const box = std::get_if<OrientedBox>(&volume)) return box_corners(*box);
+  if (const auto* const ball = std::get_if<Sphere>(&volume)) {
+    return box_corners({ball->center, ball->radius * Eigen::Matrix3d::Identity()});
+  }
+  const auto* const region = std::get_if<EarthRegion>(&volume);
+  if (!region) return {};
+  const double width = region->east - region->west + (region->east < region->west ? 2 * std::numbers::pi : 0);
+  const double height = region->north - region->south;
+  if (!(width >= 0 && width <= kWidest && height >= 0 && height <= kWidest && region->low <= region->high)) return {};
+  if (std::abs(region->south) > std::numbers::pi / 2 || std::abs(region->north) > std::numbers::pi / 2) return {};
+  const auto at = [&](double u, double v) {
+    return geo::LonLat{std::remainder((region->west + u * width) * kRadian, 360),
+                       (region->south + v * height) * kRadian};
+  };
+  const geo::TangentFrame frame(at(0.5, 0.5));
+  Box box;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      for (const double z : {region->low, region->high}) {
+        box.extend(
+            frame.to_local(geo::to_ecef({at(static_cast<double>(i) / kSteps, static_cast<double>(k) / kSteps), z})));
+      }
+    }
+  }
+  const Vec3 slack = 1e-3 * (box.max - box.min);
+  const Vec3 half = (box.max - box.min) / 2 + slack;
+  return box_corners(
+      {frame.to_earth((box.min + box.max) / 2), frame.axes.transpose() * half.asDiagonal().toDenseMatrix()});
+}
+
 Reach::Reach(geo::LonLat center, double radius_m)
     : limited_(true),
       on_earth_(true),

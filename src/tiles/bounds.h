@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "geo/ellipsoid.h"
 
@@ -41,6 +42,10 @@ Volume moved(const Volume& volume, const Transform& transform);
 
 /// Where a volume is: the middle and a distance that nothing of it is beyond. Nothing of Everywhere.
 std::optional<Sphere> around(const Volume& volume);
+
+/// Corners of a box that a volume lies in, as io::hexahedron takes them. None of Everywhere, and of regions that are
+/// more than a tenth of the earth's radius wide: nobody could see past them.
+std::vector<Vec3> corners_of(const Volume& volume);
 
 /// What a tileset's coordinates are.
 enum class World {

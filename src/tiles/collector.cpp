@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "io/object_text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {
@@ -42,8 +43,23 @@ std::uint32_t Collector::add_points(const io::RawMesh& mesh, const Transform& in
   return static_cast<std::uint32_t>(first);
 }
 
+void Collector::add_missing(const io::RawMesh& mesh, const Transform& into_world, const std::string& where) {
+  constexpr std::size_t kMostMissing = 1'000'000;
+  if (missing.size() + mesh.ledger.size() > kMostMissing) {
+    throw Error(ErrorCode::region_invalid, "the tiles hold too much that cannot be built", where,
+                "give a smaller radius, or export the tileset as meshes");
+  }
+  for (const io::Missing& part : mesh.ledger) {
+    MissingPart& added = missing.emplace_back(MissingPart{part.entry});
+    added.is_held = !part.holder.triangles.empty();
+    if (!part.entry.box) continue;
+    for (const Vec3& corner : io::box_mesh(*part.entry.box).vertices) added.corners.push_back(into_world * corner);
+  }
+}
+
 void Collector::add(const io::RawMesh& mesh, const Transform& into_world, const std::string& where) {
   const std::uint32_t first = add_points(mesh, into_world, where);
+  add_missing(mesh, into_world, where);
   const bool mirrored = into_world.linear().determinant() < 0;
   std::vector<std::uint32_t> own(mesh.objects.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = object(mesh.objects[i]);
@@ -56,6 +72,7 @@ void Collector::add(const io::RawMesh& mesh, const Transform& into_world, const 
 void Collector::add_as(const SceneObject& whole, const io::RawMesh& mesh, const Transform& into_world,
                        const std::string& where) {
   const std::uint32_t first = add_points(mesh, into_world, where);
+  add_missing(mesh, into_world, where);
   const bool mirrored = into_world.linear().determinant() < 0;
   const std::uint32_t own = object(whole);
   for (const Triangle& triangle : mesh.triangles) {

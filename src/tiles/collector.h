@@ -12,6 +12,13 @@
 
 namespace vantage::internal::tiles {
 
+/// What the tiles say is there and that is not built, in the coordinates of the tileset.
+struct MissingPart {
+  LedgerEntry entry;
+  std::vector<Vec3> corners = {};  ///< of the box about it, as io::hexahedron takes them; empty where it is not known
+  bool is_held = false;            ///< the box may stand in
+};
+
 class Collector {
  public:
   /// Adds a mesh, its points moved. Objects of the same id and name are one: a feature may lie in several tiles. Throws
@@ -25,8 +32,10 @@ class Collector {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> object_of;  ///< per triangle
   std::vector<SceneObject> objects;
+  std::vector<MissingPart> missing;
 
  private:
+  void add_missing(const io::RawMesh& mesh, const Transform& into_world, const std::string& where);
   std::uint32_t object(const SceneObject& object);
   std::uint32_t add_points(const io::RawMesh& mesh, const Transform& into_world, const std::string& where);
 

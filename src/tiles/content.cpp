@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/object_text.h"
 #include "tiles/instances.h"
 #include "tiles/tables.h"
 #include "vantage/error.h"
@@ -46,17 +47,12 @@ void ContentReader::fail(const std::string& address, const std::string& problem)
               "export the tileset again; the file is cut off or garbled");
 }
 
-/// A mesh that may have no triangles.
+/// Nothing where there are neither triangles nor anything that is missing.
 std::optional<io::TileMesh> ContentReader::surfaces_of(const io::MeshSource& source, const io::TileContext& tile) {
-  try {
-    io::TileMesh mesh = io::read_gltf_tile(source, progress_, limits_, tile);
-    count_unreadable(source.file().string(), mesh.unreadable_properties);
-    features_by_texture_ += mesh.features_by_texture;
-    return mesh;
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::mesh_empty) return std::nullopt;
-    throw;
-  }
+  io::TileMesh mesh = io::read_gltf_tile(source, progress_, limits_, tile);
+  count_unreadable(source.file().string(), mesh.unreadable_properties);
+  features_by_texture_ += mesh.features_by_texture;
+  return mesh.mesh.triangles.empty() && mesh.mesh.ledger.empty() ? std::nullopt : std::optional(std::move(mesh));
 }
 
 void ContentReader::count_unreadable(const std::string& shown, io::UnreadableProperties more) {
@@ -83,7 +79,10 @@ bool ContentReader::read_part(const std::string& address, std::string_view bytes
   if (kind == "b3dm") return read_batched(address, bytes, placement);
   if (kind == "i3dm") return read_instanced(address, bytes, placement);
   if (kind == "cmpt") return read_composite(address, bytes, placement, depth);
-  if (kind == "pnts") return false;
+  if (kind == "pnts") {
+    read_points(address, bytes, placement);
+    return false;
+  }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (kind == "glTF" || (first != std::string_view::npos && bytes[first] == '{')) {
     return read_gltf(address, bytes, placement);
@@ -135,6 +134,40 @@ ContentReader::Parts ContentReader::split(const std::string& address, std::strin
   return parts;
 }
 
+/// A cloud of points, which is not built: the box about its points or, where these are compressed, about the tile.
+void ContentReader::read_points(const std::string& address, std::string_view bytes, const Placement& placement) {
+  constexpr std::size_t kPointsHeader = 28;
+  const Parts parts = split(address, bytes, kPointsHeader);
+  const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
+  const std::uint64_t count = features.whole("POINTS_LENGTH");
+  const std::vector<double> about = features.global("RTC_CENTER", 3).value_or(std::vector<double>{0, 0, 0});
+  Box box;
+  const auto vector = [](const std::vector<double>& numbers, std::size_t i) {
+    return Vec3(numbers[i], numbers[i + 1], numbers[i + 2]);
+  };
+  const auto offset = features.global("QUANTIZED_VOLUME_OFFSET", 3),
+             scale = features.global("QUANTIZED_VOLUME_SCALE", 3);
+  const bool is_packed = features.json().contains("extensions");
+  if (const auto points = is_packed ? std::nullopt : features.per_instance("POSITION", 3, count, "FLOAT")) {
+    for (std::size_t i = 0; i + 2 < points->size(); i += 3) box.extend(vector(*points, i));
+  } else if (offset && scale) {
+    box = {vector(*offset, 0), vector(*offset, 0) + vector(*scale, 0).cwiseMax(0)};
+  }
+  MissingPart part;
+  part.entry.object.source_id = source_.name(address);
+  part.entry.what = "cloud of " + std::to_string(count) + " points";
+  part.entry.reason = "only surfaces are built";
+  if (box.empty() || !box.min.allFinite() || !box.max.allFinite()) {
+    part.corners = corners_of(placement.bounds);
+  } else {
+    const Transform into_world = placement.into_world * Eigen::Translation3d(vector(about, 0));
+    for (const Vec3& corner : io::box_mesh(box).vertices) part.corners.push_back(into_world * corner);
+  }
+  part.is_held = !part.corners.empty();
+  part.entry.instead = "its box";
+  collector_.missing.push_back(std::move(part));
+}
+
 bool ContentReader::read_gltf(const std::string& address, std::string_view bytes, const Placement& placement) {
   const io::MeshSource source(source_.shown(address), std::string(bytes));
   const auto from_here = [&](const std::string& uri) { return other_file(source_.resolve(address, uri)); };
@@ -142,7 +175,7 @@ bool ContentReader::read_gltf(const std::string& address, std::string_view bytes
   if (!mesh) return false;
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(mesh->center) * upright(placement.gltf_up),
                  source_.shown(address));
-  return true;
+  return !mesh->mesh.triangles.empty();
 }
 
 bool ContentReader::read_batched(const std::string& address, std::string_view bytes, const Placement& placement) {
@@ -162,7 +195,7 @@ bool ContentReader::read_batched(const std::string& address, std::string_view by
   const Vec3 center = mesh->center + Vec3(about[0], about[1], about[2]);
   collector_.add(mesh->mesh, placement.into_world * Eigen::Translation3d(center) * upright(placement.gltf_up),
                  source_.shown(address));
-  return true;
+  return !mesh->mesh.triangles.empty();
 }
 
 /// A file that the content refers to. A small content may name one large file by many URIs, or in many parts.
@@ -229,7 +262,7 @@ bool ContentReader::read_instanced(const std::string& address, std::string_view 
                       source_.shown(address));
   }
   count_unreadable(source_.shown(address), batch.unreadable());
-  return true;
+  return !mesh->mesh.triangles.empty();
 }
 
 }  // namespace vantage::internal::tiles

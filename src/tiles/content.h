@@ -16,8 +16,9 @@ namespace vantage::internal::tiles {
 
 /// Where a content lies.
 struct Placement {
-  Transform into_world;        ///< of the tile
-  GltfUp gltf_up = GltfUp::y;  ///< of its glTF
+  Transform into_world;          ///< of the tile
+  GltfUp gltf_up = GltfUp::y;    ///< of its glTF
+  Volume bounds = Everywhere{};  ///< in the world
 };
 
 class ContentReader {
@@ -35,7 +36,8 @@ class ContentReader {
   /// Primitives with features by texture.
   std::uint64_t features_by_texture() const { return features_by_texture_; }
 
-  /// Adds the surfaces of a content to the collector. Returns whether there are any: a cloud of points has none.
+  /// Adds the surfaces of a content to the collector, and what is missing there. Returns whether there are any
+  /// surfaces: a cloud of points has none.
   /// Throws Error(input).
   bool read(const std::string& address, const std::string& bytes, const Placement& placement);
 
@@ -49,6 +51,7 @@ class ContentReader {
   const std::optional<io::TileMesh>& model(const std::string& address, const std::string& uri);
   std::string other_file(const std::string& address);
   void count_repeated(const std::string& address, std::uint64_t instances, std::uint64_t triangles);
+  void read_points(const std::string& address, std::string_view bytes, const Placement& placement);
   bool read_gltf(const std::string& address, std::string_view bytes, const Placement& placement);
   std::optional<io::TileMesh> surfaces_of(const io::MeshSource& source, const io::TileContext& tile);
   void count_unreadable(const std::string& shown, io::UnreadableProperties more);

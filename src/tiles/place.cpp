@@ -7,6 +7,7 @@
 
 #include "core/read_limits.h"
 #include "io/mesh_file.h"
+#include "io/object_text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {
@@ -64,6 +65,9 @@ Georeference put_on_earth(Collector& collected, const TilesetOptions& options, c
   const geo::LonLat origin = options.center_deg ? lon_lat(*options.center_deg) : geo::from_ecef(middle).place;
   const geo::TangentFrame frame(origin);
   for (Vec3& vertex : collected.vertices) vertex = frame.to_local(vertex);
+  for (MissingPart& part : collected.missing) {
+    for (Vec3& corner : part.corners) corner = frame.to_local(corner);
+  }
   return {origin.latitude_deg, origin.longitude_deg, geo::kEllipsoidalHeight, geo::kEarthCentred};
 }
 
@@ -74,6 +78,15 @@ io::RawMesh raw_mesh(Collector&& collected) {
   raw.triangles = std::move(collected.triangles);
   raw.object_of = std::move(collected.object_of);
   raw.objects = std::move(collected.objects);
+  for (MissingPart& part : collected.missing) {
+    io::Missing missing{std::move(part.entry), {}};
+    for (const Vec3& corner : part.corners) {
+      if (!missing.entry.box) missing.entry.box.emplace();
+      missing.entry.box->extend(corner);
+    }
+    if (part.is_held) missing.holder = io::hexahedron(std::move(part.corners));
+    raw.ledger.push_back(std::move(missing));
+  }
   return raw;
 }
 
@@ -128,6 +141,7 @@ Scene placed_scene(World world, Collector&& collected, const TilesetOptions& opt
   if (world == World::projected) read.crs = options.crs;
   if (world == World::projected) read.origin_deg = options.center_deg;
   io::to_scene_frame(raw, read, file);
+  io::apply_policy(raw, options.missing, file);
   Scene scene;
   scene.mesh.vertices = std::move(raw.vertices);
   scene.mesh.triangles = std::move(raw.triangles);
@@ -136,6 +150,7 @@ Scene placed_scene(World world, Collector&& collected, const TilesetOptions& opt
   scene.source = file;
   scene.georeference = place ? place : std::move(raw.georeference);
   scene.notes = std::move(raw.notes);
+  for (io::Missing& missing : raw.ledger) scene.ledger.push_back(std::move(missing.entry));
   return scene;
 }
 

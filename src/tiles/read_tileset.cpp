@@ -73,6 +73,10 @@ std::size_t keep_within(Scene& scene, double radius_m) {
     new_index[i] = static_cast<std::uint32_t>(objects.size());
     objects.push_back(std::move(scene.objects[i]));
   }
+  for (LedgerEntry& entry : scene.ledger) {
+    if (entry.stand_in) entry.stand_in = new_index[*entry.stand_in];
+  }
+  std::erase_if(scene.ledger, [](const LedgerEntry& entry) { return entry.stand_in == kNoObject; });  // beyond, too
   const std::size_t left_out = scene.objects.size() - objects.size();
   scene.objects = std::move(objects);
   std::vector<std::uint32_t> new_vertex(scene.mesh.vertices.size(), kNoObject);
@@ -157,7 +161,8 @@ TilesetScene read(TileSource& source, const std::filesystem::path& file, const T
   const Reach reach = reach_of(world, bounds, options, file);
 
   Collector collected;
-  Walk(source, collected, reach, options.detail_m, result.report, progress, limits).run(document);
+  Walk(source, collected, {reach, options.detail_m, world, options.missing}, result.report, progress, limits)
+      .run(document);
   if (collected.triangles.empty()) fail_for_nothing(result.report, reach.is_limited(), file.string());
   result.scene = placed_scene(world, std::move(collected), options, file);
   if (options.radius_m) result.report.objects_outside = keep_within(result.scene, *options.radius_m);
@@ -177,9 +182,8 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
   std::vector<std::string> notes;
   if (report.holes > 0) {
     notes.push_back(internal::core::format(
-        "{} of the tileset's files cannot be read: what they hold is missing, so that volumes may "
-        "claim too much behind it. The first: {}",
-        report.holes, report.first_hole));
+        "{} of the tileset's files cannot be read: the ledger says what holds their place. The first: {}", report.holes,
+        report.first_hole));
   }
   if (report.coarser_kept > 0) {
     notes.push_back(internal::core::format(
@@ -198,7 +202,7 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
                     ", which are not told apart: no images are read");
   }
   if (report.without_surfaces > 0) {
-    notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: passed over",
+    notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: see the ledger",
                                            report.without_surfaces));
   }
   notes.push_back(internal::core::format("the largest geometric error of a tile that was taken is {:.6g} m",

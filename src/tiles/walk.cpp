@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace vantage::internal::tiles {
 namespace {
@@ -31,6 +32,7 @@ bool ends_all(const Error& error) {
     case ErrorCode::system_limit:
     case ErrorCode::component_missing:
     case ErrorCode::region_invalid:
+    case ErrorCode::scene_incomplete:
     case ErrorCode::internal_defect:
       return true;
     default:
@@ -46,11 +48,14 @@ bool is_named_json(const std::string& uri) {
 
 }  // namespace
 
-Walk::Walk(TileSource& source, Collector& collector, const Reach& reach, double detail_m, TilesetReport& report,
+Walk::Walk(TileSource& source, Collector& collector, const Wanted& wanted, TilesetReport& report,
            const core::ProgressReporter& progress, const core::ReadLimits& limits)
     : source_(source),
-      reach_(reach),
-      detail_m_(detail_m),
+      collector_(collector),
+      reach_(wanted.reach),
+      detail_m_(wanted.detail_m),
+      world_(wanted.world),
+      missing_(wanted.missing),
       report_(report),
       progress_(progress),
       limits_(limits),
@@ -65,15 +70,17 @@ void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
   root.error_m = document->error_m();
   waiting_.push_back(root);
   while (!waiting_.empty()) {
-    const Visit next = std::move(waiting_.back());
+    Visit next = std::move(waiting_.back());
     waiting_.pop_back();
     progress_.check();
     try {
       visit(next);
     } catch (const Error& error) {
       if (ends_all(error)) throw;
-      count_hole(error);
-      keep_coarser(next.coarser);
+      const std::size_t first = collector_.missing.size();
+      const std::string& address = next.external.empty() ? next.trail->document->address() : next.external;
+      count_hole(error, source_.name(address), next.bounds);
+      hold_by_coarser(first, next.coarser);
     }
   }
   report_.unreadable_properties = contents_.unreadable_properties().count;
@@ -81,7 +88,23 @@ void Walk::run(const std::shared_ptr<const TilesetDocument>& document) {
   report_.features_by_texture = contents_.features_by_texture();
 }
 
-void Walk::count_hole(const Error& error) {
+/// A file that is missing or cannot be read, with its id and the volume that it was to fill. One that did not come, of
+/// a server or a disk that gives no answer, may come next time: then reading in part is for those who ask for it.
+void Walk::count_hole(const Error& error, const std::string& id, const Volume& bounds) {
+  if (error.code() == ErrorCode::file_unreadable && missing_ != MissingPolicy::warn) {
+    throw Error(ErrorCode::scene_incomplete, "a file of the tileset did not come: " + error.problem(), error.where(),
+                "try again, or take what came with 'missing: warn': then the rest hides nothing");
+  }
+  MissingPart part;
+  part.entry.object.source_id = id;
+  part.entry.what = "tile";
+  part.entry.reason = error.problem();
+  part.entry.instead = "the box of its tile";
+  part.entry.may_be_larger = true;  // contents stick out of their tiles
+  const bool is_elsewhere = std::holds_alternative<EarthRegion>(bounds) && world_ != World::earth;
+  if (!is_elsewhere) part.corners = corners_of(bounds);
+  part.is_held = !part.corners.empty();
+  collector_.missing.push_back(std::move(part));
   if (report_.holes == 0) {
     report_.first_hole = error.where().empty() ? error.problem() : error.where() + ": " + error.problem();
   }
@@ -127,10 +150,24 @@ std::string Walk::read_description(const std::string& address) {
   return text;
 }
 
+/// The parts from `first` on that are missing, where a coarser tile can hold their place.
+void Walk::hold_by_coarser(std::size_t first, const std::shared_ptr<Coarser>& coarser) {
+  const std::optional<std::uint32_t> object = keep_coarser(coarser);
+  if (!object) return;
+  for (std::size_t i = first; i < collector_.missing.size(); ++i) {
+    MissingPart& part = collector_.missing[i];
+    part.is_held = false;
+    part.entry.stand_in = object;
+    part.entry.instead = "a coarser tile";
+  }
+}
+
 /// Takes the nearest tile above that can be read, which a tile was to replace that cannot be: rather too much is hidden
-/// than too little.
-void Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
-  for (int i = 0; i < kMostCoarser && tile && !tile->is_taken; ++i, tile = tile->above) {
+/// than too little. Returns the first of its objects.
+std::optional<std::uint32_t> Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
+  for (int i = 0; i < kMostCoarser && tile; ++i, tile = tile->above) {
+    if (tile->object) return tile->object;
+    if (tile->is_taken) continue;
     tile->is_taken = true;
     Visit visit;
     visit.trail = tile->trail;
@@ -138,18 +175,20 @@ void Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
     visit.depth = tile->depth;
     visit.refinement = tile->here.refinement;
     std::size_t unread = 0;  // no holes: nobody asked for them
-    const std::size_t contents = report_.contents;
+    const std::size_t contents = report_.contents, triangles = collector_.triangles.size();
     read_contents(
         visit, tile->here, [](const ContentName& content) { return !is_named_json(content.uri); },
-        [&](const Error&) { ++unread; });
-    if (unread > 0 || report_.contents == contents) continue;
+        [&](const ContentName&, const Error&) { ++unread; });
+    if (unread > 0 || report_.contents == contents || collector_.triangles.size() == triangles) continue;
+    tile->object = collector_.object_of[triangles];
     ++report_.coarser_kept;
     report_.largest_error_m = std::max(report_.largest_error_m, tile->here.error_m);
-    return;
+    return tile->object;
   }
+  return std::nullopt;
 }
 
-void Walk::visit(const Visit& visit) {
+void Walk::visit(Visit& visit) {
   if (++looked_at_ > kMostTiles) {
     throw Error(ErrorCode::region_invalid,
                 "the region has more than " + std::to_string(kMostTiles) + " tiles, or the tileset has no end",
@@ -165,7 +204,7 @@ void Walk::visit(const Visit& visit) {
   }
 }
 
-void Walk::visit_explicit(const Visit& visit) {
+void Walk::visit_explicit(Visit& visit) {
   const TilesetDocument& document = *visit.trail->document;
   const Tile tile = document.tile(*visit.described);
   Here here;
@@ -174,6 +213,7 @@ void Walk::visit_explicit(const Visit& visit) {
   here.error_m = tile.error_m.value_or(visit.error_m);
   here.refinement = tile.refinement.value_or(visit.refinement);
   if (!reach_.meets(here.bounds)) return;
+  if (!std::holds_alternative<Everywhere>(here.bounds)) visit.bounds = here.bounds;
   if (tile.implicit) {
     enter_tree(visit, tile, here);
     return;
@@ -186,6 +226,7 @@ void Walk::visit_explicit(const Visit& visit) {
     next.trail = visit.trail;
     next.described = &*child;
     next.parent = here.into_world;
+    next.bounds = visit.bounds;
     next.refinement = here.refinement;
     next.error_m = here.error_m;
     next.coarser = here.coarser;
@@ -208,11 +249,16 @@ bool Walk::take(const Visit& visit, Here& here, bool has_children) {
   }
   here.coarser = visit.coarser;
   here.is_taken = is_taken;
+  const std::size_t missing = collector_.missing.size();
   const std::uint64_t holes = report_.holes;
   read_contents(
       visit, here, [&](const ContentName& content) { return is_taken || is_document(content); },
-      [&](const Error& error) { count_hole(error); });
-  if (report_.holes > holes) keep_coarser(visit.coarser);
+      [&](const ContentName& content, const Error& error) {
+        const Volume own = moved(content.bounds, here.into_world);
+        count_hole(error, id_of(visit.trail->document->address(), content.uri),
+                   std::holds_alternative<Everywhere>(own) ? visit.bounds : own);
+      });
+  if (report_.holes > holes) hold_by_coarser(missing, visit.coarser);
   if (has_own && !is_taken) {
     here.coarser = std::make_shared<Coarser>(Coarser{visit.trail, here, visit.coarser, visit.depth, false});
   }
@@ -221,7 +267,7 @@ bool Walk::take(const Visit& visit, Here& here, bool has_children) {
 
 /// `tell`: is told of what cannot be read.
 void Walk::read_contents(const Visit& visit, const Here& here, const std::function<bool(const ContentName&)>& is_wanted,
-                         const std::function<void(const Error&)>& tell) {
+                         const std::function<void(const ContentName&, const Error&)>& tell) {
   const TilesetDocument& document = *visit.trail->document;
   for (const ContentName& content : here.contents) {
     if (!is_wanted(content)) continue;
@@ -235,8 +281,17 @@ void Walk::read_contents(const Visit& visit, const Here& here, const std::functi
       }
     } catch (const Error& error) {
       if (ends_all(error)) throw;
-      tell(error);
+      tell(content, error);
     }
+  }
+}
+
+/// What a file that a tile names is called in ids.
+std::string Walk::id_of(const std::string& base, const std::string& uri) const {
+  try {
+    return source_.name(source_.resolve(base, uri));
+  } catch (const Error&) {
+    return uri;
   }
 }
 
@@ -245,13 +300,12 @@ void Walk::read_content(const Visit& visit, const Here& here, const std::string&
   if (is_tileset_text(bytes)) {
     wait_for(visit, here, address, true);
   } else {
-    read_mesh(address, bytes, here.into_world, *visit.trail);
+    read_mesh(address, bytes, {here.into_world, visit.trail->document->gltf_up(), visit.bounds});
   }
 }
 
-void Walk::read_mesh(const std::string& address, const std::string& bytes, const Transform& into_world,
-                     const Trail& trail) {
-  if (contents_.read(address, bytes, {into_world, trail.document->gltf_up()})) {
+void Walk::read_mesh(const std::string& address, const std::string& bytes, const Placement& placement) {
+  if (contents_.read(address, bytes, placement)) {
     ++report_.contents;
   } else {
     ++report_.without_surfaces;
@@ -265,6 +319,7 @@ void Walk::wait_for(const Visit& visit, const Here& here, const std::string& add
   next.is_taken = is_taken;
   next.coarser = visit.coarser;
   next.parent = here.into_world;
+  next.bounds = visit.bounds;
   next.refinement = here.refinement;
   next.depth = visit.depth + 1;
   waiting_.push_back(std::move(next));
@@ -290,7 +345,7 @@ void Walk::visit_external(const Visit& visit) {
     const std::string text = read_description(address);
     if (!is_tileset_text(text)) {
       if (!visit.is_taken) refuse("the file is no tileset, though its name says so", "name it as what it is");
-      read_mesh(address, text, visit.parent, *visit.trail);
+      read_mesh(address, text, {visit.parent, visit.trail->document->gltf_up(), visit.bounds});
       return;
     }
     core::ReadLimits limits = limits_;
@@ -304,6 +359,7 @@ void Walk::visit_external(const Visit& visit) {
       Trail{document, visit.trail, visit.trail->depth + 1, visit.trail->memory_bytes + document->memory_bytes()});
   next.described = &document->root();
   next.parent = visit.parent;
+  next.bounds = visit.bounds;
   next.refinement = visit.refinement;
   next.error_m = document->error_m();
   next.coarser = visit.coarser;
@@ -359,12 +415,13 @@ void Walk::enter_subtree(const Visit& visit, const std::shared_ptr<const Implici
   next.index = root;
   next.coarser = visit.coarser;
   next.parent = into_world;
+  next.bounds = visit.bounds;
   next.refinement = refinement;
   next.depth = visit.depth + 1;
   waiting_.push_back(std::move(next));
 }
 
-void Walk::visit_implicit(const Visit& visit) {
+void Walk::visit_implicit(Visit& visit) {
   const ImplicitTree& tree = *visit.subtree->tree;
   const TileIndex& index = visit.index;
   const std::uint32_t level = index.level - visit.subtree->root.level;
@@ -374,6 +431,7 @@ void Walk::visit_implicit(const Visit& visit) {
   here.error_m = std::ldexp(tree.error_m, -static_cast<int>(index.level));
   here.refinement = visit.refinement;
   if (!reach_.meets(here.bounds)) return;
+  if (!std::holds_alternative<Everywhere>(here.bounds)) visit.bounds = here.bounds;
   if (level == tree.shape.levels) {  // the root of the next subtree
     enter_subtree(visit, visit.subtree->tree, index, visit.parent, visit.refinement);
     return;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,13 @@ namespace vantage::internal::tiles {
 /// Goes through a tileset and hands the contents of all tiles that are wanted to a ContentReader.
 class Walk {
  public:
-  Walk(TileSource& source, Collector& collector, const Reach& reach, double detail_m, TilesetReport& report,
+  struct Wanted {
+    const Reach& reach;
+    double detail_m;
+    World world;
+    MissingPolicy missing;
+  };
+  Walk(TileSource& source, Collector& collector, const Wanted& wanted, TilesetReport& report,
        const core::ProgressReporter& progress, const core::ReadLimits& limits);
 
   /// From the root of `document` on. Throws Error(input) for a tileset without end, and for want of a library.
@@ -44,9 +51,10 @@ class Walk {
     const Json* described = nullptr;  ///< or else `subtree` and `index`
     std::shared_ptr<const LoadedSubtree> subtree;
     TileIndex index;
-    std::string external = {};  ///< or else the address of a tileset. It is read when its turn comes: many may wait
-    bool is_taken = false;      ///< .. and what to do with it where it is a mesh, whatever its name says
-    Transform parent;           ///< of the tile's parent, into the world; of an implicit tile the tree's own
+    std::string external = {};     ///< or else the address of a tileset. It is read when its turn comes: many may wait
+    bool is_taken = false;         ///< .. and what to do with it where it is a mesh, whatever its name says
+    Transform parent;              ///< of the tile's parent, into the world; of an implicit tile the tree's own
+    Volume bounds = Everywhere{};  ///< in the world: of the tile, as far as it is known, or else of its parent
     Refinement refinement = Refinement::replace;
     double error_m = 0;  ///< of the parent
     int depth = 0;
@@ -68,19 +76,20 @@ class Walk {
     Here here;
     std::shared_ptr<Coarser> above;
     int depth = 0;
-    bool is_taken = false;  ///< after all, for want of a tile that was to replace it
+    bool is_taken = false;                     ///< after all, for want of a tile that was to replace it
+    std::optional<std::uint32_t> object = {};  ///< the first of its objects, where it was taken and could be read
   };
 
-  void visit(const Visit& visit);
-  void visit_explicit(const Visit& visit);
-  void visit_implicit(const Visit& visit);
+  void visit(Visit& visit);
+  void visit_explicit(Visit& visit);
+  void visit_implicit(Visit& visit);
   bool take(const Visit& visit, Here& here, bool has_children);
   void read_contents(const Visit& visit, const Here& here,
                      const std::function<bool(const ContentName& content)>& is_wanted,
-                     const std::function<void(const Error& error)>& tell);
-  void keep_coarser(std::shared_ptr<Coarser> tile);
+                     const std::function<void(const ContentName& content, const Error& error)>& tell);
+  std::optional<std::uint32_t> keep_coarser(std::shared_ptr<Coarser> tile);
   void read_content(const Visit& visit, const Here& here, const std::string& address);
-  void read_mesh(const std::string& address, const std::string& bytes, const Transform& into_world, const Trail& trail);
+  void read_mesh(const std::string& address, const std::string& bytes, const Placement& placement);
   void wait_for(const Visit& visit, const Here& here, const std::string& address, bool is_taken);
   void visit_external(const Visit& visit);
   void enter_tree(const Visit& visit, const Tile& tile, const Here& here);
@@ -92,11 +101,16 @@ class Walk {
   std::shared_ptr<const TilesetDocument> remembered(const std::string& address);
   void remember(const std::shared_ptr<const TilesetDocument>& document);
   [[noreturn]] void fail_for_too_many(const std::string& address) const;
-  void count_hole(const Error& error);
+  void count_hole(const Error& error, const std::string& id, const Volume& bounds);
+  std::string id_of(const std::string& base, const std::string& uri) const;
+  void hold_by_coarser(std::size_t first, const std::shared_ptr<Coarser>& coarser);
 
   TileSource& source_;
+  Collector& collector_;
   const Reach& reach_;
   double detail_m_;
+  World world_;
+  MissingPolicy missing_;
   TilesetReport& report_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;

@@ -95,6 +95,12 @@ std::string i3dm(const std::string& glb_or_uri, const json& features, const std:
                      bytes_of(embedded ? 1u : 0u));
 }
 
+std::string pnts(const json& features, const std::string& binary) {
+  const std::string feature_text = table_text(features);
+  return tile_of("pnts", feature_text + binary,
+                 size_of_text(feature_text) + size_of_text(binary) + bytes_of(0u) + bytes_of(0u));
+}
+
 std::string cmpt(const std::vector<std::string>& parts) {
   std::string inside;
   for (const std::string& part : parts) inside += part;

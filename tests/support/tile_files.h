@@ -24,6 +24,8 @@ std::string b3dm(const std::string& glb, const nlohmann::json& features = {{"BAT
                  const nlohmann::json& batch = {}, const std::string& batch_binary = "");
 std::string i3dm(const std::string& glb_or_uri, const nlohmann::json& features, const std::string& binary,
                  const nlohmann::json& batch = {}, bool embedded = true);
+/// A cloud of points.
+std::string pnts(const nlohmann::json& features, const std::string& binary);
 std::string cmpt(const std::vector<std::string>& parts);
 /// With one byte of availability for tiles, contents and child subtrees each, or constants.
 std::string subtree(const nlohmann::json& json, const std::string& binary = "");

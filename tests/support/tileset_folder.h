@@ -23,10 +23,12 @@ class Tileset : public TemporaryDirectory {
   TilesetScene read(const TilesetOptions& options = {}) const { return read_tileset(file(), options); }
 };
 
-/// Of all objects that were read.
+/// Of all objects that were read, without those that stand in.
 inline std::set<std::string> ids_of(const TilesetScene& tiles) {
   std::set<std::string> ids;
-  for (const SceneObject& object : tiles.scene.objects) ids.insert(object.source_id);
+  for (const SceneObject& object : tiles.scene.objects) {
+    if (object.kind != ObjectKind::stand_in) ids.insert(object.source_id);
+  }
   return ids;
 }
 

@@ -1,5 +1,9 @@
 // Scenes: as python/src/scene.cpp.
+#include <array>
+#include <cmath>
+#include <limits>
 #include <tuple>
+#include <vector>
 
 #include "common/json.h"
 #include "held.h"
@@ -23,6 +27,51 @@ Georeference place_of(const Json& row) {
   return {row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<std::string>(), row.at(3).get<std::string>()};
 }
 
+/// A box; null in place of an infinite number.
+Box box_of(const Json& row) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json &low = row.at(i), &high = row.at(i + 3);
+    box.min[static_cast<Eigen::Index>(i)] = low.is_null() ? -kInfinite : low.get<double>();
+    box.max[static_cast<Eigen::Index>(i)] = high.is_null() ? kInfinite : high.get<double>();
+  }
+  return box;
+}
+
+/// As ledger_of in python/src/scene.cpp.
+LedgerEntry entry_of(const Json& row) {
+  LedgerEntry entry;
+  const Json& object = row.at(0);
+  entry.object = {object.at(0).get<std::string>(), object.at(1).get<std::string>(),
+                  static_cast<ObjectKind>(object.at(2).get<int>())};
+  entry.what = row.at(1).get<std::string>();
+  entry.reason = row.at(2).get<std::string>();
+  if (const Json& box = row.at(3); !box.is_null()) entry.box = box_of(box);
+  if (const Json& height = row.at(4); !height.is_null()) entry.height_m = height.get<double>();
+  if (const Json& holder = row.at(5); !holder.is_null()) entry.stand_in = holder.get<std::uint32_t>();
+  entry.instead = row.at(6).get<std::string>();
+  entry.may_be_larger = row.at(7).get<bool>();
+  entry.outlines = row.at(8).get<std::vector<std::vector<std::array<double, 2>>>>();
+  return entry;
+}
+
+Json ledger_json(const Scene& scene) {
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+  Json rows = Json::array();
+  for (const LedgerEntry& entry : scene.ledger) {
+    Json box;
+    for (const Vec3& corner : entry.box ? std::vector<Vec3>{entry.box->min, entry.box->max} : std::vector<Vec3>{}) {
+      for (const double value : corner) box.push_back(number(value));
+    }
+    const Json object = {entry.object.name, entry.object.source_id, static_cast<int>(entry.object.kind)};
+    rows.push_back({object, entry.what, entry.reason, box, entry.height_m ? Json(*entry.height_m) : Json(),
+                    entry.stand_in ? Json(*entry.stand_in) : Json(), entry.instead, entry.may_be_larger,
+                    entry.outlines});
+  }
+  return rows;
+}
+
 Json from_arrays(const Json& a) {
   LoadedScene loaded;
   loaded.scene.mesh = mesh_of(a);
@@ -32,6 +81,7 @@ Json from_arrays(const Json& a) {
         {row.at(0).get<std::string>(), row.at(1).get<std::string>(), static_cast<ObjectKind>(row.at(2).get<int>())});
   }
   if (const Json& place = a.at("place"); !place.is_null()) loaded.scene.georeference = place_of(place);
+  for (const Json& row : a.at("ledger")) loaded.scene.ledger.push_back(entry_of(row));
   loaded.scene.attribution = a.at("attribution").get<std::string>();
   if (auto& known = loaded.scene.georeference) known->attribution = attribution_of(loaded.scene);  // for files
   if (const Json& whole = a.at("whole"); !whole.is_null()) {
@@ -63,6 +113,7 @@ Json facts(const Json& a) {
           {"faces", array_at(scene.mesh.triangles, 3)},
           {"object_of", array_at(scene.object_of)},
           {"objects", objects_json(scene)},
+          {"ledger_rows", ledger_json(scene)},
           {"place", place_json(scene.georeference)},
           {"projection", projection_json(scene.georeference)},
           {"attribution", attribution_of(scene)},

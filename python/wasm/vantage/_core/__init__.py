@@ -72,6 +72,10 @@ class Scene(Held):
         return [(name, source, kind) for name, source, kind in self._facts["objects"]]
 
     @property
+    def ledger_rows(self) -> list[Any]:
+        return list(self._facts["ledger_rows"])
+
+    @property
     def place(self) -> tuple[float, float, str, str] | None:
         return None if self._facts["place"] is None else tuple(self._facts["place"])
 
@@ -119,11 +123,11 @@ def load_scene(text: str, name: str, progress: Progress = None) -> Scene:
 
 def scene_from_arrays(vertices: Numbers, faces: Numbers, object_of: Numbers, objects: Sequence[tuple[str, str, int]],
                       place: tuple[float, float, str, str] | None, sea_level_m: float | None,
-                      whole: Sequence[float] | None = None, attribution: str = "") -> Scene:
+                      whole: Sequence[float] | None = None, attribution: str = "", ledger: Sequence[Any] = ()) -> Scene:
     one = engine()
     return Scene(one, one.call("scene_from_arrays", vertices=vertices, faces=faces, object_of=object_of, objects=list(objects),
                                place=place, sea_level_m=sea_level_m, whole=None if whole is None else list(whole),
-                               attribution=attribution))
+                               attribution=attribution, ledger=list(ledger)))
 
 
 @functools.cache
