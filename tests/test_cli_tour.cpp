@@ -86,7 +86,11 @@ TEST_F(CliTour, TheExitCodeSaysWhatIsMissing) {
   write("tour.yaml", plaza_mission("home: [-20, -20, 0], gap: 0, time_limit: 0.2"));
   EXPECT_EQ(run({"tour", "tour.yaml", "-o", "tour.csv"}).exit_code, 4) << "the gap was not reached";
   EXPECT_NE(content(folder_ / "tour.csv"), "");
-  EXPECT_EQ(run({"tour", "tour.yaml", "--no-bound"}).exit_code, 0) << "nobody asked for a gap";
+  EXPECT_EQ(run({"tour", "tour.yaml", "--no-bound"}).exit_code, 0) << "nobody asked for a bound";
+  write("tour.yaml", plaza_mission("home: [-20, -20, 0], time_limit: 0.2"));
+  const ProgramRun without = run({"tour", "tour.yaml"});
+  EXPECT_EQ(without.exit_code, 0) << "nobody asked for a gap";
+  EXPECT_EQ(without.out.find("asked for"), std::string::npos) << without.out;
   write("tour.yaml", plaza_mission("home: [-20, -20, 0], gap: 0.3",
                                    "navigation: {keep_in: [{min: [-150, -150, 0], max: [20, 150, 100]}, "
                                    "{min: [80, -150, 0], max: [150, 150, 100]}]}\n"));

@@ -190,7 +190,7 @@ Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene&
   if (!height) {
     constexpr double kOffGround = 0.5, kAbove = 1000;
     throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
-                "move it into the zones of 'navigation', or widen these; nearest above it: " +
+                "move it into the zones of 'navigation', widen these, or give a smaller tour.tube; nearest above it: " +
                     airspace.obstacle({home + Vec3(0, 0, kOffGround), home + Vec3(0, 0, kAbove)}, 0));
   }
   Vec3 at = home + Vec3(0, 0, *height);

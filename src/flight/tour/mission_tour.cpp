@@ -148,6 +148,10 @@ void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
                   core::format("positions[{}]", i), "move it into the volume");
     }
     target.volume = cube_about(positions[i], kHalf);
+    if (depth_m < request.tube_m + kHoverSlackM / 2) {
+      notes.push_back(core::format("{} is viewed from {} m inside its volume: not from all within tour.tube of there",
+                                   target.name, core::number_text(depth_m)));
+    }
   }
   request.settings.margin_m = 0;
 }
@@ -225,7 +229,7 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
     }
   }
   tour::BoundOptions bounds;
-  bounds.gap = settings.gap;
+  bounds.gap = settings.gap.value_or(kTourGap);
   bounds.time_limit_s = settings.time_limit_s;
   bounds.threads = options.threads;
   auto proof =
@@ -248,6 +252,7 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
     bound.ignored.emplace_back("the margin inside the volumes");
   }
   return bound;
+  if (settings.tube_m > 0) bound.ignored.emplace_back("the tube about the flight");
 }
 
 /// As in check_flight, which judges what is planned.
@@ -281,6 +286,13 @@ void note_computed(const Mission& mission, std::vector<std::string>& notes) {
 void add_notes(const Mission& mission, MissionTour& of) {
   if (const auto note = tour::note_of_narrow_zones(mission, of.settings, of.tour)) of.notes.push_back(*note);
   note_computed(mission, of.notes);
+  if (!of.tour.problems.empty() && of.settings.tube_m > 0) {
+    of.notes.push_back(
+        core::format("all within {:g} m of the flight keeps the limits, too: with a smaller tour.tube it "
+                     "may reach the targets that are left out",
+                     of.settings.tube_m));
+  }
+  if (const auto note = tour::note_of_pitches(of, mission)) of.notes.push_back(*note);
   note_beyond_data(mission, of);
   const std::size_t asked = mission.as_written.targets.size();
   if (mission.as_written.lists_targets() && asked < of.targets.size()) {
@@ -320,7 +332,10 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 
   TourRequest request;
   request.settings = result.settings;
-  request.airspace = make_airspace(scene, result.settings.clearance_m + tour::kPlanRoundingM, mission.navigation);
+  request.settings.margin_m = tour::depth_m(result.settings);
+  request.tube_m = tour::reach_m(result.settings);
+  const double rounding_m = request.tube_m > 0 ? 0 : tour::kPlanRoundingM;
+  request.airspace = make_airspace(scene, result.settings.clearance_m + rounding_m, mission.navigation, request.tube_m);
   if (mission.home) {
     const bool is_wing = result.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
     const double deviation = is_wing ? request.chord_error_m : tour::kPlanRoundingM;
@@ -336,14 +351,14 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   if (options.fewest_positions) {
     result.fewest = tour::positions_for(mission, result.targets, scene, request.airspace, kHoverSlackM, options,
                                         result.notes, progress);
-    const double margin_m = result.settings.margin_m + kHoverSlackM;
-    view_from(tour::position_of_each(*result.fewest, result.targets, margin_m), request);
+    const double margin_m = request.settings.margin_m + kHoverSlackM;
+    view_from(tour::position_of_each(*result.fewest, result.targets, margin_m), request, result.notes);
     if (result.fewest->end == FewestPositions::End::cancelled) {  // the flight to what was found, soon
       request.rounds = 1;
       followed = {};
     }
   } else if (!options.positions.empty()) {
-    view_from(options.positions, request);
+    view_from(options.positions, request, result.notes);
   }
   result.tour = plan_tour(request, followed);
   add_notes(mission, result);
