@@ -393,6 +393,9 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   out.returns_home = out.takes_off && of.settings.closed;  // else the way back is not planned
   if (of.home && mission.scene().georeference) out.heights = HeightDatum::home;
   for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
+  out.keep_in = mission.navigation.keep_in;
+  out.keep_out = mission.navigation.keep_out;
+  out.aircraft = internal::flight::aircraft_of_camera(mission);
   return out;
 }
 
