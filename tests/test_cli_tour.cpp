@@ -54,6 +54,13 @@ TEST_F(CliTour, WritesPlansForAircraftOfDji) {
   const Json answer = Json::parse(check.out);
   EXPECT_EQ(answer["targets"].size(), 5U) << check.err;
   for (const Json& target : answer["targets"]) EXPECT_FALSE(target["seen"].empty()) << target["name"];
+  // Where the mission names a known camera, its aircraft is known.
+  std::string text = content(source_folder() / "examples/town/tour.yaml");
+  text.replace(text.find("town.osm"), 8, (source_folder() / "examples/town/town.osm").string());
+  text.insert(text.find("  max_range: 50"), "  camera: {model: dji_mavic_3t_wide}\n");
+  write("known.yaml", text);
+  const ProgramRun known = run({"tour", "known.yaml", "--no-bound", "-q", "-o", "known.kmz"});
+  EXPECT_EQ(known.exit_code, 0) << known.err;
 }
 
 TEST_F(CliTour, AnOpenTourEndsWhereItEnds) {

@@ -16,6 +16,7 @@
 #include "flight/tour/tour_certificate.h"
 #include "flight/tour/tour_region.h"
 #include "flight/tour/tour_views.h"
+#include "flight/view_aim.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/result.h"
@@ -130,7 +131,7 @@ Mesh cube_about(const Vec3& middle, double half_m) {
 }
 
 /// Targets are viewed from these positions alone: from small cubes about them, which lie in the volumes.
-void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
+void view_from(const std::vector<Vec3>& positions, TourRequest& request, std::vector<std::string>& notes) {
   constexpr double kDepth = 0.01, kHalf = 0.005;  // metres; the corners of the cube are 8.7 mm away
   if (positions.size() != request.targets.size()) {
     throw Error(ErrorCode::array_sizes_differ,
@@ -147,11 +148,11 @@ void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
                                target.name, core::number_text(depth_m), core::number_text(kDepth)),
                   core::format("positions[{}]", i), "move it into the volume");
     }
-    target.volume = cube_about(positions[i], kHalf);
     if (depth_m < request.tube_m + kHoverSlackM / 2) {
       notes.push_back(core::format("{} is viewed from {} m inside its volume: not from all within tour.tube of there",
                                    target.name, core::number_text(depth_m)));
     }
+    target.volume = cube_about(positions[i], kHalf);
   }
   request.settings.margin_m = 0;
 }
@@ -251,8 +252,8 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   } else if (settings.margin_m > 0) {
     bound.ignored.emplace_back("the margin inside the volumes");
   }
-  return bound;
   if (settings.tube_m > 0) bound.ignored.emplace_back("the tube about the flight");
+  return bound;
 }
 
 /// As in check_flight, which judges what is planned.
@@ -285,7 +286,6 @@ void note_computed(const Mission& mission, std::vector<std::string>& notes) {
 
 void add_notes(const Mission& mission, MissionTour& of) {
   if (const auto note = tour::note_of_narrow_zones(mission, of.settings, of.tour)) of.notes.push_back(*note);
-  note_computed(mission, of.notes);
   if (!of.tour.problems.empty() && of.settings.tube_m > 0) {
     of.notes.push_back(
         core::format("all within {:g} m of the flight keeps the limits, too: with a smaller tour.tube it "
@@ -293,6 +293,7 @@ void add_notes(const Mission& mission, MissionTour& of) {
                      of.settings.tube_m));
   }
   if (const auto note = tour::note_of_pitches(of, mission)) of.notes.push_back(*note);
+  note_computed(mission, of.notes);
   note_beyond_data(mission, of);
   const std::size_t asked = mission.as_written.targets.size();
   if (mission.as_written.lists_targets() && asked < of.targets.size()) {
@@ -392,10 +393,10 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   out.takes_off = of.home.has_value();
   out.returns_home = out.takes_off && of.settings.closed;  // else the way back is not planned
   if (of.home && mission.scene().georeference) out.heights = HeightDatum::home;
-  for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
   out.keep_in = mission.navigation.keep_in;
   out.keep_out = mission.navigation.keep_out;
   out.aircraft = internal::flight::aircraft_of_camera(mission);
+  for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
   return out;
 }
 
