@@ -247,12 +247,12 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
     bound.time_s = std::max(bound.time_s, static_cast<double>(visited.size()) * settings.dwell_s);
   }
   if (regions.is_limited) bound.ignored.emplace_back("the limits of navigation in targets that are volumes");
+  if (settings.tube_m > 0) bound.ignored.emplace_back("the tube about the flight");
   if (!options.positions.empty()) {
     bound.ignored.emplace_back("the positions that are given");
   } else if (settings.margin_m > 0) {
     bound.ignored.emplace_back("the margin inside the volumes");
   }
-  if (settings.tube_m > 0) bound.ignored.emplace_back("the tube about the flight");
   return bound;
 }
 
