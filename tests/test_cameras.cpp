@@ -238,6 +238,27 @@ TEST(KnownCameras, SeeAsWideAsTheirMakersSay) {
   EXPECT_NEAR(4096 * 8.67 / 13.2 / pinhole_of(find_camera("dji_air_3s_wide")).focal_px.value(), 0.947, 0.001);
 }
 
+TEST(KnownCameras, SayWhatCarriesThemWithItsSource) {
+  std::size_t known = 0;
+  for (const Camera& camera : known_cameras()) {
+    SCOPED_TRACE(camera.name);
+    const CameraCarrier& carrier = camera.carrier;
+    const bool is_known = carrier.pitch_deg || carrier.dji_payload || carrier.speed_m_s;
+    EXPECT_EQ(is_known, carrier.source.size() >= 15);
+    if (is_known) ++known;
+    for (const auto& range : {carrier.pitch_deg, carrier.roll_deg, carrier.yaw_deg}) {
+      EXPECT_TRUE(!range || (*range)[0] < (*range)[1]);
+    }
+    if (carrier.pitch_deg) {
+      EXPECT_LE((*carrier.pitch_deg)[0], -90) << "all look straight down";
+      EXPECT_GT((*carrier.pitch_deg)[1], 0);
+    }
+    EXPECT_EQ(carrier.dji_drone.has_value(), carrier.dji_drone_sub_type.has_value());
+    EXPECT_TRUE(!carrier.dji_drone || carrier.dji_payload);
+  }
+  EXPECT_GE(known, 30U);
+}
+
 TEST(KnownCameras, AreFoundByName) {
   for (const Camera& camera : known_cameras()) EXPECT_EQ(&find_camera(camera.name), &camera);
   const Camera& camera = find_camera("sony_a7r_iv_35mm");
@@ -264,6 +285,7 @@ TEST(KnownCameras, AreInTheManual) {
   bool is_table = false;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("#")) is_table = line == "## Cameras that vantage knows";
+    if (line.starts_with("## Gimbals")) is_table = true;
     if (is_table && line.starts_with("| `")) rows.insert(line);
   }
   for (const Camera& camera : known_cameras()) {
@@ -272,6 +294,11 @@ TEST(KnownCameras, AreInTheManual) {
                             shortest(camera.sensor_height_mm) + " | " + shortest(camera.focal_length_mm) + " |";
     EXPECT_TRUE(rows.contains(row)) << row;
     rows.erase(row);
+    if (!camera.carrier.pitch_deg) continue;
+    const auto [low, high] = *camera.carrier.pitch_deg;
+    const std::string gimbal = "| `" + camera.name + "` | " + shortest(low) + " to " + shortest(high) + " |";
+    EXPECT_TRUE(rows.contains(gimbal)) << gimbal;
+    rows.erase(gimbal);
   }
   EXPECT_TRUE(rows.empty()) << *rows.begin();
 }

@@ -101,7 +101,7 @@ TEST_F(CliUsage, EveryCommandObeysTheTable) {
   EXPECT_EQ(code({"inspect", "city.obj"}), 0);
   EXPECT_EQ(code({"inspect", "none.obj"}), 2);
   EXPECT_EQ(code({"compute", "mission.yaml", "-o", "v.ply"}), 0);
-  EXPECT_EQ(code({"compute", "near.yaml", "-o", "none.ply"}), 0);
+  EXPECT_EQ(code({"compute", "near.yaml", "-o", "none.ply"}), 1);
   EXPECT_EQ(code({"compute", "near.yaml", "-o", "none.ply", "--fail-empty"}), 1);
   EXPECT_EQ(code({"compute", "mission.yaml", "-o", "v.ply", "--fail-empty"}), 0);
   EXPECT_EQ(code({"compute", "none.yaml", "-o", "v.ply", "--fail-empty"}), 2);
@@ -171,8 +171,9 @@ TEST_F(CliUsage, AVolumeToStandardOutput) {
   expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--json"}, "--json");
   expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "-o", "-"}, "-");
   write("near.yaml", std::string(kScene) + kTarget + "sensor: {max_range: 5}\n");
-  const ProgramRun empty = run({"compute", "near.yaml", "-q", "-o", "-", "--format", "ply", "--fail-empty"});
+  const ProgramRun empty = run({"compute", "near.yaml", "-q", "-o", "-", "--format", "ply"});
   EXPECT_EQ(empty.exit_code, 1);
+  EXPECT_NE(empty.err.find("what to try: "), std::string::npos) << empty.err;
   EXPECT_EQ(empty.out, "");
 }
 

@@ -25,6 +25,7 @@ TEST_F(CliCameras, ListsThoseThatAreKnown) {
   for (const Camera& camera : known_cameras()) {
     EXPECT_NE(table.find("\n" + camera.name + " "), std::string::npos) << camera.name;
   }
+  EXPECT_NE(table.find("-90 to 35\n"), std::string::npos) << "the gimbal of the Mavic 3E";
   for (const std::string& line : lines(table)) EXPECT_EQ(line.size(), lines(table)[0].size()) << line;
 
   const auto json = nlohmann::json::parse(output_of({"cameras", "--json"})).at("cameras");
@@ -43,11 +44,26 @@ TEST_F(CliCameras, ListsThoseThatAreKnown) {
     }
     EXPECT_EQ(json[i].at("source"), camera.source);
     EXPECT_TRUE(json[i].at("problem").is_null());
+    EXPECT_EQ(json[i].at("carrier").at("source").is_null(), camera.carrier.source.empty());
+    EXPECT_EQ(json[i].at("carrier").at("pitch_deg").is_null(), !camera.carrier.pitch_deg.has_value());
     const Pinhole pinhole = pinhole_of(camera);
     EXPECT_EQ(json[i].at("focal_px"), pinhole.focal_px.value());
     EXPECT_EQ(json[i].at("fov_deg").get<std::vector<double>>(),
               (std::vector<double>{pinhole.fov_deg()[0], pinhole.fov_deg()[1]}));
   }
+}
+
+TEST_F(CliCameras, TellsWhatCarriesACamera) {
+  const auto json = nlohmann::json::parse(output_of({"cameras", "mavic_3e_wide", "--json"}));
+  const auto& carrier = json.at("cameras").at(0).at("carrier");
+  EXPECT_EQ(carrier.at("pitch_deg"), (std::vector<double>{-90, 35}));
+  EXPECT_TRUE(carrier.at("roll_deg").is_null());
+  EXPECT_EQ(carrier.at("rate_deg_s"), 100);
+  EXPECT_EQ(carrier.at("dji_drone"), 77);
+  EXPECT_EQ(carrier.at("dji_drone_sub_type"), 0);
+  EXPECT_EQ(carrier.at("dji_payload"), 66);
+  EXPECT_EQ(carrier.at("climb_m_s"), 6);
+  EXPECT_EQ(carrier.at("speed_m_s"), 15);
 }
 
 TEST_F(CliCameras, ListsThoseOfAFile) {

@@ -54,6 +54,13 @@ TEST_F(CliTour, WritesPlansForAircraftOfDji) {
   const Json answer = Json::parse(check.out);
   EXPECT_EQ(answer["targets"].size(), 5U) << check.err;
   for (const Json& target : answer["targets"]) EXPECT_FALSE(target["seen"].empty()) << target["name"];
+  // Where the mission names a known camera, its aircraft is known.
+  std::string text = content(source_folder() / "examples/town/tour.yaml");
+  text.replace(text.find("town.osm"), 8, (source_folder() / "examples/town/town.osm").string());
+  text.insert(text.find("  max_range: 50"), "  camera: {model: dji_mavic_3t_wide}\n");
+  write("known.yaml", text);
+  const ProgramRun known = run({"tour", "known.yaml", "--no-bound", "-q", "-o", "known.kmz"});
+  EXPECT_EQ(known.exit_code, 0) << known.err;
 }
 
 TEST_F(CliTour, AnOpenTourEndsWhereItEnds) {
@@ -67,7 +74,7 @@ TEST_F(CliTour, AnOpenTourEndsWhereItEnds) {
     const Json items = Json::parse(content(folder_ / "tour.plan"))["mission"]["items"];
     constexpr int kReturn = 20;
     EXPECT_EQ(items.back()["command"] == kReturn, closed == "true");
-    EXPECT_EQ(Json::parse(tour.out)["notes"].size(), closed == "true" ? 1U : 2U) << tour.out;
+    EXPECT_EQ(Json::parse(tour.out)["notes"].size(), closed == "true" ? 2U : 3U) << tour.out;
     const ProgramRun check = run({"check", "town.yaml", "tour.plan"});
     EXPECT_EQ(check.exit_code, 0) << check.out;
   }
@@ -86,7 +93,11 @@ TEST_F(CliTour, TheExitCodeSaysWhatIsMissing) {
   write("tour.yaml", plaza_mission("home: [-20, -20, 0], gap: 0, time_limit: 0.2"));
   EXPECT_EQ(run({"tour", "tour.yaml", "-o", "tour.csv"}).exit_code, 4) << "the gap was not reached";
   EXPECT_NE(content(folder_ / "tour.csv"), "");
-  EXPECT_EQ(run({"tour", "tour.yaml", "--no-bound"}).exit_code, 0) << "nobody asked for a gap";
+  EXPECT_EQ(run({"tour", "tour.yaml", "--no-bound"}).exit_code, 0) << "nobody asked for a bound";
+  write("tour.yaml", plaza_mission("home: [-20, -20, 0], time_limit: 0.2"));
+  const ProgramRun without = run({"tour", "tour.yaml"});
+  EXPECT_EQ(without.exit_code, 0) << "nobody asked for a gap";
+  EXPECT_EQ(without.out.find("asked for"), std::string::npos) << without.out;
   write("tour.yaml", plaza_mission("home: [-20, -20, 0], gap: 0.3",
                                    "navigation: {keep_in: [{min: [-150, -150, 0], max: [20, 150, 100]}, "
                                    "{min: [80, -150, 0], max: [150, 150, 100]}]}\n"));

@@ -66,7 +66,7 @@ TEST(DescribedKeys, OfATourAreListedMapByMap) {
   ASSERT_EQ(lists.size(), 4);
   EXPECT_EQ(lists[0].name, "tour");
   EXPECT_EQ(lists[0].keys, (std::vector<std::string_view>{"vehicle", "home", "closed", "view", "gimbal", "clearance",
-                                                          "gap", "time_limit"}));
+                                                          "tube", "gap", "time_limit"}));
   EXPECT_EQ(lists[1].name, "tour.vehicle");
   EXPECT_EQ(lists[1].keys, (std::vector<std::string_view>{"kind", "speed", "acceleration", "turn_radius", "climb"}));
   EXPECT_EQ(lists[2].name, "tour.view");
@@ -87,7 +87,8 @@ TEST(DescribedKeys, OfATourAreReadBackAsTheyWereWritten) {
     tour.closed = random.chance(0.5);
     tour.dwell_s = random.uniform(0, 100);
     tour.simultaneous = random.chance(0.5);
-    tour.gap = random.uniform(0, 0.9);
+    tour.tube_m = random.uniform(0, 100);
+    if (random.uniform(0, 1) < 0.5) tour.gap = random.uniform(0, 0.9);
     tour.time_limit_s = random.uniform(1, 100);
     const std::string text = section_text(tour);
     const MissionFile file =
@@ -95,7 +96,7 @@ TEST(DescribedKeys, OfATourAreReadBackAsTheyWereWritten) {
                           "memory.yaml", SceneSource());
     ASSERT_TRUE(file.tour) << text;
     EXPECT_EQ(section_text(*file.tour), text);
-    const auto& [vehicle, home, closed, dwell_s, margin_m, simultaneous, rate, clearance_m, gap, time_limit_s] =
+    const auto& [vehicle, home, closed, dwell_s, margin_m, simultaneous, rate, clearance_m, tube_m, gap, time_limit_s] =
         *file.tour;
     EXPECT_EQ(vehicle.kind, tour.vehicle.kind);
     EXPECT_EQ(vehicle.turn_radius_m, tour.vehicle.turn_radius_m);
@@ -104,6 +105,7 @@ TEST(DescribedKeys, OfATourAreReadBackAsTheyWereWritten) {
     EXPECT_EQ(closed, tour.closed);
     EXPECT_EQ(dwell_s, tour.dwell_s);
     EXPECT_EQ(simultaneous, tour.simultaneous);
+    EXPECT_EQ(tube_m, tour.tube_m);
     EXPECT_EQ(gap, tour.gap);
     EXPECT_EQ(time_limit_s, tour.time_limit_s);
   }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/ellipsoid.h"
@@ -267,6 +268,51 @@ TEST(WriteFlightPlan, HasTheFieldsThatQGroundControlDemands) {
                   .is_null());
 }
 
+TEST(WriteFlightPlan, HoldsTheZonesAsAGeofence) {
+  const auto square = [](double x, double y, double half) {
+    return Zone::Ring{{x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
+  };
+  const auto zone = [&](const Zone::Ring& outer, const std::string& name) {
+    Zone one;
+    one.outer = outer;
+    one.name = name;
+    return one;
+  };
+  FlightOut out = flight_out();
+  out.keep_in = {zone(square(0, 0, 500), "park")};
+  out.keep_in[0].holes = {square(300, 300, 20)};
+  out.keep_out = {zone(square(-300, -300, 50), "pond"), zone(square(-50, 175, 30), "bridge")};
+  out.keep_out[1].max_z_m = 20;  // the first leg flies over it
+  const auto expect_fence = [&](const std::vector<std::pair<bool, Zone::Ring>>& expected) {
+    const json fence = json::parse(flight_plan_bytes(out, PlanFormat::qgroundcontrol)).at("geoFence");
+    EXPECT_EQ(fence.at("circles"), json::array());
+    ASSERT_EQ(fence.at("polygons").size(), expected.size());
+    const internal::geo::OnGlobe globe(*out.georeference);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const json& polygon = fence.at("polygons")[i];
+      EXPECT_EQ(polygon.at("version"), 1);
+      EXPECT_EQ(polygon.at("inclusion"), expected[i].first);
+      ASSERT_EQ(polygon.at("polygon").size(), expected[i].second.size());
+      for (std::size_t k = 0; k < expected[i].second.size(); ++k) {
+        const Eigen::Vector2d& corner = expected[i].second[k];
+        const auto place = globe.to_geodetic(Vec3(corner.x(), corner.y(), 40)).place;
+        EXPECT_NEAR(polygon.at("polygon")[k][0].get<double>(), place.latitude_deg, 1e-10);
+        EXPECT_NEAR(polygon.at("polygon")[k][1].get<double>(), place.longitude_deg, 1e-10);
+      }
+    }
+    expect_wording(plan_notes(out, PlanFormat::qgroundcontrol));
+  };
+  expect_fence({{true, square(0, 0, 500)}, {false, square(300, 300, 20)}, {false, square(-300, -300, 50)}});
+  out.keep_in.push_back(zone(square(900, 0, 100), "meadow"));
+  out.keep_out[1].outer = square(5, 6, 4);  // the home lies in it
+  expect_fence({{true, square(0, 0, 500)},
+                {true, square(900, 0, 100)},
+                {false, square(300, 300, 20)},
+                {false, square(-300, -300, 50)}});
+  out.keep_in = {zone(square(0, 0, 200), "yard")};  // the flight leaves it
+  expect_fence({{false, square(-300, -300, 50)}});
+}
+
 TEST(WriteFlightPlan, KeepsWhatIsDone) {
   FlightOut out = flight_out();
   out.actions.resize(3);
@@ -345,6 +391,12 @@ TEST(WriteFlightPlan, SaysWhatIsDoneInTheWordsOfEachFormat) {
       }(),
       PlanFormat::geojson))["features"];
   EXPECT_EQ(features[1]["properties"]["photo"], true);
+  EXPECT_EQ(features[1]["properties"]["sees"], "a <b>");
+  FlightOut dji = flight_out();
+  dji.actions = {out.actions[0], {}, {}};
+  const std::string waylines =
+      io::unzipped(flight_plan_bytes(dji, PlanFormat::wpml), "wpmz/waylines.wpml", ".none", 1'000'000);
+  EXPECT_NE(waylines.find("<wpml:fileSuffix>point1_a_b_<"), std::string::npos) << "the name of the photo's file";
   EXPECT_EQ(features.size(), features[0]["geometry"]["coordinates"].size() + 1) << "the camera turns at each chord";
 }
 

@@ -41,7 +41,7 @@ TEST(MissionTour, IsReadAndWritten) {
   const MissionFile mission = with_tour(
       "tour:\n  vehicle: {kind: fixed_wing, speed: 18, turn_radius: 130 ft, climb: [-15, 20]}\n"
       "  home: [48.137, 11.575]\n  closed: false\n  view: {dwell: 3, margin: 0.5, simultaneous: true}\n"
-      "  gimbal: {rate: 45}\n  clearance: 6\n  gap: 0.02\n  time_limit: 30\n");
+      "  gimbal: {rate: 45}\n  clearance: 6\n  tube: 2\n  gap: 0.02\n  time_limit: 30\n");
   ASSERT_TRUE(mission.tour);
   const TourSettings& tour = *mission.tour;
   EXPECT_EQ(tour.vehicle.kind, TourVehicle::Kind::fixed_wing);
@@ -56,6 +56,7 @@ TEST(MissionTour, IsReadAndWritten) {
   EXPECT_TRUE(tour.simultaneous);
   EXPECT_EQ(tour.gimbal_rate_deg_s, 45);
   EXPECT_EQ(tour.clearance_m, 6);
+  EXPECT_EQ(tour.tube_m, 2);
   EXPECT_EQ(tour.gap, 0.02);
   EXPECT_EQ(tour.time_limit_s, 30);
   const std::string text = mission_text(mission, ".");
@@ -69,6 +70,8 @@ TEST(MissionTour, OfAMultirotorFromAPoint) {
   EXPECT_EQ(*mission.tour->home->position, Vec3(1, 2, 3.5));
   EXPECT_EQ(mission.tour->dwell_s, TourSettings{}.dwell_s);
   EXPECT_GT(mission.tour->dwell_s, 0);
+  EXPECT_EQ(mission.tour->tube_m, 1);
+  EXPECT_FALSE(mission.tour->gap);
   const std::string text = mission_text(mission, ".");
   EXPECT_EQ(mission_text(with_tour(text.substr(text.find("tour:\n"))), "."), text);
 }
@@ -100,6 +103,7 @@ TEST(MissionTour, RefusesWhatIsWrong) {
       {"tour: {view: {margin: .nan}}\n", ErrorCode::value_out_of_range, ""},
       {"tour: {gimbal: {rate: 0}}\n", ErrorCode::value_out_of_range, "tour.gimbal.rate"},
       {"tour: {clearance: -1}\n", ErrorCode::value_out_of_range, "tour.clearance"},
+      {"tour: {tube: -1}\n", ErrorCode::value_out_of_range, "tour.tube"},
       {"tour: {gap: 1}\n", ErrorCode::value_out_of_range, "tour.gap"},
       {"tour: {time_limit: 0}\n", ErrorCode::value_out_of_range, "tour.time_limit"},
   };

@@ -55,6 +55,7 @@ FlightCheck judged(const MissionTour& tour, const Mission& mission) {
   options.speed_m_s = tour.settings.vehicle.speed_m_s;
   options.clearance_m = tour.settings.clearance_m;
   options.dwell_s = tour.settings.dwell_s - 1e-3;  // which the clock of the plan may round
+  options.tube_radius_m = tour.settings.tube_m;
   return check_flight(mission, located.flight, options);
 }
 
@@ -74,7 +75,7 @@ void expect_all_formats_pass(const MissionTour& tour, const Mission& mission) {
     options.levels = plan.levels;
     options.home_z_m = tour.home->z();
     const LocatedPlan located = locate_flight(parse_flight_plan(flight_plan_bytes(plan, format), "tour"), options);
-    const FlightCheck check = check_flight(mission, located.flight, {});
+    const FlightCheck check = check_flight(mission, located.flight, {.tube_radius_m = tour.settings.tube_m});
     EXPECT_TRUE(check.passes()) << (check.failures.empty() ? "" : check.failures.front());
   }
 }
@@ -183,8 +184,7 @@ TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
   EXPECT_EQ(tour.home, Vec3(-20, -20, 0));
   const Vec3 start = tour.tour.flight.points.front().position;
   EXPECT_EQ(start.head<2>(), Eigen::Vector2d(-20, -20));
-  EXPECT_GT(start.z(), 0);
-  EXPECT_LE(start.z(), 0.5);
+  EXPECT_EQ(start.z(), 1.5) << "the lowest step of 0.5 m that is a metre above the ground";
   EXPECT_EQ(tour.tour.flight.points.back().position, start);
   const FlightCheck check = judged(tour, of);
   expect_passes(check);
@@ -204,7 +204,7 @@ TEST_F(PlanMissionTour, OfAMultirotorKeepsWhatIsAsked) {
 TEST_F(PlanMissionTour, ClimbsNoHigherAtTakeoffThanItsLimitsAllow) {
   const Mission of = mission("home: [-20, -20, 0], clearance: 4", "navigation: {altitude: [3, 12.5]}\n");
   const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
-  EXPECT_NEAR(tour.highest_takeoff_m.value(), 12.48, 0.011);  // and a centimetre for rounding
+  EXPECT_NEAR(tour.highest_takeoff_m.value(), 11.47, 0.011);  // less the tube, and two centimetres for rounding
   expect_all_formats_pass(tour, of);
   // The way to an orbit is not planned, and the climb at its beginning keeps the limits of height.
   Orbit orbit;
@@ -226,6 +226,83 @@ TEST_F(PlanMissionTour, OfAFixedWingKeepsWhatIsAsked) {
   expect_passes(judged(tour, of));
   expect_photos(tour, of);
   EXPECT_NEAR(tour.tour.time_s, tour.tour.length_m / 12, 1e-9);
+}
+
+TEST_F(PlanMissionTour, KeepsWhatIsAskedInATubeAboutTheFlight) {
+  const std::string zones = "navigation: {altitude: [6, 60], keep_out: [{min: [-60, -60, 0], max: [-40, -20, 60]}]}\n";
+  for (const std::string vehicle :
+       {"", "vehicle: {kind: fixed_wing, speed: 12, turn_radius: 15}, view: {dwell: 1}, "}) {
+    const std::string words = vehicle + "home: [-20, -20, 0], clearance: 4";
+    for (const auto& [tube, radius_m] :
+         {std::pair("", 1.0), std::pair(", tube: 2.5", 2.5), std::pair(", tube: 0", 0.0)}) {
+      SCOPED_TRACE(words + tube);
+      const Mission of = mission(words + tube, zones);
+      const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
+      EXPECT_TRUE(tour.is_complete());
+      const Flight flight = plan_of_tour(tour, of).flight;
+      expect_passes(check_flight(of, flight, {.tube_radius_m = radius_m}));
+      if (radius_m > 0) continue;
+      EXPECT_FALSE(check_flight(of, flight, {.tube_radius_m = 1}).passes()) << "it touches what it may touch";
+    }
+  }
+}
+
+TEST_F(PlanMissionTour, SaysWhereItCannotKeepTheTube) {
+  const auto says = [](const MissionTour& tour) {
+    return std::any_of(tour.notes.begin(), tour.notes.end(),
+                       [](const std::string& note) { return note.find("tour.tube") != std::string::npos; });
+  };
+  // Just inside of the range of both targets.
+  const Mission near_border = of_two_targets("view: {dwell: 3, margin: 0}");
+  const std::vector<Vec3> positions(2, {-30, -30, 147.8});
+  EXPECT_TRUE(says(plan_mission_tour(near_border, {.with_bound = false, .positions = positions})));
+  EXPECT_FALSE(says(from_one_position(near_border)));
+  // A band that is 1.5 m high, and two zones that are apart.
+  const std::string band = "navigation: {altitude: [30, 31.5]}\n";
+  const std::string apart =
+      "navigation: {keep_in: [{min: [-150, -150, 0], max: [20, 150, 100]}, {min: [80, -150, 0], max: [150, 150, "
+      "100]}]}\n";
+  const Mission flat = mission("home: [-20, -20, 0], clearance: 4", band);
+  expect_code([&] { plan_mission_tour(flat); }, ErrorCode::limits_empty, "mission.yaml:9:");
+  const Mission thin = mission("home: [-20, -20, 0], clearance: 4, tube: 0.5", band);
+  EXPECT_TRUE(plan_mission_tour(thin, {.with_bound = false}).is_complete());
+  EXPECT_TRUE(says(plan_mission_tour(mission("home: [-20, -20, 0]", apart), {.with_bound = false})));
+  EXPECT_FALSE(says(plan_mission_tour(mission("home: [-20, -20, 0], tube: 0", apart), {.with_bound = false})));
+}
+
+/// A square high on the tower's west side, seen from below.
+std::string seen_from_below(const std::string& sensor) {
+  return std::string(kPlazaScene) +
+         "target: {vertices: [[59.9, -3, 36], [59.9, -3, 42], [59.9, 3, 42], [59.9, 3, 36]]}\n"
+         "sensor: {max_range: 60, " +
+         sensor + "}\nexact: {tolerance: 0.5}\nnavigation: {altitude: [2, 12]}\n" +
+         "tour: {home: [50, 0, 0], clearance: 4}\n";
+}
+
+TEST_F(PlanMissionTour, AsksOfNoKnownGimbalForWhatItDoesNotReach) {
+  const auto asked = [&](const std::string& sensor) {
+    const Mission of = of_text(seen_from_below(sensor));
+    const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
+    EXPECT_TRUE(tour.is_complete());
+    expect_passes(judged(tour, of));
+    double highest_deg = -90;
+    for (const FlightAction& action : plan_of_tour(tour, of).actions) {
+      highest_deg = std::max(highest_deg, action.gimbal_pitch_deg.value_or(-90));
+    }
+    return std::pair(highest_deg, tour.notes);
+  };
+  const auto [known_deg, notes] = asked("camera: {model: dji_mavic_3e_wide}");
+  EXPECT_LE(known_deg, 35 + 1e-9);
+  EXPECT_EQ(notes, std::vector<std::string>());
+  // By its own words, and where nobody knows: the pitch is told.
+  const auto [own_deg, own_notes] = asked("camera: {model: dji_mavic_3e_wide}, gimbal: {pitch: [-90, 90]}");
+  EXPECT_GT(own_deg, 36);
+  ASSERT_EQ(own_notes.size(), 1U);
+  EXPECT_NE(own_notes[0].find("dji_mavic_3e_wide takes -90 to 35"), std::string::npos) << own_notes[0];
+  const std::vector<std::string> unknown = asked("camera: {model: sony_a7r_iv_35mm}").second;
+  ASSERT_EQ(unknown.size(), 1U);
+  EXPECT_NE(unknown[0].find("is not known"), std::string::npos) << unknown[0];
+  EXPECT_EQ(asked("camera: {model: sony_a7r_iv_35mm}, gimbal: {pitch: [-90, 70]}").second.size(), 0U);
 }
 
 TEST_F(PlanMissionTour, WithoutAHomeAndOneTarget) {

@@ -1,6 +1,7 @@
 // Limits of the sensor in mission files, hashes and volume files.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -92,6 +93,24 @@ TEST(SensorMission, CamerasByNumbersAndMountsThatAreFixed) {
   EXPECT_EQ(fixed.mount.roll_deg, -10);
   const Sensor on_gimbal = parse("{max_range: 50, fov: [60, 40], mount: gimbal}").sensor;
   EXPECT_FALSE(on_gimbal.mount.yaw_deg);
+}
+
+TEST(SensorMission, TheGimbalOfAKnownCameraIsItsLimit) {
+  const auto pitches = [](const std::string& words) {
+    const MissionFile read = parse("{max_range: 60, " + words + "}");
+    EXPECT_EQ(parse_mission(mission_text(read, "/data"), "/data/mission.yaml").sensor, read.sensor) << words;
+    return std::array{read.sensor.mount.min_pitch_deg, read.sensor.mount.max_pitch_deg};
+  };
+  using Pitches = std::array<double, 2>;
+  const std::string mavic = "camera: {model: dji_mavic_3e_wide}";
+  EXPECT_EQ(pitches(mavic), (Pitches{-90, 35}));
+  EXPECT_EQ(pitches(mavic + ", mount: gimbal"), (Pitches{-90, 35}));
+  EXPECT_EQ(pitches(mavic + ", gimbal: {yaw: 20, roll: 3}"), (Pitches{-90, 35}));
+  EXPECT_EQ(pitches(mavic + ", gimbal: {pitch: [-90, 90]}"), (Pitches{-90, 90})) << "its own words";
+  EXPECT_EQ(pitches(mavic + ", mount: {yaw: any, pitch: 50}"), (Pitches{50, 50}));
+  EXPECT_EQ(pitches("camera: {model: dji_zenmuse_p1_35mm}"), (Pitches{-90, 30})) << "from -120: past straight down";
+  EXPECT_EQ(pitches("camera: {model: sony_a7r_iv_35mm}"), (Pitches{-90, 90})) << "nobody knows";
+  EXPECT_EQ(pitches("fov: [60, 40]"), (Pitches{-90, 90}));
 }
 
 TEST(SensorMission, TextReadsBackAsTheSame) {

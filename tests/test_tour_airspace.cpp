@@ -92,6 +92,28 @@ TEST(TourAirspace, NamesWhatIsInTheWay) {
                         "tour.clearance");
 }
 
+TEST(TourAirspace, ATubeIsADeviationThatIsAlwaysAsked) {
+  testing::Random random(52);
+  const Town town = random_town(random, Vec3(0, 0, 0));
+  Navigation navigation;
+  navigation.altitude = Navigation::Altitude{1, 45};
+  const PreparedScene scene(town.scene);
+  const auto plain = make_airspace(scene, 2, navigation), tube = make_airspace(scene, 2, navigation, 1.5);
+  int refused_by_tube = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 from(random.uniform(-120, 120), random.uniform(-120, 120), random.uniform(0, 46));
+    const Leg leg = {from, from + random.direction() * random.uniform(0, 60)};
+    EXPECT_EQ(tube->allows(leg, 0.25), plain->allows(leg, 1.75));
+    EXPECT_EQ(tube->obstacle(leg, 0.25), plain->obstacle(leg, 1.75));
+    if (plain->allows(leg, 0) && !tube->allows(leg, 0)) ++refused_by_tube;
+  }
+  EXPECT_GT(refused_by_tube, 20);
+  const Leg over = {{-200, 0, 4}, {-150, 0, 4}};
+  EXPECT_TRUE(make_airspace(scene, 2, {}, 3.5)->allows(over, 0)) << "also more than a leg may deviate";
+  EXPECT_FALSE(make_airspace(scene, 2, {}, 4.5)->allows(over, 0)) << "it meets the ground";
+  testing::expect_error([&] { make_airspace(scene, 1, {}, -1); }, ErrorCode::value_out_of_range, "tour.tube");
+}
+
 TEST(TourAirspace, NothingFliesThroughAHill) {
   // A ridge of the ground, 20 m high, and no clearance from it: over it, but not through it.
   testing::SceneBuilder builder;

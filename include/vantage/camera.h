@@ -12,6 +12,18 @@
 
 namespace vantage {
 
+/// What carries a camera: its gimbal and its aircraft, as their maker documents them. What is not known is empty.
+struct CameraCarrier {
+  using Range = std::array<double, 2>;  ///< lowest, highest
+
+  /// That the gimbal can be told to take: pitch, 0 level and -90 straight down; roll; yaw from the aircraft's nose.
+  std::optional<Range> pitch_deg, roll_deg, yaw_deg;
+  std::optional<double> rate_deg_s;                               ///< so fast its pitch turns at most
+  std::optional<int> dji_drone, dji_drone_sub_type, dji_payload;  ///< as WPML numbers them: DjiAircraft
+  std::optional<double> climb_m_s, descent_m_s, speed_m_s;        ///< the fastest of the aircraft's normal mode
+  std::string source = {};                                        ///< empty: nothing is known
+};
+
 /// What a data sheet says of a camera with its lens. A number that is not known is 0.
 struct Camera {
   std::string name;  ///< "sony_a7r_iv_35mm" in the table of vantage; in a list from a file as it is written there
@@ -21,6 +33,7 @@ struct Camera {
   double sensor_height_mm = 0;
   double focal_length_mm = 0;  ///< of the lens itself, not its "35 mm equivalent"
   std::string source;          ///< where the numbers are from: a data sheet, or a file and the entry in it
+  CameraCarrier carrier = {};  ///< of the table; lists from files have none
 };
 
 /// A camera without distortion, whose axis meets the middle of the picture. Its axes are those of computer vision: x to

@@ -15,6 +15,7 @@
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 #include "vantage/ground.h"
+#include "vantage/navigation.h"
 #include "vantage/progress.h"
 #include "vantage/query.h"
 
@@ -291,7 +292,10 @@ struct FlightOut {
   /// No higher above the home may the vehicle climb at takeoff; nothing: any height. WPML, which climbs at first, keeps
   /// to it.
   std::optional<double> highest_takeoff_m;
-  std::vector<NamedVolume> volumes;         ///< KML draws them
+  std::vector<NamedVolume> volumes;  ///< KML draws them
+  /// To stay in and out of; of QGroundControl, whose geofence has no heights. One to stay out of is left out where the
+  /// flight or its home lies in it, seen from above.
+  std::vector<Zone> keep_in = {}, keep_out = {};
   double chord_error_m = 0.05;              ///< of circles, where a format has none
   std::vector<SeenTarget> targets = {};     ///< CZML draws them
   double start_unix_s = kFlightStartUnixS;  ///< of CZML: seconds since 1970-01-01 UTC; of the years 1 to 9999

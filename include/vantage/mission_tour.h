@@ -60,7 +60,7 @@ struct MissionTour {
   /// Whether all targets are visited.
   bool is_complete() const { return tour.problems.empty(); }
   /// Whether the gap that the settings ask for was reached.
-  bool reaches_gap() const { return bound && bound->gap <= settings.gap; }
+  bool reaches_gap() const { return bound && bound->gap <= settings.gap.value_or(kTourGap); }
 };
 
 /// Of a mission whose one target is a volume (Target::volume): what the limits of navigation leave of it. Throws

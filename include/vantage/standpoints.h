@@ -107,7 +107,7 @@ struct Standpoints {
   std::vector<Standpoint> found;   ///< at most one of each kind, in their order
   double margin_m = 0;             ///< that they keep
   std::string reason;              ///< why there are none; else empty
-  std::vector<std::string> notes;  ///< of kinds that have no answer, and of searches that were cut short
+  std::vector<std::string> notes;  ///< of kinds without an answer, searches that were cut short, the gimbal's reach
 };
 
 /// The standpoints in the volume of a mission, which has one volume (see one_volume). `volume`: what run_mission makes
@@ -203,7 +203,7 @@ struct Orbits {
   std::vector<Orbit> found;        ///< circles, at most one of each kind, in their order; or one racetrack, the deepest
   double margin_m = 0;             ///< that they keep
   std::string reason;              ///< why there is no circle; else empty
-  std::vector<std::string> notes;  ///< of kinds without an answer, and of searches that were cut short
+  std::vector<std::string> notes;  ///< of kinds without an answer, searches that were cut short, the gimbal's reach
 };
 
 /// Orbits in the volume of a mission, which has one volume (see one_volume). `volume`: what run_mission makes of it.

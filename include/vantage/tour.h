@@ -44,6 +44,8 @@ struct TourHome {
   std::optional<Vec3> position = std::nullopt;                 ///< metres, scene frame, or as MissionFile::crs says
 };
 
+inline constexpr double kTourGap = 0.01;  ///< of TourSettings without one
+
 struct TourSettings {
   TourVehicle vehicle;
   std::optional<TourHome> home = std::nullopt;  ///< nothing: the tour begins anywhere
@@ -57,8 +59,12 @@ struct TourSettings {
 
   double gimbal_rate_deg_s = 30;  ///< at most so fast the camera turns; 0.001 to 36,000
   double clearance_m = 5;         ///< of the whole flight from the whole scene, but for its ground; 0 to 1e4
-  double gap = 0.01;              ///< the search ends where (length - bound) / length is no larger; >= 0, < 1
-  double time_limit_s = 60;       ///< or after so long; > 0, at most a week
+  double tube_m =
+      1;  ///< all of this holds for every position so near to the flight: wind, errors of position; 0 to 100
+  /// The search ends where (length - bound) / length is no larger; >= 0, < 1. Nothing: at kTourGap, and nobody minds a
+  /// larger one.
+  std::optional<double> gap = std::nullopt;
+  double time_limit_s = 60;  ///< or after so long; > 0, at most a week
 };
 
 /// Throws Error(input) for settings that are out of their range, with the key of a mission file as the place
@@ -81,10 +87,10 @@ class VANTAGE_API Airspace {
 /// At least `clearance_m` from all surfaces of a scene but its ground (ObjectKind::ground), which no leg may meet;
 /// within all limits of navigation: exactly, as LegDistances and LegLimits tell it (vantage/query.h). A leg with a
 /// deviation of more than 2 m is not allowed. The inside of a solid that is wider than the clearance is not told from
-/// the outside: no leg leads into it. Holds on to the scene. Throws Error(input) as check_navigation, and for a
-/// clearance that is negative or not finite.
+/// the outside: no leg leads into it. All this holds for every position within `tube_m` of the leg. Holds on to the
+/// scene. Throws Error(input) as check_navigation, and for a clearance or a tube that is negative or not finite.
 VANTAGE_API std::shared_ptr<const Airspace> make_airspace(const PreparedScene& scene, double clearance_m,
-                                                          const Navigation& navigation = {});
+                                                          const Navigation& navigation = {}, double tube_m = 0);
 
 /// What is to be seen.
 struct TourTarget {
@@ -94,11 +100,12 @@ struct TourTarget {
 };
 
 struct TourRequest {
-  TourSettings settings;                    ///< its home and clearance are not looked at: see below
+  TourSettings settings;                    ///< its home, clearance and tube are not looked at: see below
   std::optional<Vec3> home = std::nullopt;  ///< in the air, where the tour begins; scene frame
   std::vector<TourTarget> targets;
   std::shared_ptr<const Airspace> airspace = {};  ///< nothing: everywhere
 
+  double tube_m = 0;           ///< the camera follows its target from every position so near to the flight; >= 0
   double chord_error_m = 0.1;  ///< of the legs that stand for the curves of a fixed wing
   std::uint64_t seed = 1;
   int rounds = 0;  ///< of the search for the order, for a quick tour; 0: as many as the number of targets asks for

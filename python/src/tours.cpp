@@ -142,7 +142,7 @@ void bind_tours(nb::module_& module) {
       .def_prop_ro("length_m", [](const PyTour& t) { return t->tour.length_m; })
       .def_prop_ro("time_s", [](const PyTour& t) { return t->tour.time_s; })
       .def_prop_ro("vehicle", [](const PyTour& t) { return name_of(t->settings.vehicle.kind); })
-      .def_prop_ro("asked_gap", [](const PyTour& t) { return t->settings.gap; })
+      .def_prop_ro("asked_gap", [](const PyTour& t) { return t->settings.gap.value_or(kTourGap); })
       .def_prop_ro("targets", &names_of)
       .def_prop_ro("order", [](const PyTour& t) { return t->tour.order; })
       .def_prop_ro("visits", &visit_rows)

@@ -60,7 +60,8 @@ if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel bri
 
 
 def cameras() -> list[dict[str, _Any]]:
-    """The cameras that vantage knows, a dictionary for each: `Sensor(camera=...)` takes its "name".
+    """The cameras that vantage knows, a dictionary for each: `Sensor(camera=...)` takes its "name". "carrier" has the range of its
+    gimbal, which limits the view where nothing is said of pitch, and the numbers of its aircraft, as far as they are known.
 
     Example:
         >>> vt.cameras()[0]["name"]

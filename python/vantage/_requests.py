@@ -159,7 +159,8 @@ class Sensor(Request):
             north, or `any`: the vehicle can turn. Required in `mount`. `pitch` (degrees): 0 is level, -90 straight down.
             Required in `mount`. `roll` (degrees): a positive one lowers the right edge of the picture. Default: 0.
         gimbal: instead of `mount`: the ways that the camera may look. `yaw` (degrees): as of `mount`. Default: `any`. `pitch`
-            (degrees): the lowest and the highest. Default: [-90, 90]. `roll` (degrees): as of `mount`. Default: 0.
+            (degrees): the lowest and the highest. Default: what the gimbal of the model reaches; [-90, 90] where that is not
+            known. `roll` (degrees): as of `mount`. Default: 0.
         pixel: how much of the target one pixel may cover. Needs the camera's pixels. `size` (metres): how much of the target
             one pixel may cover, > 0. Required in `pixel`. `kind`: `worst`, which counts the slant of the view, or
             `perpendicular`, which does not. Default: `worst`.
@@ -250,8 +251,10 @@ class TourSettings(Request):
             `simultaneous`: whether several targets may be viewed at the same time. Default: false.
         gimbal: a dictionary: `rate` (degrees/s): the camera turns at most so fast, 0.001 to 36,000. Default: 30.
         clearance: metres; of the whole flight from the scene, but for its ground, 0 to 10,000. Default: 5.
-        gap: the search for a shorter flight ends when (length − bound) / length is no larger, 0 or more and < 1. Default:
-            0.01.
+        tube: metres; all this holds for every position so near to the flight, 0 to 100. That is what `vantage check --tube`
+            asks for: for wind, errors of position, and the radius at which an autopilot accepts a waypoint. Default: 1.
+        gap: the search for a shorter flight ends when (length − bound) / length is no larger, 0 or more and < 1. Where it is
+            given, a larger one ends in exit code 4. Default: 0.01.
         time_limit: s; or after so long, > 0, at most 604,800, a week. The search for the bound may take as long again.
             Preparing the scene and the volumes is not counted, and a first flight is found all the same. Default: 60.
 
@@ -266,6 +269,7 @@ class TourSettings(Request):
     view: Mapping[str, Any] | None = None
     gimbal: Mapping[str, Any] | None = None
     clearance: float | None = None
+    tube: float | None = None
     gap: float | None = None
     time_limit: float | None = None
 

@@ -116,7 +116,7 @@ class Tour:
 
     @property
     def reaches_gap(self) -> bool:
-        """Whether the gap that the settings ask for was reached."""
+        """Whether the gap that the settings ask for, or 0.01, was reached."""
         return self.bound is not None and self.bound.gap <= self._core.asked_gap
 
     def write(self, path: Path, *, aircraft: Sequence[int] | None = None, undulation_m: float | None = None,
@@ -126,7 +126,8 @@ class Tour:
 
         Args:
             path: the file.
-            aircraft: for .kmz: type, subtype and camera, as DJI numbers them: (77, 0, 66) is the Mavic 3E.
+            aircraft: for .kmz: type, subtype and camera, as DJI numbers them: (77, 0, 66) is the Mavic 3E. Without it that of
+                the mission's camera, where `vt.cameras()` knows it.
             undulation_m: how high the mean sea level lies above the ellipsoid there: GeoJSON and CZML have heights
                 above the ellipsoid.
             start: for .czml: when the flight begins, "2026-06-21T16:00Z"; without it "2026-01-01T00:00Z".
@@ -211,7 +212,8 @@ def tour(mission: AnyMission, settings: TourSettings | Mapping[str, Any] | None 
         settings: a `TourSettings`, or a dictionary of its keys, instead of what the mission says itself.
         positions: from where each target is viewed: what `fewest_positions` found for the same targets in the same order, or
             (n, 3), metres, one for each. They lie in the volumes by 1 cm at least, and visits within 1 cm of them; the margin of
-            the settings is not looked at. Default: the tour finds them itself, and is shorter.
+            the settings is not looked at, and a note says where the tube is not kept. Default: the tour finds them itself, and is
+            shorter.
         bound: whether to compute the bound, which takes longer than the tour.
         threads: 0: as many as there are.
         progress: called with stage and fraction; False stops.

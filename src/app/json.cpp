@@ -127,6 +127,25 @@ void add_source(Json& json, const LoadedScene& loaded) {
 
 Json known_or_null(double number) { return number == 0 ? Json(nullptr) : Json(number); }
 
+template <typename Value>
+Json value_or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const CameraCarrier& carrier) {
+  return {{"pitch_deg", value_or_null(carrier.pitch_deg)},
+          {"roll_deg", value_or_null(carrier.roll_deg)},
+          {"yaw_deg", value_or_null(carrier.yaw_deg)},
+          {"rate_deg_s", value_or_null(carrier.rate_deg_s)},
+          {"dji_drone", value_or_null(carrier.dji_drone)},
+          {"dji_drone_sub_type", value_or_null(carrier.dji_drone_sub_type)},
+          {"dji_payload", value_or_null(carrier.dji_payload)},
+          {"climb_m_s", value_or_null(carrier.climb_m_s)},
+          {"descent_m_s", value_or_null(carrier.descent_m_s)},
+          {"speed_m_s", value_or_null(carrier.speed_m_s)},
+          {"source", carrier.source.empty() ? Json(nullptr) : Json(carrier.source)}};
+}
+
 Json camera_json(const ListedCamera& listed) {
   const Camera& camera = listed.camera;
   Json json;
@@ -142,6 +161,7 @@ Json camera_json(const ListedCamera& listed) {
   json["fov_deg"] = pinhole ? Json(pinhole->fov_deg()) : Json(nullptr);  // horizontal, vertical
   json["focal_px"] = pinhole && pinhole->focal_px ? Json(*pinhole->focal_px) : Json(nullptr);
   json["source"] = camera.source;
+  json["carrier"] = json_of(camera.carrier);
   json["problem"] = listed.problem.empty() ? Json(nullptr) : Json(listed.problem);
   return json;
 }

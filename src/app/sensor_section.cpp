@@ -1,5 +1,6 @@
 #include "app/sensor_section.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -33,6 +34,19 @@ constexpr std::array kDori = {Dori{"detection", 25}, Dori{"observation", 62}, Do
                               Dori{"identification", 250}};
 
 using Keys = std::span<const request::Own>;
+
+/// Where a mission says nothing of it: all that the gimbal of a known camera reaches.
+Mount mount_without_words(const std::optional<CameraSource>& camera) {
+  Mount mount;
+  const auto* const model = camera ? std::get_if<CameraModel>(&*camera) : nullptr;
+  for (const Camera& known : known_cameras()) {
+    const auto& pitch_deg = known.carrier.pitch_deg;
+    if (model == nullptr || known.name != model->name || !pitch_deg) continue;
+    mount.min_pitch_deg = std::max(mount.min_pitch_deg, (*pitch_deg)[0]);
+    mount.max_pitch_deg = std::min(mount.max_pitch_deg, (*pitch_deg)[1]);
+  }
+  return mount;
+}
 
 /// Besides what a sensor has it reads the other forms of some limits: a pilot's sight, levels, times.
 class SensorReader : public SectionReader {
@@ -168,6 +182,7 @@ void SensorReader::keys(Keys /*keys*/, std::optional<Pinhole>& camera, Mount& mo
   }
   refuse_both("mount", "gimbal", "keep the gimbal, or a mount of fixed angles");
   for (const std::string_view key : {"mount", "gimbal", "pixel", "dori"}) check_camera_for(key);
+  mount = mount_without_words(result_.camera);
   if (const YamlNode* node = given("mount")) read_mount(*node, mount);
   if (const YamlNode* node = given("gimbal")) read_gimbal(*node, mount);
 }
@@ -358,7 +373,7 @@ class SensorWriter : public SectionWriter {
 
   void add_mount(const Mount& mount) {
     const auto& [yaw_deg, min_pitch_deg, max_pitch_deg, roll_deg] = mount;
-    if (!yaw_deg && min_pitch_deg == -90 && max_pitch_deg == 90 && roll_deg == 0) return;
+    if (mount == mount_without_words(mission_.camera)) return;
     const bool is_fixed = min_pitch_deg == max_pitch_deg;
     const std::string yaw = yaw_deg ? shortest(*yaw_deg) : "any", roll = shortest(roll_deg);
     add(is_fixed ? "mount.yaw" : "gimbal.yaw", yaw);

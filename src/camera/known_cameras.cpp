@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -168,12 +169,117 @@ constexpr std::array kCameraRows = {
               "Sony, DSC-RX1RM2 specifications, by QGroundControl's list"},
 };
 
+using Range = CameraCarrier::Range;
+constexpr std::nullopt_t kNotKnown = std::nullopt;
+
+struct Aircraft {
+  std::optional<int> drone, sub_type, payload;
+  std::optional<double> climb_m_s, descent_m_s, speed_m_s;
+};
+
+/// Of all cameras whose names begin so; the first that fits.
+struct CarrierRow {
+  std::string_view of;
+  std::optional<Range> pitch_deg, roll_deg, yaw_deg;
+  std::optional<double> rate_deg_s;
+  Aircraft aircraft;
+  const char* source;
+};
+
+constexpr const char* kEnterprise =
+    "DJI, Mavic 3 Enterprise Series specifications: gimbal, aircraft; Cloud API, WPML, Common Elements: numbers";
+constexpr const char* kM30 =
+    "DJI, Payload SDK, Gimbal Management: gimbal; Matrice 30 Series specifications: aircraft; Cloud API, WPML, Common "
+    "Elements: numbers";
+constexpr const char* kPayload = "DJI, Payload SDK, Gimbal Management; Cloud API, WPML, Common Elements: number";
+constexpr const char* kMini = "DJI, specifications of the Mini: gimbal, aircraft";
+constexpr Range kEnterprisePitch = {-90, 35}, kMatricePitch = {-120, 45}, kMiniPitch = {-90, 60};
+
+// Where a camera is one of two aircraft or payloads, it has no number, and the narrower range.
+constexpr std::array kCarrierRows = {
+    CarrierRow{"dji_air_2s",
+               Range{-90, 24},
+               kNotKnown,
+               kNotKnown,
+               100,
+               {{}, {}, {}, 6, 6, 15},
+               "DJI, Air 2S specifications: gimbal (extended), aircraft"},
+    CarrierRow{"dji_air_3_",
+               Range{-90, 60},
+               kNotKnown,
+               Range{-5, 5},
+               100,
+               {{}, {}, {}, 10, 10, 21},
+               "DJI, Air 3 specifications: gimbal, aircraft"},
+    CarrierRow{"dji_air_3s_",
+               Range{-90, 60},
+               kNotKnown,
+               Range{-5, 5},
+               100,
+               {{}, {}, {}, 10, 10, 21},
+               "DJI, Air 3S specifications: gimbal, aircraft"},
+    CarrierRow{"dji_matrice_30_", kMatricePitch, Range{-50, 50}, kNotKnown, kNotKnown, {{}, {}, {}, 6, 5, 23}, kM30},
+    CarrierRow{"dji_matrice_30t_", kMatricePitch, Range{-50, 50}, kNotKnown, kNotKnown, {67, 1, 53, 6, 5, 23}, kM30},
+    CarrierRow{"dji_matrice_4t_",
+               kNotKnown,
+               kNotKnown,
+               kNotKnown,
+               kNotKnown,
+               {99, 1, 89, {}, {}, {}},
+               "DJI, Cloud API, Product Support: numbers"},
+    CarrierRow{"dji_mavic_2_pro",
+               Range{-90, 30},
+               kNotKnown,
+               Range{-75, 75},
+               120,
+               {{}, {}, {}, 4, 3, {}},
+               "DJI, Mavic 2 specifications: gimbal, aircraft"},
+    CarrierRow{"dji_mavic_3_",
+               kEnterprisePitch,
+               kNotKnown,
+               Range{-5, 5},
+               100,
+               {{}, {}, {}, 6, 6, 15},
+               "DJI, Mavic 3 specifications: gimbal, aircraft"},
+    CarrierRow{"dji_mavic_3e_tele", kEnterprisePitch, kNotKnown, kNotKnown, 100, {{}, {}, {}, 6, 6, 15}, kEnterprise},
+    CarrierRow{"dji_mavic_3e_", kEnterprisePitch, kNotKnown, kNotKnown, 100, {77, 0, 66, 6, 6, 15}, kEnterprise},
+    CarrierRow{"dji_mavic_3t_", kEnterprisePitch, kNotKnown, kNotKnown, 100, {77, 1, 67, 6, 6, 15}, kEnterprise},
+    CarrierRow{"dji_mini_3", kMiniPitch, kNotKnown, kNotKnown, 100, {{}, {}, {}, 3, 3, 10}, kMini},
+    CarrierRow{"dji_mini_4_pro", kMiniPitch, kNotKnown, kNotKnown, 100, {{}, {}, {}, 5, 5, 12}, kMini},
+    CarrierRow{"dji_phantom_4_",
+               Range{-90, 30},
+               kNotKnown,
+               kNotKnown,
+               90,
+               {{}, {}, {}, 5, 3, 13.9},
+               "DJI, Phantom 4 Pro and Phantom 4 RTK specifications: gimbal, aircraft in positioning mode"},
+    CarrierRow{"dji_zenmuse_h20_", Range{-120, 30}, Range{-45, 45}, kNotKnown, kNotKnown, {}, kPayload},
+    CarrierRow{
+        "dji_zenmuse_h20t_", Range{-120, 30}, Range{-45, 45}, kNotKnown, kNotKnown, {{}, {}, 43, {}, {}, {}}, kPayload},
+    CarrierRow{"dji_zenmuse_h30_", Range{-120, 60}, Range{-45, 45}, kNotKnown, kNotKnown, {}, kPayload},
+    CarrierRow{
+        "dji_zenmuse_h30t_", Range{-120, 60}, Range{-45, 45}, kNotKnown, kNotKnown, {{}, {}, 83, {}, {}, {}}, kPayload},
+    CarrierRow{"dji_zenmuse_p1_", Range{-120, 30}, Range{-50, 50}, kNotKnown, kNotKnown, {}, kPayload},
+    CarrierRow{"dji_zenmuse_xt2_", Range{-90, 30}, Range{-40, 40}, kNotKnown, kNotKnown, {}, kPayload},
+};
+
+CameraCarrier carrier_of(std::string_view name) {
+  for (const CarrierRow& row : kCarrierRows) {
+    if (!name.starts_with(row.of)) continue;
+    const Aircraft& aircraft = row.aircraft;
+    return {row.pitch_deg,        row.roll_deg,       row.yaw_deg,      row.rate_deg_s,
+            aircraft.drone,       aircraft.sub_type,  aircraft.payload, aircraft.climb_m_s,
+            aircraft.descent_m_s, aircraft.speed_m_s, row.source};
+  }
+  return {};
+}
+
 std::vector<Camera> cameras_of_rows() {
   std::vector<Camera> cameras;
   cameras.reserve(kCameraRows.size());
   for (const CameraRow& row : kCameraRows) {
     cameras.push_back({row.name, row.maker, row.model, row.width_px, row.height_px, row.sensor_width_mm,
-                       row.sensor_height_mm, row.focal_length_mm, row.source});
+                       row.sensor_height_mm, row.focal_length_mm, row.source, carrier_of(row.name)});
   }
   return cameras;
 }

@@ -57,14 +57,13 @@ std::string exit_code_table() {
   return "\n"
          "EXIT CODES\n"
          "  0      done\n"
-         "  1      wrong: verify, verify-tour, prove, check, report, compute --prove; none: stand, orbit, "
-         "--fail-empty;\n"
+         "  1      wrong: verify, verify-tour, prove, check, report, compute --prove; none: compute, stand, "
+         "orbit;\n"
          "         too many facets: simplify; targets left out: tour\n"
          "  2      bad input, bad arguments, or a result that could not be written\n"
          "  3      a defect of vantage: please report it together with the input\n"
-         "  4      prove, report or compute --prove neither proved nor refuted the volume; tour: the gap is too "
-         "large;\n"
-         "         tour --fewest: fewer positions may do\n"
+         "  4      prove, report or compute --prove neither proved nor refuted the volume;\n"
+         "         tour of a mission with 'tour.gap': the gap is larger, or fewer positions may do with --fewest\n"
          "  128+n  stopped by signal n. 130: Ctrl-C. 141: whoever read the output stopped reading\n"
          "  After 2, 3 and 128+n existing files are as they were. A second Ctrl-C ends the program at once.\n";
 }

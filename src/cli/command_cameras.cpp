@@ -83,7 +83,7 @@ std::vector<ListedCamera> listed_cameras(const std::string& file) {
 }
 
 /// The name, then numbers. What is not known is "-".
-using CameraCells = std::array<std::string, 5>;
+using CameraCells = std::array<std::string, 6>;
 
 std::string two_sides(const std::string& width, const std::string& height) { return width + " x " + height; }
 
@@ -91,7 +91,7 @@ std::string side_or_dash(double number) { return number > 0 ? shortest(number) :
 
 CameraCells cells_of(const ListedCamera& listed) {
   const Camera& camera = listed.camera;
-  CameraCells cells = {camera.name.empty() ? "-" : camera.name, "-", "-", "-", "-"};
+  CameraCells cells = {camera.name.empty() ? "-" : camera.name, "-", "-", "-", "-", "-"};
   if (camera.width_px > 0 || camera.height_px > 0)
     cells[1] = two_sides(side_or_dash(camera.width_px), side_or_dash(camera.height_px));
   if (camera.sensor_width_mm > 0 || camera.sensor_height_mm > 0) {
@@ -102,6 +102,7 @@ CameraCells cells_of(const ListedCamera& listed) {
     const auto [horizontal, vertical] = pinhole->fov_deg();
     cells[4] = two_sides(fixed(horizontal, 1), fixed(vertical, 1));
   }
+  if (const auto& pitch = camera.carrier.pitch_deg) cells[5] = shortest((*pitch)[0]) + " to " + shortest((*pitch)[1]);
   return cells;
 }
 
@@ -128,7 +129,8 @@ std::string aligned_cells(const std::vector<CameraCells>& rows) {
 }
 
 std::string cameras_table(const std::vector<ListedCamera>& cameras) {
-  std::vector<CameraCells> rows = {{"name", "picture px", "sensor mm", "focal mm", "field of view deg"}};
+  std::vector<CameraCells> rows = {
+      {"name", "picture px", "sensor mm", "focal mm", "field of view deg", "gimbal pitch deg"}};
   std::string problems;
   std::size_t bad = 0;
   for (const ListedCamera& listed : cameras) {
@@ -171,7 +173,8 @@ void add_cameras(CLI::App& app, Command& chosen) {
           "List to read instead: CameraMetaData.json of QGroundControl or sensor_data.json of OpenSfM; and words "
           "that the name, maker or model of a camera must have")
       ->option_text("[FILE] [WORD...]");
-  command->add_flag("--json", options->json, "Print JSON instead of a table, with the source of each camera");
+  command->add_flag("--json", options->json,
+                    "Print JSON instead of a table, with gimbal and aircraft, and the sources");
   finish<CamerasArguments>(*command, options, kCamerasExamples, chosen, run_cameras);
 }
 

@@ -38,7 +38,7 @@ constexpr const char* kComputeExamples[] = {
     "The format follows the extension:\n",
     "\n"
     "Beside each output goes a report, volume.report.json. Where there is no volume, the report says why, no mesh is\n"
-    "written, and the exit code is 0, or 1 with --fail-empty.\n"
+    "written, and the exit code is 1.\n"
     "\n"
     "With -o - the volume goes to standard output, when it is whole, and the summary to standard error; the report of\n"
     "that output is written only with --report.\n"
@@ -77,7 +77,7 @@ struct ComputeArguments {
   std::string method, device;  // empty: as the mission says
   std::string stages;          // empty: none are wanted
   std::string format, report;  // of what goes to standard output; empty: not given
-  bool json = false, verbose = false, fail_empty = false, prove = false;
+  bool json = false, verbose = false, prove = false;
 
   /// The outputs but for standard output.
   std::vector<fs::path> files() const {
@@ -280,6 +280,7 @@ void tell_of_unwritten(const std::vector<std::string>& outputs) {
 /// `target`: its name where there are several, else empty.
 void tell_of_no_volume(const std::string& target, const std::vector<std::string>& outputs, const Volume& volume) {
   note((target.empty() ? "no volume: " : "no volume of " + target + ": ") + volume.reason);
+  if (!volume.hint.empty()) note("what to try: " + volume.hint);
   tell_of_unwritten(outputs);
 }
 
@@ -475,7 +476,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     has_all = false;
     tell_of_no_volume(rows[i].target, names_of(files[i]), results[i].volume);
   }
-  return options.fail_empty && !has_all ? kCheckFailed : kSuccess;
+  return has_all ? kSuccess : kCheckFailed;
 }
 
 int run_compute(const ComputeArguments& options) {
@@ -520,7 +521,7 @@ int run_compute(const ComputeArguments& options) {
                      report_json(run.volume, written.measures, result_request(mission, run, {}).source));
   }
   tell(options, mission, run, written, outgoing ? &*outgoing : nullptr);
-  return options.fail_empty && run.volume.outcome != Outcome::computed ? kCheckFailed : kSuccess;
+  return run.volume.outcome == Outcome::computed ? kSuccess : kCheckFailed;
 }
 
 }  // namespace
@@ -554,7 +555,7 @@ void add_compute(CLI::App& app, Command& chosen) {
   command->add_flag(
       "--prove", options->prove,
       "Write only if the computed mesh is proved, as by 'vantage prove'; else exit code 1 or 4, as there");
-  command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 if there is no volume");
+  command->add_flag("--fail-empty")->group("");  // without effect: it was an option once
   command->add_flag("--json", options->json, "Print the report instead of a summary");
   command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times instead of five lines");
   finish<ComputeArguments>(*command, options, compute_examples(), chosen, run_compute);

@@ -41,9 +41,10 @@ constexpr const char* kTourExamples =
     "which\n"
     "  targets show it: their outer volumes do not meet.\n"
     "\n"
-    "  The exit code is 1 where a target is left out, and 4 where the gap between the flight and the bound stays "
-    "larger\n"
-    "  than 'tour.gap' or, with --fewest, where fewer positions may do. The plan is written all the same.\n"
+    "  The exit code is 1 where a target is left out. Where the mission has 'tour.gap', it is 4 where the gap between "
+    "the\n"
+    "  flight and the bound stays larger or, with --fewest, where fewer positions may do. The plan is written all the "
+    "same.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage tour mission.yaml\n"
@@ -124,7 +125,9 @@ std::string table_text(const MissionTour& tour, bool with_bound) {
       table.row("", fixed(*height, 1), "m above the home: both are of tours that begin there");
     }
     table.row("gap", fixed(kPercent * tour.bound->gap, 2) + " %",
-              tour.reaches_gap() ? "" : "more than the " + fixed(kPercent * tour.settings.gap, 2) + " % asked for");
+              tour.settings.gap && !tour.reaches_gap()
+                  ? "more than the " + fixed(kPercent * *tour.settings.gap, 2) + " % asked for"
+                  : "");
     for (const std::string& ignored : tour.bound->ignored) table.row("it ignores", "", ignored);
   }
   if (tour.fewest) add_positions(table, tour, with_bound);
@@ -227,7 +230,7 @@ int run_tour(const TourArguments& options) {
   }
   if (!tour.is_complete()) return kCheckFailed;
   const bool is_good = tour.fewest ? tour.fewest->is_proved() : tour.reaches_gap();
-  return options.no_bound || is_good ? kSuccess : kUndecided;
+  return options.no_bound || !tour.settings.gap || is_good ? kSuccess : kUndecided;
 }
 
 }  // namespace

@@ -302,6 +302,14 @@ Orbits find_orbits(const Mission& mission, const Volume& volume, const PreparedS
   internal::parallel::with_threads(
       options.threads, [&] { result = OrbitFinder(mission, volume, scene, describer, options).find(reporter); });
   reporter.finish();
+  internal::flight::AskedPitches asked;
+  const Mount& mount = mission.sensor.mount;
+  for (const Orbit& orbit : result.found) {
+    for (const double pitch_deg : {orbit.min_pitch_deg, orbit.max_pitch_deg}) {
+      asked.add(mission.sensor.camera ? std::clamp(pitch_deg, mount.min_pitch_deg, mount.max_pitch_deg) : pitch_deg);
+    }
+  }
+  if (const auto note = asked.note(mission)) result.notes.push_back(*note);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "flight/view_aim.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 #include "vantage/query.h"
@@ -57,6 +58,9 @@ FlightOut plan_of_orbit(const Orbit& orbit, const Mission& mission, PlanFormat f
     out.heights = HeightDatum::scene_z;
   }
   out.levels.sea_level_z_m = sea_level_m(mission);
+  out.keep_in = mission.navigation.keep_in;
+  out.keep_out = mission.navigation.keep_out;
+  out.aircraft = internal::flight::aircraft_of_camera(mission);
   out.home = mission.home;
   if (mission.home) out.highest_takeoff_m = room_above(*mission.home, mission.navigation);
   out.vehicle =

@@ -48,7 +48,8 @@ class StandpointFinder {
  public:
   StandpointFinder(const Mission& mission, const Volume& volume, const PreparedScene& scene,
                    const ViewDescriber& describer, const StandpointOptions& options)
-      : exact_(volume.mesh),  // first: it checks the mesh
+      : mission_(mission),
+        exact_(volume.mesh),  // before others: it checks the mesh
         solid_(volume.mesh),
         query_(prepare_views(mission, scene), mission.navigation),
         describer_(describer),
@@ -82,6 +83,9 @@ class StandpointFinder {
           search(kKinds[i], result_.margin_m, progress.part(place * kShare, (place + 1) * kShare));
       if (found.point()) add(kKinds[i], found);
     }
+    internal::flight::AskedPitches asked;
+    for (const Standpoint& point : result_.found) asked.add(point.view.pitch_deg);
+    if (const auto note = asked.note(mission_)) result_.notes.push_back(*note);
     return std::move(result_);
   }
 
@@ -180,6 +184,7 @@ class StandpointFinder {
     point.bound = bound_;
   }
 
+  const Mission& mission_;
   SolidIndex exact_;
   SolidDepth solid_;
   ViewsQuery query_;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include "core/format.h"
 #include "flight/target_view.h"
+#include "vantage/camera.h"
 #include "vantage/sensor.h"
 
 namespace vantage::internal::flight {
@@ -29,7 +32,27 @@ AimedCamera allowed(const Aim& aim, bool is_vertical, const Mount& mount) {
   return camera;
 }
 
+/// The one that a mission names; null where it names none.
+const Camera* known_camera(const Mission& mission) {
+  const std::optional<CameraSource>& source = mission.as_written.camera;
+  const auto* const model = source ? std::get_if<CameraModel>(&*source) : nullptr;
+  if (model == nullptr) return nullptr;
+  const std::vector<Camera>& all = known_cameras();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Camera& one) { return one.name == model->name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+std::optional<DjiAircraft> aircraft_of_camera(const Mission& mission) {
+  const Camera* const camera = known_camera(mission);
+  if (camera == nullptr || !camera->carrier.dji_drone) return std::nullopt;
+  DjiAircraft aircraft;
+  aircraft.drone = *camera->carrier.dji_drone;
+  aircraft.drone_sub_type = camera->carrier.dji_drone_sub_type.value_or(0);
+  aircraft.payload = camera->carrier.dji_payload;
+  return aircraft;
+}
 
 // If there are several lists, each must be seen; of a list one target. All lists count as one picture.
 ViewAim::ViewAim(const Mission& mission) : mount_(mission.sensor.mount) {
@@ -69,6 +92,28 @@ AimedCamera ViewAim::at(const Vec3& position, const Vec3& centre) const {
     if (best) return {{best->aim.yaw_deg, best->aim.pitch_deg}, false};
   }
   return {nearest.aim, false};
+}
+
+std::optional<std::string> AskedPitches::note(const Mission& mission) const {
+  if (!(lowest_deg_ <= highest_deg_)) return std::nullopt;
+  constexpr double kRoundingDeg = 0.01;
+  const auto reaches = [this](double min_deg, double max_deg) {
+    return lowest_deg_ >= min_deg - kRoundingDeg && highest_deg_ <= max_deg + kRoundingDeg;
+  };
+  const std::string asked = core::format("the camera has to take pitches from {:.1f} to {:.1f} degrees",
+                                         lowest_deg_ + 0.0, highest_deg_ + 0.0);
+  const Camera* const camera = known_camera(mission);
+  if (camera != nullptr && camera->carrier.pitch_deg) {
+    const auto [min_deg, max_deg] = *camera->carrier.pitch_deg;
+    if (reaches(min_deg, max_deg)) return std::nullopt;
+    return core::format("{}, and the gimbal of {} takes {:g} to {:g}", asked, camera->name, min_deg, max_deg);
+  }
+  const Mount& mount = mission.sensor.mount;
+  const bool is_said = mission.sensor.camera && (mount.min_pitch_deg > -90 || mount.max_pitch_deg < 90);
+  if (is_said && reaches(mount.min_pitch_deg, mount.max_pitch_deg)) return std::nullopt;
+  return asked + (is_said ? ", and the mission's mount does not"
+                          : ", and what the gimbal reaches is not known: give 'sensor.gimbal.pitch', or the model of a "
+                            "camera whose gimbal 'vantage cameras' lists");
 }
 
 }  // namespace vantage::internal::flight

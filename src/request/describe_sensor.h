@@ -115,7 +115,11 @@ inline constexpr std::array kCameraKeys = {
         Unit::degrees},
     Own{{.path = "gimbal", .says = "instead of `mount`: the ways that the camera may look"}, Kind::map},
     Own{{.path = "gimbal.yaw", .says = "as of `mount`", .without = "`any`"}, Kind::word_or_number, Unit::degrees},
-    Own{{.path = "gimbal.pitch", .says = "the lowest and the highest", .without = "[-90, 90]"},
+    Own{{.path = "gimbal.pitch",
+         .says = "the lowest and the highest",
+         .without =
+             "what the gimbal of the [model](camera.md#cameras-that-vantage-knows) reaches; [-90, 90] where that "
+             "is not known"},
         Kind::numbers,
         Unit::degrees},
     Own{{.path = "gimbal.roll", .says = "as of `mount`", .without = "0"}, Kind::number, Unit::degrees},

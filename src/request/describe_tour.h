@@ -23,8 +23,8 @@ inline constexpr std::string_view kSection<TourSettings> = "tour";
 template <typename Settings, typename Visit>
 requires std::is_same_v<std::remove_const_t<Settings>, TourSettings>
 void describe(Settings& settings, Visit& visit) {
-  auto& [vehicle, home, closed, dwell_s, margin_m, simultaneous, gimbal_rate_deg_s, clearance_m, gap, time_limit_s] =
-      settings;
+  auto& [vehicle, home, closed, dwell_s, margin_m, simultaneous, gimbal_rate_deg_s, clearance_m, tube_m, gap,
+         time_limit_s] = settings;
   auto& [kind, speed_m_s, acceleration_m_s2, turn_radius_m, min_climb_deg, max_climb_deg] = vehicle;
 
   visit.choice({.path = "vehicle.kind",
@@ -71,8 +71,16 @@ void describe(Settings& settings, Visit& visit) {
                {0.001, 36'000, Unit::degrees_per_second, "give degrees per second"}, Only{});
   visit.number({"clearance", "of the whole flight from the scene, but for its ground"}, clearance_m,
                {0, 1e4, Unit::metres, "give metres"}, Only{});
-  visit.number({"gap", "the search for a shorter flight ends when (length \u2212 bound) / length is no larger"}, gap,
-               {0, 1, Unit::none, "give a share: 0.01 is one per cent", "", Bounds::Ends::without_most}, Only{});
+  visit.number(
+      {"tube", "all this holds for every position so near to the flight",
+       "That is what `vantage check --tube` asks for: for wind, errors of position, and the radius at which an "
+       "autopilot accepts a waypoint."},
+      tube_m, {0, 100, Unit::metres, "give metres"}, Only{});
+  visit.number({.path = "gap",
+                .says = "the search for a shorter flight ends when (length \u2212 bound) / length is no larger",
+                .more = "Where it is given, a larger one ends in [exit code](command-line.md#exit-codes) 4.",
+                .without = "0.01"},
+               gap, {0, 1, Unit::none, "give a share: 0.01 is one per cent", "", Bounds::Ends::without_most}, Only{});
   visit.number({"time_limit", "or after so long",
                 "The search for the bound may take as long again. Preparing the scene and the volumes is not counted, "
                 "and a first flight is found all the same."},

@@ -129,6 +129,7 @@ class TourDrawing {
     if (settings.vehicle.kind == TourVehicle::Kind::fixed_wing) settings.dwell_s = std::min(settings.dwell_s, 1.0);
     settings.simultaneous = random_.chance(0.3);
     settings.clearance_m = random_.chance(0.15) ? 0 : random_.magnitude(0.3, 8);
+    settings.tube_m = random_.chance(0.3) ? 0 : random_.magnitude(0.1, 2);
     settings.gap = random_.pick({0.01, 0.1, 0.3});
     settings.time_limit_s = 1.5;
     drawn_.kind += settings.vehicle.kind == TourVehicle::Kind::fixed_wing ? ", fixed wing" : ", multirotor";

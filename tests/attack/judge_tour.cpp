@@ -39,7 +39,8 @@ class TourJudge {
         home_(answer.tour.home),
         result_(result),
         is_wing_(drawn.settings.vehicle.kind == TourVehicle::Kind::fixed_wing),
-        chord_m_(is_wing_ ? tour_.flight.chord_error_m : 0) {
+        chord_m_(is_wing_ ? tour_.flight.chord_error_m : 0),
+        tube_m_(drawn.mission ? drawn.settings.tube_m : 0) {  // a request keeps none
     at_m_.assign(points_.size(), 0);
     for (std::size_t i = 1; i < points_.size(); ++i) {
       at_m_[i] = at_m_[i - 1] + (points_[i].position - points_[i - 1].position).norm();
@@ -133,7 +134,7 @@ class TourJudge {
 
   /// The curve of a fixed wing is up to a chord's error from its legs.
   void judge_clearance() {
-    const double asked = settings_.clearance_m + chord_m_;
+    const double asked = settings_.clearance_m + chord_m_ + tube_m_;
     for (std::size_t i = 0; i < tour_.flight.leg_count(); ++i) {
       for_each_obstacle([&](const Corners& triangle, const std::string& name) {
         result_.count("legs before triangles");
@@ -144,12 +145,27 @@ class TourJudge {
     }
   }
 
-  /// Places of a leg, at most so far apart; both ends.
+  /// Places of a leg, at most so far apart; both ends. And places about these, as far away as the tube is wide.
   template <typename Visit>
   void for_each_place(std::size_t i, const Visit& visit) const {
     const Leg on = leg(i);
     const double parts = std::max(1.0, std::ceil((on.to - on.from).norm() / kStepM));
-    for (double k = 0; k <= parts; ++k) visit(Vec3(on.from + k / parts * (on.to - on.from)));
+    for (double k = 0; k <= parts; ++k) {
+      const Vec3 place = on.from + k / parts * (on.to - on.from);
+      visit(place);
+      if (tube_m_ > 0) visit_about(place, k, visit);
+    }
+  }
+
+  /// A few directions, others at each place: Fibonacci's sphere.
+  template <typename Visit>
+  void visit_about(const Vec3& place, double number, const Visit& visit) const {
+    constexpr double kGolden = 2.399963229728653, kDirections = 4, kWithin = 1 - 1e-6;
+    for (double i = 0; i < kDirections; ++i) {
+      const double turn = kGolden * (kDirections * number + i), up = 1 - (2 * i + 1) / kDirections;
+      const double flat = std::sqrt(1 - up * up);
+      visit(Vec3(place + kWithin * tube_m_ * Vec3(flat * std::cos(turn), flat * std::sin(turn), up)));
+    }
   }
 
   void judge_navigation() {
@@ -242,6 +258,7 @@ class TourJudge {
       };
       if (i == visit.last_point) {
         judge_place(points_[i].position);
+        if (tube_m_ > 0) visit_about(points_[i].position, static_cast<double>(i), judge_place);
         break;
       }
       for_each_place(i, judge_place);
@@ -284,7 +301,7 @@ class TourJudge {
   std::optional<Vec3> home_;
   FlightJudgement& result_;
   bool is_wing_;
-  double chord_m_;
+  double chord_m_, tube_m_;
   std::vector<double> at_m_;
 };
 

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "flight/plans/geofence.h"
 #include "flight/plans/plan_writer.h"
 #include "vantage/flight.h"
 
@@ -41,6 +42,28 @@ std::string note_of_end(const FlightOut& flight) {
   return "the plan ends in the air: the vehicle hovers at the last point until the pilot takes over";
 }
 
+/// What a geofence cannot state.
+void add_notes_of_fence(const FlightOut& flight, std::vector<std::string>& notes) {
+  internal::flight::plans::Geofence fence;
+  try {
+    fence = internal::flight::plans::geofence_of(flight);
+  } catch (const Error&) {
+    return;  // what cannot be written
+  }
+  if (!fence.empty()) {
+    notes.emplace_back(
+        "the plan's geofence has the mission's zones without their heights, and no other limit of the mission");
+  }
+  if (fence.stay_in.size() > 1) {
+    notes.emplace_back(
+        "the geofence has several zones to stay in: set FENCE_OPTIONS of ArduPilot so that one is enough");
+  }
+  if (fence.left_out.empty()) return;
+  std::string names;
+  for (const std::string& name : fence.left_out) names += (names.empty() ? "" : ", ") + name;
+  notes.push_back("the plan's geofence lacks " + names + ": seen from above, the flight or its home would break it");
+}
+
 }  // namespace
 
 std::vector<std::string> plan_notes(const FlightOut& flight, PlanFormat format) {
@@ -54,6 +77,7 @@ std::vector<std::string> plan_notes(const FlightOut& flight, PlanFormat format) 
                       " are drawn: with more the file would be too large to be read; raise 'exact.tolerance'");
     }
   }
+  if (format == PlanFormat::qgroundcontrol) add_notes_of_fence(flight, notes);
   if (is_of_autopilot(format)) {
     for (const std::string& text : {note_of_ways(flight), note_of_end(flight)}) {
       if (!text.empty()) notes.push_back(text);

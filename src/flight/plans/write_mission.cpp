@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "flight/plans/geofence.h"
 #include "flight/plans/mission_items.h"
 #include "flight/plans/plan_writer.h"
 #include "vantage/error.h"
@@ -136,6 +137,24 @@ json json_of(const OutItem& item, int number) {
   return object;
 }
 
+json polygons_json(const PlanWriter& writer, const Geofence& fence) {
+  json polygons = json::array();
+  const auto add = [&](const std::vector<Zone::Ring>& rings, bool inclusion) {
+    for (const Zone::Ring& ring : rings) {
+      json corners = json::array();
+      for (const Eigen::Vector2d& corner : ring) {
+        const double height = writer.flight().flight.points.front().position.z();
+        const Eigen::Vector2d at = writer.lonlat({corner.x(), corner.y(), height});
+        corners.push_back({at.y(), at.x()});
+      }
+      polygons.push_back({{"inclusion", inclusion}, {"polygon", std::move(corners)}, {"version", 1}});
+    }
+  };
+  add(fence.stay_in, true);
+  add(fence.stay_out, false);
+  return polygons;
+}
+
 }  // namespace
 
 std::string write_qgroundcontrol(const FlightOut& flight) {
@@ -159,12 +178,13 @@ std::string write_qgroundcontrol(const FlightOut& flight) {
                      {"plannedHomePosition", {home.y(), home.x(), number_or_null(home_height)}},
                      {"items", std::move(items)}};
   const json none = json::array();
-  const json plan{{"fileType", "Plan"},
-                  {"version", 1},
-                  {"groundStation", "vantage"},
-                  {"mission", mission},
-                  {"geoFence", {{"version", 2}, {"circles", none}, {"polygons", none}}},
-                  {"rallyPoints", {{"version", 2}, {"points", none}}}};
+  const json plan{
+      {"fileType", "Plan"},
+      {"version", 1},
+      {"groundStation", "vantage"},
+      {"mission", mission},
+      {"geoFence", {{"version", 2}, {"circles", none}, {"polygons", polygons_json(writer, geofence_of(flight))}}},
+      {"rallyPoints", {{"version", 2}, {"points", none}}}};
   return plan.dump(4) + "\n";
 }
 

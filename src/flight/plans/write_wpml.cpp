@@ -22,6 +22,17 @@ std::string element(const char* name, const std::string& content) {
 }
 std::string element(const char* name, int number) { return element(name, std::to_string(number)); }
 
+/// What of a target's name fits in the name of a photo's file: "_Hotel_Lux".
+std::string in_file_name(const std::string& name) {
+  constexpr std::size_t kMost = 24;
+  std::string result;
+  for (const char c : name.substr(0, kMost)) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+    if (is_plain || result.empty() || result.back() != '_') result += is_plain ? c : '_';
+  }
+  return name.empty() ? name : "_" + result;
+}
+
 class WaylineWriter {
  public:
   explicit WaylineWriter(const FlightOut& flight)
@@ -209,7 +220,8 @@ class WaylineWriter {
                               element("gimbalYawRotateEnable", 0) + element("gimbalYawRotateAngle", 0) +
                               element("gimbalRotateTimeEnable", 0) + element("gimbalRotateTime", 0) + payload);
     }
-    const std::string file = element("fileSuffix", "point" + std::to_string(index + 1)) + payload;
+    const std::string file =
+        element("fileSuffix", "point" + std::to_string(index + 1) + in_file_name(point.action.sees)) + payload;
     if (point.action.video) add("startRecord", file);
     if (point.hold_s > 0) add("hover", element("hoverTime", hold_text(point.hold_s)));
     if (point.action.video) add("stopRecord", payload);

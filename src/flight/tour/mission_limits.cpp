@@ -188,10 +188,11 @@ Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene&
   }
   const auto height = lowest_allowed_m(home, airspace, deviation_m);
   if (!height) {
-    constexpr double kOffGround = 0.5, kAbove = 1000;
+    constexpr double kAbove = 1000;
+    const double off_ground_m = 0.5 + mission.as_written.tour.value_or(TourSettings()).tube_m;
     throw Error(ErrorCode::limits_empty, "above tour.home there is no height at which flying is allowed", where,
-                "move it into the zones of 'navigation', or widen these; nearest above it: " +
-                    airspace.obstacle({home + Vec3(0, 0, kOffGround), home + Vec3(0, 0, kAbove)}, 0));
+                "move it into the zones of 'navigation', widen these, or give a smaller tour.tube; nearest above it: " +
+                    airspace.obstacle({home + Vec3(0, 0, off_ground_m), home + Vec3(0, 0, kAbove)}, 0));
   }
   Vec3 at = home + Vec3(0, 0, *height);
   LegDistanceOptions options;

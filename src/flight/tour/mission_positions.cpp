@@ -94,7 +94,7 @@ FewestPositions positions_for(const Mission& mission, const std::vector<MissionT
     request.targets.push_back(seen_target(each[i], targets[i], scene, run, ignored));
     if (!options.with_bound) request.targets.back().outer = {};
   }
-  request.margin_m = settings.margin_m + slack_m;
+  request.margin_m = depth_m(settings) + slack_m;
   request.airspace = airspace;
   request.deviation_m = slack_m;
   request.time_limit_s = settings.time_limit_s;

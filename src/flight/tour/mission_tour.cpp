@@ -16,6 +16,7 @@
 #include "flight/tour/tour_certificate.h"
 #include "flight/tour/tour_region.h"
 #include "flight/tour/tour_views.h"
+#include "flight/view_aim.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/result.h"
@@ -130,7 +131,7 @@ Mesh cube_about(const Vec3& middle, double half_m) {
 }
 
 /// Targets are viewed from these positions alone: from small cubes about them, which lie in the volumes.
-void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
+void view_from(const std::vector<Vec3>& positions, TourRequest& request, std::vector<std::string>& notes) {
   constexpr double kDepth = 0.01, kHalf = 0.005;  // metres; the corners of the cube are 8.7 mm away
   if (positions.size() != request.targets.size()) {
     throw Error(ErrorCode::array_sizes_differ,
@@ -146,6 +147,10 @@ void view_from(const std::vector<Vec3>& positions, TourRequest& request) {
                                "needed",
                                target.name, core::number_text(depth_m), core::number_text(kDepth)),
                   core::format("positions[{}]", i), "move it into the volume");
+    }
+    if (depth_m < request.tube_m + kHoverSlackM / 2) {
+      notes.push_back(core::format("{} is viewed from {} m inside its volume: not from all within tour.tube of there",
+                                   target.name, core::number_text(depth_m)));
     }
     target.volume = cube_about(positions[i], kHalf);
   }
@@ -225,7 +230,7 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
     }
   }
   tour::BoundOptions bounds;
-  bounds.gap = settings.gap;
+  bounds.gap = settings.gap.value_or(kTourGap);
   bounds.time_limit_s = settings.time_limit_s;
   bounds.threads = options.threads;
   auto proof =
@@ -242,6 +247,7 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
     bound.time_s = std::max(bound.time_s, static_cast<double>(visited.size()) * settings.dwell_s);
   }
   if (regions.is_limited) bound.ignored.emplace_back("the limits of navigation in targets that are volumes");
+  if (settings.tube_m > 0) bound.ignored.emplace_back("the tube about the flight");
   if (!options.positions.empty()) {
     bound.ignored.emplace_back("the positions that are given");
   } else if (settings.margin_m > 0) {
@@ -280,6 +286,13 @@ void note_computed(const Mission& mission, std::vector<std::string>& notes) {
 
 void add_notes(const Mission& mission, MissionTour& of) {
   if (const auto note = tour::note_of_narrow_zones(mission, of.settings, of.tour)) of.notes.push_back(*note);
+  if (!of.tour.problems.empty() && of.settings.tube_m > 0) {
+    of.notes.push_back(
+        core::format("all within {:g} m of the flight keeps the limits, too: with a smaller tour.tube it "
+                     "may reach the targets that are left out",
+                     of.settings.tube_m));
+  }
+  if (const auto note = tour::note_of_pitches(of, mission)) of.notes.push_back(*note);
   note_computed(mission, of.notes);
   note_beyond_data(mission, of);
   const std::size_t asked = mission.as_written.targets.size();
@@ -320,7 +333,10 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 
   TourRequest request;
   request.settings = result.settings;
-  request.airspace = make_airspace(scene, result.settings.clearance_m + tour::kPlanRoundingM, mission.navigation);
+  request.settings.margin_m = tour::depth_m(result.settings);
+  request.tube_m = tour::reach_m(result.settings);
+  const double rounding_m = request.tube_m > 0 ? 0 : tour::kPlanRoundingM;
+  request.airspace = make_airspace(scene, result.settings.clearance_m + rounding_m, mission.navigation, request.tube_m);
   if (mission.home) {
     const bool is_wing = result.settings.vehicle.kind == TourVehicle::Kind::fixed_wing;
     const double deviation = is_wing ? request.chord_error_m : tour::kPlanRoundingM;
@@ -336,14 +352,14 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
   if (options.fewest_positions) {
     result.fewest = tour::positions_for(mission, result.targets, scene, request.airspace, kHoverSlackM, options,
                                         result.notes, progress);
-    const double margin_m = result.settings.margin_m + kHoverSlackM;
-    view_from(tour::position_of_each(*result.fewest, result.targets, margin_m), request);
+    const double margin_m = request.settings.margin_m + kHoverSlackM;
+    view_from(tour::position_of_each(*result.fewest, result.targets, margin_m), request, result.notes);
     if (result.fewest->end == FewestPositions::End::cancelled) {  // the flight to what was found, soon
       request.rounds = 1;
       followed = {};
     }
   } else if (!options.positions.empty()) {
-    view_from(options.positions, request);
+    view_from(options.positions, request, result.notes);
   }
   result.tour = plan_tour(request, followed);
   add_notes(mission, result);
@@ -377,6 +393,9 @@ FlightOut plan_of_tour(const MissionTour& of, const Mission& mission) {
   out.takes_off = of.home.has_value();
   out.returns_home = out.takes_off && of.settings.closed;  // else the way back is not planned
   if (of.home && mission.scene().georeference) out.heights = HeightDatum::home;
+  out.keep_in = mission.navigation.keep_in;
+  out.keep_out = mission.navigation.keep_out;
+  out.aircraft = internal::flight::aircraft_of_camera(mission);
   for (const MissionTourTarget& target : of.targets) out.volumes.push_back({target.name, target.volume});
   return out;
 }

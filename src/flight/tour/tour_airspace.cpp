@@ -18,17 +18,17 @@ namespace {
 /// searched.
 constexpr double kMostDeviation = 2;
 
-LegDistanceOptions options_of(double clearance_m) {
+LegDistanceOptions options_of(double distance_m) {
   LegDistanceOptions options;
-  options.cutoff_m = clearance_m + kMostDeviation;
+  options.cutoff_m = distance_m + kMostDeviation;
   options.without_ground = true;
   return options;
 }
 
 /// Only the ground. Nothing where the scene has none.
-std::unique_ptr<LegDistances> ground_distances(const PreparedScene& scene) {
+std::unique_ptr<LegDistances> ground_distances(const PreparedScene& scene, double tube_m) {
   LegDistanceOptions options;
-  options.cutoff_m = kMostDeviation;
+  options.cutoff_m = tube_m + kMostDeviation;
   for (std::uint32_t i = 0; i < scene.objects().size(); ++i) {
     if (scene.objects()[i].kind != ObjectKind::ground) options.without_objects.push_back(i);
   }
@@ -64,17 +64,18 @@ Box bounds_of(const Navigation& navigation) {
 
 class SceneAirspace : public Airspace {
  public:
-  SceneAirspace(const PreparedScene& scene, double clearance_m, const Navigation& navigation)
-      : distances_(scene, options_of(clearance_m)),
-        ground_(ground_distances(scene)),
+  SceneAirspace(const PreparedScene& scene, double clearance_m, const Navigation& navigation, double tube_m)
+      : distances_(scene, options_of(clearance_m + tube_m)),
+        ground_(ground_distances(scene, tube_m)),
         limits_(navigation),
         clearance_(clearance_m),
+        tube_(tube_m),
         has_limits_(!navigation.empty()),
         bounds_(bounds_of(navigation)) {}
 
   bool allows(const Leg& leg, double deviation_m) const override {
     return !is_near(distances_.nearest(leg), deviation_m) && !meets_ground(leg, deviation_m) &&
-           (!has_limits_ || limits_.broken(leg, deviation_m).empty());
+           (!has_limits_ || limits_.broken(leg, tube_ + deviation_m).empty());
   }
 
   std::string obstacle(const Leg& leg, double deviation_m) const override {
@@ -82,7 +83,7 @@ class SceneAirspace : public Airspace {
     if (is_near(nearest, deviation_m)) return nearest.name;
     if (meets_ground(leg, deviation_m)) return "the ground";
     if (!has_limits_) return {};
-    const std::vector<LegBreak> broken = limits_.broken(leg, deviation_m);
+    const std::vector<LegBreak> broken = limits_.broken(leg, tube_ + deviation_m);
     return broken.empty() ? std::string() : broken.front().limit;
   }
 
@@ -91,20 +92,20 @@ class SceneAirspace : public Airspace {
  private:
   bool is_near(const LegDistance& nearest, double deviation) const {
     if (deviation > kMostDeviation) return true;  // not certain
-    const double least = clearance_ + deviation;
+    const double least = clearance_ + tube_ + deviation;
     // Without a clearance, surfaces are still not passed through.
     return least > 0 ? nearest.distance_m < least : nearest.distance_m <= 0;
   }
 
   /// No clearance is kept from it, but nothing flies through it.
   bool meets_ground(const Leg& leg, double deviation) const {
-    return ground_ && !(ground_->nearest(leg).distance_m > deviation);
+    return ground_ && !(ground_->nearest(leg).distance_m > tube_ + deviation);
   }
 
   LegDistances distances_;
   std::unique_ptr<LegDistances> ground_;
   LegLimits limits_;
-  double clearance_;
+  double clearance_, tube_;
   bool has_limits_;
   Box bounds_;
 };
@@ -112,12 +113,15 @@ class SceneAirspace : public Airspace {
 }  // namespace
 
 std::shared_ptr<const Airspace> make_airspace(const PreparedScene& scene, double clearance_m,
-                                              const Navigation& navigation) {
-  if (!(clearance_m >= 0) || !std::isfinite(clearance_m)) {
-    throw Error(ErrorCode::value_out_of_range, "the clearance is not a number of at least 0", "tour.clearance",
-                "give metres");
-  }
-  return std::make_shared<SceneAirspace>(scene, clearance_m, navigation);
+                                              const Navigation& navigation, double tube_m) {
+  const auto require = [](double value, const char* what) {
+    if (value >= 0 && std::isfinite(value)) return;
+    throw Error(ErrorCode::value_out_of_range, std::string("the ") + what + " is not a number of at least 0",
+                std::string("tour.") + what, "give metres");
+  };
+  require(clearance_m, "clearance");
+  require(tube_m, "tube");
+  return std::make_shared<SceneAirspace>(scene, clearance_m, navigation, tube_m);
 }
 
 }  // namespace vantage

@@ -240,7 +240,7 @@ class MultirotorPlan {
       viewings.push_back({target, way.station(i), {}});
       if (!hovers[target]) {
         viewings.back().stretches =
-            stretches_followed(stretches_in(*regions_[target], way), way, request_.targets[target], request_.settings);
+            stretches_followed(stretches_in(*regions_[target], way), way, request_.targets[target], request_);
       }
     }
     Scheduling scheduling = flight_of(way, schedule(viewings, request_.settings), request_);

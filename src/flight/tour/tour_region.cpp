@@ -342,7 +342,7 @@ void TourRegion::find_anchors() {
       ErrorCode::limits_empty,
       core::format("no point of the volume of a target is {:g} m from its border; the deepest found is {:.3g} m",
                    margin_, deepest),
-      name_, "ask for a smaller margin, or for a larger volume");
+      name_, "ask for a smaller margin or tube, or for a larger volume");
 }
 
 Regions make_regions(const std::vector<TourTarget>& targets, double margin_m, const core::ProgressReporter& progress) {

@@ -2,6 +2,7 @@
 // stay in it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -20,6 +21,14 @@ namespace vantage::internal::flight::tour {
 
 /// Plans round positions, and are put into the frame again: what only just keeps a limit must keep it then, too.
 constexpr double kPlanRoundingM = 0.01;
+
+/// So far from the flight all must hold: the tube, with what plans round.
+inline double reach_m(const TourSettings& settings) {
+  return settings.tube_m > 0 ? settings.tube_m + kPlanRoundingM : 0;
+}
+
+/// So deep in its volume a target is viewed: then all that is as near is in the volume, too.
+inline double depth_m(const TourSettings& settings) { return std::max(settings.margin_m, reach_m(settings)); }
 
 /// What lies at least a margin inside a closed mesh: of several pieces, of any genus. Immutable; any number of threads
 /// may ask one. It holds every point that it returns. Scene frame, metres.

@@ -152,14 +152,15 @@ std::vector<Stretch> stretches_in(const TourRegion& region, const Polyline& way)
 }
 
 std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Polyline& way, const TourTarget& target,
-                                        const TourSettings& settings) {
+                                        const TourRequest& request) {
+  const TourSettings& settings = request.settings;
   if (!target.look_at) return stretches;
   std::vector<Stretch> slow;
   for (std::size_t i = 0; i + 1 < way.points().size(); ++i) {
     const double begin = way.station(i), length = way.station(i + 1) - begin;
     for (const LegInterval& part :
          flight::slow_turns({way.points()[i], way.points()[i + 1]}, *target.look_at, settings.vehicle.speed_m_s,
-                            settings.gimbal_rate_deg_s, {kPlanRoundingM, 0})) {
+                            settings.gimbal_rate_deg_s, {request.tube_m + kPlanRoundingM, 0})) {
       const Stretch next = {begin + part.begin * length,
                             part.end == 1 ? way.station(i + 1) : begin + part.end * length};
       if (!slow.empty() && slow.back().end_m == next.begin_m) {

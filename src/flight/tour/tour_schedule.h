@@ -36,7 +36,7 @@ std::vector<Stretch> stretches_in(const TourRegion& region, const Polyline& way)
 
 /// Those of the stretches that are flown so slowly, at the vehicle's speed, that the camera can follow the target.
 std::vector<Stretch> stretches_followed(std::vector<Stretch> stretches, const Polyline& way, const TourTarget& target,
-                                        const TourSettings& settings);
+                                        const TourRequest& request);
 
 /// A target to be viewed, and where its stop is.
 struct Viewing {

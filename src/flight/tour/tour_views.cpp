@@ -123,4 +123,16 @@ void add_views(const MissionTour& of, const Mission& mission, FlightOut& out) {
   }
 }
 
+std::optional<std::string> note_of_pitches(const MissionTour& of, const Mission& mission) {
+  FlightOut out;
+  add_views(of, mission, out);
+  AskedPitches asked;
+  for (std::size_t i = 0; i < out.actions.size(); ++i) {
+    const FlightAction& action = out.actions[i];
+    if (action.gimbal_pitch_deg) asked.add(*action.gimbal_pitch_deg);
+    if (action.look_at) asked.add(aim_at(out.flight.points[i].position, *action.look_at).pitch_deg);
+  }
+  return asked.note(mission);
+}
+
 }  // namespace vantage::internal::flight::tour

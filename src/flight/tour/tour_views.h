@@ -1,6 +1,9 @@
 // Where a plan of a tour takes its photos.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "vantage/flight.h"
 #include "vantage/mission_tour.h"
 
@@ -12,5 +15,8 @@ namespace vantage::internal::flight::tour {
 /// as the camera needs to turn. A view of a volume has no photo. The camera of a fixed wing is turned to a point, since
 /// its nose cannot be: the vehicle's yaw is that of its track.
 void add_views(const MissionTour& of, const Mission& mission, FlightOut& out);
+
+/// Where the gimbal does not reach the pitches of these photos, or it is not known whether it does.
+std::optional<std::string> note_of_pitches(const MissionTour& of, const Mission& mission);
 
 }  // namespace vantage::internal::flight::tour

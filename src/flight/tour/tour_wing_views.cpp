@@ -96,7 +96,7 @@ bool WingSpace::can_follow(int region, const std::vector<Vec3>& points, const Ve
   const std::optional<Vec3>& to = request_.targets[static_cast<std::size_t>(region)].look_at;
   if (!to) return true;
   constexpr double kPoint = 1e-3;
-  const double reach = request_.chord_error_m + kPlanRoundingM;
+  const double reach = request_.chord_error_m + request_.tube_m + kPlanRoundingM;
   const auto is_slow = [&](const Leg& leg, double chord_error_m) {
     return flight::fastest_turn_deg_s(leg, *to, request_.settings.vehicle.speed_m_s,
                                       flight::off_chord(leg, reach, chord_error_m)) <=
