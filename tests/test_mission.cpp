@@ -203,12 +203,21 @@ TEST(Mission, AcceptsEdgesInAnyOrderAndTurn) {
   }
 }
 
+TEST(MissionErrors, APlanOfAFlightIsNoMission) {
+  for (const char* plan : {"{\n  \"fileType\": \"Plan\", \"geoFence\": {}}", "QGC WPL 110\n0\t1\t0\t16\n",
+                           "<?xml version=\"1.0\"?><kml></kml>", "PK\x03\x04zip"}) {
+    const Error error = testing::expect_error([&] { parse(plan); }, ErrorCode::wrong_type);
+    EXPECT_NE(error.fix().find("vantage check"), std::string::npos);
+  }
+}
+
 TEST(MissionErrors, UnknownKeysNameTheNearest) {
   expect_refusal(with_sensor("max_rnage: 100"), ErrorCode::unknown_key, ":6:3");
   expect_refusal(text_of_mission("navigaton: {altitude: [1, 2]}"), ErrorCode::unknown_key, ":7:1");
   expect_refusal(with_scene("Mesh: city.obj"), ErrorCode::unknown_key, ":2:3");
   expect_refusal(with_target("edge: []"), ErrorCode::unknown_key, ":5:3");
   expect_refusal(with_navigation("keepout: []"), ErrorCode::unknown_key, ":8:3");
+  expect_refusal(with_navigation("no_fly: []"), ErrorCode::unknown_key, ":8:3");
   expect_refusal(with_navigation("boxes: [{min: [0, 0, 0], mix: [1, 1, 1]}]"), ErrorCode::unknown_key, ":8:28");
   expect_refusal(with_navigation("meshes: [{mesh: a.ply, units: m}]"), ErrorCode::unknown_key, ":8:26");
   expect_refusal(text_of_mission("exact: {tolerence: 1}"), ErrorCode::unknown_key, ":7:9");
