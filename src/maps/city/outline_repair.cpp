@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "maps/city/clipping.h"
+#include "maps/city/interruption.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -18,12 +19,15 @@ std::optional<double> even_odd_area(const GridRing& ring) {
   std::vector<Vec2> points;
   for (const GridPoint& p : ring) points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
   const std::size_t count = points.size();
+  constexpr std::size_t kMostSteps = 100'000'000;
+  if (count * count > kMostSteps) return std::nullopt;
   const auto x_at = [&](std::size_t i, double y) {
     const Vec2 &a = points[i], &b = points[(i + 1) % count];
     return a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
   };
   std::vector<double> heights;
   for (std::size_t i = 0; i < count; ++i) {
+    Interruption::tick();
     heights.push_back(points[i].y());
     const Vec2 a = points[i], along = points[(i + 1) % count] - a;
     for (std::size_t j = 0; j < i; ++j) {
@@ -34,12 +38,12 @@ std::optional<double> even_odd_area(const GridRing& ring) {
       if (t > 0 && t < 1 && u > 0 && u < 1) heights.push_back(a.y() + t * along.y());
     }
   }
-  constexpr std::size_t kMostSteps = 100'000'000;
   if (heights.size() * count > kMostSteps) return std::nullopt;
   std::sort(heights.begin(), heights.end());
   double sum = 0;
   std::vector<double> crossed;
   for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+    Interruption::tick();
     if (heights[k + 1] <= heights[k]) continue;
     const double middle = (heights[k] + heights[k + 1]) / 2;
     crossed.clear();
@@ -127,6 +131,7 @@ bool is_tangled(const std::vector<GridRing>& rings, bool closed) {
   };
   std::size_t crossings = 0;
   for (std::size_t i = 0; i < sides.size(); ++i) {
+    Interruption::tick();
     const Side& a = sides[i];
     for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right; ++j) {
       const Side& b = sides[j];
