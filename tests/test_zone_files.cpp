@@ -445,8 +445,8 @@ TEST(ZoneFiles, WhatCannotBeReadStopsTheMissionByName) {
     mission.write("zones.json", collection(feature(bad, "{\"name\": \"BAD7\"}") + ", " + feature(polygon(layer))));
     const bool is_level = bad == levels;
     const std::string any = is_level ? "" : ", heights: any";
-    for (const std::string list : {"keep_out", "keep_in"}) {
-      const std::string limits = list + ": [{file: zones.json" + any;
+    {
+      const std::string limits = "keep_out: [{file: zones.json" + any;
       const Error error = expect_error([&] { mission.resolve(limits + "}]"); },
                                        bad == open ? kSyntax
                                        : is_level  ? ErrorCode::value_unsupported
@@ -455,14 +455,26 @@ TEST(ZoneFiles, WhatCannotBeReadStopsTheMissionByName) {
       EXPECT_NE(error.problem().find("'BAD7'"), std::string::npos);
       EXPECT_NE(error.fix().find("skip: true"), std::string::npos);
       const Mission skipped = mission.resolve(limits + ", skip: true}]");
-      EXPECT_EQ(skipped.navigation.keep_in.size() + skipped.navigation.keep_out.size(), 1u);
+      EXPECT_EQ(skipped.navigation.keep_out.size(), 1u);
       ASSERT_EQ(skipped.notes.size(), 1u);
       EXPECT_EQ(skipped.notes[0].code, WarningCode::zones_left_out);
       expect_wording(skipped.notes[0].text);
     }
+    // Without a zone to stay in nothing more is claimed.
+    const Mission kept = mission.resolve("keep_in: [{file: zones.json" + any + "}]");
+    EXPECT_EQ(kept.navigation.keep_in.size(), 1u);
+    ASSERT_EQ(kept.notes.size(), 1u);
+    EXPECT_EQ(kept.notes[0].code, WarningCode::zones_left_out);
   }
-  const std::string any = "keep_out: [{file: zones.json, heights: any}]";
-  EXPECT_EQ(mission.resolve(any).navigation.keep_out.size(), 2u);  // of the flight level, too
+  mission.write(
+      "zones.json",
+      collection(feature("{\"type\": \"LineString\", \"coordinates\": " + kSquare.substr(1, kSquare.size() - 2) + "}") +
+                 ", " + feature(polygon())));
+  expect_error([&] { mission.resolve("keep_out: [{file: zones.json, heights: any}]"); }, ErrorCode::value_unsupported,
+               "features[0]");
+  EXPECT_EQ(mission.resolve("keep_in: [{file: zones.json, heights: any}]").navigation.keep_in.size(), 1u);
+  mission.write("zones.json", collection(feature(levels)));
+  EXPECT_EQ(mission.resolve("keep_out: [{file: zones.json, heights: any}]").navigation.keep_out.size(), 1u);
   expect_error([&] { mission.read("keep_out: [{file: zones.json, skip: 5}]"); }, ErrorCode::unknown_choice);
 }
 

@@ -47,6 +47,7 @@ class GeoJsonReader {
   void read_feature(const json& feature, const std::string& place, std::size_t number);
   void read_geometry(const json& geometry, const std::string& place, const std::string& name, Heights heights);
   void read_point(const json& geometry, const std::string& place, const std::string& name, const Heights& heights);
+  void read_line(const json& positions, const std::string& place, const std::string& name);
   void read_volume(const json& volume, const std::string& place, const std::string& name);
   bool read_fence(const json& feature, const std::string& place);
   ListedZone zone_of(const std::string& place, const std::string& name, const Heights& heights) const;
@@ -56,8 +57,7 @@ class GeoJsonReader {
     try {
       read();
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::input) throw;
-      result_.unread.push_back({zone_of(place, name, {}), error});
+      leave_unread(zone_of(place, name, {}), error, result_);
     }
   }
   void add_polygon(const json& rings, const std::string& place, const std::string& name, const Heights& heights);
@@ -281,8 +281,10 @@ void GeoJsonReader::read_geometry(const json& geometry, const std::string& place
     read_all("coordinates", [&](const json& one, const std::string& part) { add_polygon(one, part, name, heights); });
   } else if (type == "Point" || type == "MultiPoint") {
     read_point(geometry, place, name, heights);
-  } else if (type == "LineString" || type == "MultiLineString") {
-    ++result_.left_out["line"];
+  } else if (type == "LineString") {
+    read_line(list(geometry, "coordinates", place), place, name);
+  } else if (type == "MultiLineString") {
+    read_all("coordinates", [&](const json& one, const std::string& part) { read_line(one, part, name); });
   } else {
     fail(place, "there is no geometry of the type " + in_quotes(type), "give areas: Polygon or MultiPolygon");
   }
@@ -304,6 +306,16 @@ void GeoJsonReader::read_point(const json& geometry, const std::string& place, c
   } else {
     ++result_.left_out["point"];
   }
+}
+
+void GeoJsonReader::read_line(const json& positions, const std::string& place, const std::string& name) {
+  constexpr std::size_t kFewest = 4;
+  const bool is_closed = positions.is_array() && positions.size() >= kFewest && positions.front() == positions.back();
+  if (!is_closed) {
+    ++result_.left_out["line"];
+    return;
+  }
+  leave_closed_line(zone_of(place, name, {}), file_, result_);
 }
 
 void GeoJsonReader::read_volume(const json& volume, const std::string& place, const std::string& name) {

@@ -184,6 +184,7 @@ class KmlReader {
   void start(const std::string& name);
   void end(const std::string& name);
   void end_boundary();
+  void end_line();
   void end_polygon();
   void end_placemark();
   ListedRing positions() const;
@@ -260,7 +261,8 @@ void KmlReader::end(const std::string& name) {
   if (name == "Polygon") end_polygon();
   if (name == "Placemark") end_placemark();
   if (name == "Point") ++result_.left_out["point"];
-  if (name == "LineString" || name == "Track" || (name == "LinearRing" && !polygon_)) ++result_.left_out["line"];
+  if (name == "coordinates" && !polygon_ && (is_in("LineString") || is_in("LinearRing"))) end_line();
+  if (name == "Track") ++result_.left_out["line"];
   if (name == "GroundOverlay") ++result_.left_out["image"];
   if (name == "Model" || name == "NetworkLink") {
     ListedZone zone;
@@ -268,13 +270,27 @@ void KmlReader::end(const std::string& name) {
     zone.name = zone.place = place();
     zone.feature = static_cast<std::size_t>(-1);  // of none
     const bool is_link = name == "NetworkLink";
-    result_.unread.push_back(
-        {zone, Error(ErrorCode::value_unsupported,
-                     is_link ? "a link to another file is not followed" : "a model of another file is not read",
-                     file_.string() + ", " + zone.place,
-                     is_link ? "name that file in the mission, too" : "draw it as a polygon")});
+    const Error fault(ErrorCode::value_unsupported,
+                      is_link ? "a link to another file is not followed" : "a model of another file is not read",
+                      file_.string() + ", " + zone.place,
+                      is_link ? "name that file in the mission, too" : "draw it as a polygon");
+    leave_unread(std::move(zone), fault, result_);
   }
   text_.clear();
+}
+
+void KmlReader::end_line() {
+  constexpr std::size_t kFewest = 4;
+  const Zone::Ring line = positions().corners;
+  if (line.size() < kFewest || line.front() != line.back()) {
+    ++result_.left_out["line"];
+    return;
+  }
+  ListedZone zone;
+  if (!name_.empty()) zone.names = {name_};
+  zone.name = name_.empty() ? place() : name_;
+  zone.place = place();
+  leave_closed_line(std::move(zone), file_, result_);
 }
 
 void KmlReader::end_boundary() {
@@ -301,7 +317,7 @@ void KmlReader::end_polygon() {
   polygon_.reset();
   ListedZone& zone = polygon.zone;
   if (polygon.fault) {
-    result_.unread.push_back({std::move(zone), *polygon.fault});
+    leave_unread(std::move(zone), *polygon.fault, result_);
     return;
   }
   if (zone.outer.empty()) {

@@ -53,7 +53,7 @@ class PlanReader {
         read(entry, zone);
         result_.zones.push_back(std::move(zone));
       } catch (const Error& error) {
-        result_.unread.push_back({std::move(zone), error});
+        leave_unread(std::move(zone), error, result_);
       }
     }
   }
@@ -163,7 +163,7 @@ ZoneList WaypointReader::read(std::string_view text) {
       ListedZone zone;
       zone.name = zone.place = "line " + std::to_string(number);
       zone.feature = result_.zones.size();
-      result_.unread.push_back({std::move(zone), error});
+      leave_unread(std::move(zone), error, result_);
       corners_.clear();
     }
   }
@@ -232,7 +232,7 @@ void WaypointReader::end_polygon() {
     while (zone.outer.size() > 1 && zone.outer.front() == zone.outer.back()) zone.outer.pop_back();
     result_.zones.push_back(std::move(zone));
   } catch (const Error& error) {
-    result_.unread.push_back({std::move(zone), error});
+    leave_unread(std::move(zone), error, result_);
   }
 }
 
@@ -244,7 +244,7 @@ void WaypointReader::add_circle(const Row& row) {
     zone.circle = ListedCircle{centre, row.parameter, row.parameter};
     result_.zones.push_back(std::move(zone));
   } catch (const Error& error) {
-    result_.unread.push_back({std::move(zone), error});
+    leave_unread(std::move(zone), error, result_);
   }
 }
 

@@ -66,6 +66,19 @@ ZoneList parse_zones(std::string_view text, const std::filesystem::path& file, c
   return root.contains("geoFence") ? plan_zones(root, file) : geojson_zones(root, file, progress);
 }
 
+void leave_unread(ListedZone zone, const Error& fault, ZoneList& list) {
+  if (fault.kind() != ErrorKind::input || list.unread.size() >= Navigation::kMostZones) throw fault;
+  list.unread.push_back({std::move(zone), fault});
+}
+
+void leave_closed_line(ListedZone zone, const std::filesystem::path& file, ZoneList& list) {
+  zone.is_inclusion = false;
+  zone.feature = static_cast<std::size_t>(-1);  // of none
+  const Error fault(ErrorCode::value_unsupported, "the line is closed, and may be meant as an area",
+                    file.string() + ", " + zone.place, "write it as a polygon");
+  leave_unread(std::move(zone), fault, list);
+}
+
 void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,
                    const std::string& problem, const std::string& fix) {
   throw Error(code, problem, place.empty() ? file.string() : file.string() + ", " + place, fix);

@@ -81,6 +81,13 @@ inline constexpr std::uintmax_t kMostZoneBytes = 64'000'000;
 ZoneList parse_zones(std::string_view text, const std::filesystem::path& file,
                      const core::ProgressReporter& progress = {});
 
+/// For readers: keeps a fault of one area. Throws it where it is not of the file, and where the file has more of them
+/// than zones are possible.
+void leave_unread(ListedZone zone, const Error& fault, ZoneList& list);
+
+/// For readers: a line that is closed may be meant as an area to stay out of, and is none to stay in or of a target.
+void leave_closed_line(ListedZone zone, const std::filesystem::path& file, ZoneList& list);
+
 /// For readers: throws Error(input) with the file and the place in it.
 [[noreturn]] void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,
                                 const std::string& problem, const std::string& fix);

@@ -61,6 +61,7 @@ class FileZones {
   struct Left {
     std::size_t other_fences = 0, far = 0, swapped = 0;
     std::vector<std::string> skipped;
+    std::optional<Error> fault;  // of the first of these
     double nearest_m = kInfinity;
   };
 
@@ -368,8 +369,7 @@ void FileZones::note_left_out(const ZoneList& list) const {
   if (!left_.skipped.empty()) {
     constexpr std::size_t kMost = 5;
     const std::size_t count = left_.skipped.size();
-    what += (what.empty() ? "" : "; ") + std::string("by 'skip', and nobody stays ") + (is_kept ? "in" : "out of") +
-            (count == 1 ? " it: " : " them: ");
+    what += std::string(what.empty() ? "" : "; ") + "what cannot be read: ";
     for (std::size_t i = 0; i < std::min(count, kMost); ++i) what += (i == 0 ? "" : ", ") + left_.skipped[i];
     if (count > kMost) what += " and " + std::to_string(count - kMost) + " more";
   }
@@ -379,14 +379,17 @@ void FileZones::note_left_out(const ZoneList& list) const {
                                                              file_.file.filename().string() + ": " + what});
 }
 
-/// A zone of which some cannot be read. Throws unless the mission leaves those out.
+/// A zone that cannot be read. To stay in it may be missing; to stay out of, the mission has to say so.
 void FileZones::skip(const ListedZone& listed, const Error& fault) {
-  const std::string name = listed.names.empty() ? "" : in_quotes(listed.names.front());
   if (fault.kind() != ErrorKind::input) throw fault;
-  if (!file_.skip) {
-    throw Error(fault.code(), (name.empty() ? "" : "the zone " + name + ": ") + fault.problem(), fault.where(),
-                fault.fix() + "; or leave out what cannot be read: 'skip: true' beside 'file'");
-  }
+  const std::string name = listed.names.empty() ? "" : in_quotes(listed.names.front());
+  const std::string problem = (name.empty() ? "" : "the zone " + name + ": ") + fault.problem();
+  const bool is_kept = use_ == ZoneUse::keep_in;
+  const Error named(
+      fault.code(), problem, fault.where(),
+      is_kept ? fault.fix() : fault.fix() + "; or leave out what cannot be read: 'skip: true' beside 'file'");
+  if (!is_kept && !file_.skip) throw named;
+  if (!left_.fault) left_.fault = named;
   left_.skipped.push_back(listed.place + (name.empty() ? "" : " " + name) + " (" + fault.problem() + ")");
 }
 
@@ -408,10 +411,7 @@ void FileZones::fail_for_nothing() const {
     fail(ErrorCode::nothing_given, "", std::string("the file has no fence to stay ") + (is_kept ? "in" : "out of"),
          std::string("name it under '") + (is_kept ? "keep_out'" : "keep_in'") + ", or add a fence");
   }
-  if (!left_.skipped.empty()) {
-    fail(ErrorCode::nothing_given, "", "none of its areas can be read, the first one being " + left_.skipped.front(),
-         "mend the file");
-  }
+  if (left_.fault) throw *left_.fault;
   fail(ErrorCode::nothing_given, "", "the file has no areas",
        "give polygons or circles: lines and points are no zones");
 }
