@@ -281,7 +281,12 @@ void KmlReader::end(const std::string& name) {
 
 void KmlReader::end_line() {
   constexpr std::size_t kFewest = 4;
-  const Zone::Ring line = positions().corners;
+  Zone::Ring line;
+  try {
+    line = positions().corners;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;  // else it is a line, whatever is wrong with it
+  }
   if (line.size() < kFewest || line.front() != line.back()) {
     ++result_.left_out["line"];
     return;
