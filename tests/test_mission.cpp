@@ -211,13 +211,19 @@ TEST(MissionErrors, APlanOfAFlightIsNoMission) {
   }
 }
 
+TEST(MissionErrors, OldKeysAreReadAndNotSuggested) {
+  EXPECT_EQ(parse(with_navigation("boxes: [{min: [0, 0, 0], max: [1, 1, 1]}]")).navigation.keep_in.size(), 1U);
+  const Error error = testing::expect_error([&] { parse(with_navigation("no_fly: []")); }, ErrorCode::unknown_key);
+  EXPECT_EQ(error.fix().find("boxes"), std::string::npos) << error.fix();
+  EXPECT_EQ(error.fix().find("did you mean"), std::string::npos) << error.fix();
+}
+
 TEST(MissionErrors, UnknownKeysNameTheNearest) {
   expect_refusal(with_sensor("max_rnage: 100"), ErrorCode::unknown_key, ":6:3");
   expect_refusal(text_of_mission("navigaton: {altitude: [1, 2]}"), ErrorCode::unknown_key, ":7:1");
   expect_refusal(with_scene("Mesh: city.obj"), ErrorCode::unknown_key, ":2:3");
   expect_refusal(with_target("edge: []"), ErrorCode::unknown_key, ":5:3");
   expect_refusal(with_navigation("keepout: []"), ErrorCode::unknown_key, ":8:3");
-  expect_refusal(with_navigation("no_fly: []"), ErrorCode::unknown_key, ":8:3");
   expect_refusal(with_navigation("boxes: [{min: [0, 0, 0], mix: [1, 1, 1]}]"), ErrorCode::unknown_key, ":8:28");
   expect_refusal(with_navigation("meshes: [{mesh: a.ply, units: m}]"), ErrorCode::unknown_key, ":8:26");
   expect_refusal(text_of_mission("exact: {tolerence: 1}"), ErrorCode::unknown_key, ":7:9");
