@@ -27,6 +27,29 @@ TEST_F(CliQuery, Answers) {
   EXPECT_NE(rows[4].find(",true,"), std::string::npos) << rows[4];
 }
 
+// Names come from maps of others: none may become a formula, and each must be told from the next.
+TEST_F(CliQuery, NamesInTablesAreTextAndApart) {
+  std::string city = kCity;
+  city.replace(city.find("o block"), 7, "o =1;x\\");
+  write("city.obj", city + "o +2\nv 20 -5 20\nv 30 -5 20\nv 30 5 20\nf 13 14 15\n");
+  write("mission.yaml", std::string(kScene) +
+                            "targets: [{name: '@t', vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}, "
+                            "{name: \"a,b\", vertices: [[-9, -5, 0], [-7, -5, 0], [-7, 5, 0], [-9, 5, 0]]}]\n"
+                            "combine: each\n" + kSensor);
+  write("points.csv", "x,y,z,note\n40,0,5,=mine\n45,-2,30,-5\n");
+  const std::vector<std::string> rows =
+      lines(output_of({"query", "mission.yaml", "points.csv", "--target", "@t", "-o", "out.csv"}) +
+            content(folder_ / "out.csv"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1].rfind("40,0,5,=mine,false,", 0), 0U) << rows[1];
+  EXPECT_NE(rows[1].find(",'=1\\;x\\\\,"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[2].find(",'+2;=1\\;x\\\\,"), std::string::npos) << rows[2];
+  write("again.csv", content(folder_ / "out.csv"));
+  const ProgramRun again = run({"query", "mission.yaml", "again.csv", "--target", "@t"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, content(folder_ / "out.csv"));
+}
+
 TEST_F(CliQuery, NamesBrokenLimits) {
   write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [10, 20]}\n");
   options_.input = "0 0 15\n0 0 5\n0 0 25\n";

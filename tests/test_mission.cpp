@@ -203,6 +203,21 @@ TEST(Mission, AcceptsEdgesInAnyOrderAndTurn) {
   }
 }
 
+TEST(MissionErrors, APlanOfAFlightIsNoMission) {
+  for (const char* plan : {"{\n  \"fileType\": \"Plan\", \"geoFence\": {}}", "QGC WPL 110\n0\t1\t0\t16\n",
+                           "<?xml version=\"1.0\"?><kml></kml>", "PK\x03\x04zip"}) {
+    const Error error = testing::expect_error([&] { parse(plan); }, ErrorCode::wrong_type);
+    EXPECT_NE(error.fix().find("vantage check"), std::string::npos);
+  }
+}
+
+TEST(MissionErrors, OldKeysAreReadAndNotSuggested) {
+  EXPECT_EQ(parse(with_navigation("boxes: [{min: [0, 0, 0], max: [1, 1, 1]}]")).navigation.keep_in.size(), 1U);
+  const Error error = testing::expect_error([&] { parse(with_navigation("no_fly: []")); }, ErrorCode::unknown_key);
+  EXPECT_EQ(error.fix().find("boxes"), std::string::npos) << error.fix();
+  EXPECT_EQ(error.fix().find("did you mean"), std::string::npos) << error.fix();
+}
+
 TEST(MissionErrors, UnknownKeysNameTheNearest) {
   expect_refusal(with_sensor("max_rnage: 100"), ErrorCode::unknown_key, ":6:3");
   expect_refusal(text_of_mission("navigaton: {altitude: [1, 2]}"), ErrorCode::unknown_key, ":7:1");

@@ -84,5 +84,13 @@ TEST(NearestName, CountsSlips) {
   EXPECT_EQ(nearest_name("x", {}), "");
 }
 
+TEST(NearestName, WhatHoldsTheWordsComesFirst) {
+  EXPECT_EQ(nearest_name("zuccotti park", {"Zuccatto Yard", "Zuccotti Park (Liberty Plaza Park)", "West Zuccotti Park"}),
+            "West Zuccotti Park");
+  EXPECT_EQ(nearest_name("Zuccotti Park", {"Zucchetti Park", "Zuccotti Park (Liberty Plaza Park)"}),
+            "Zuccotti Park (Liberty Plaza Park)");
+  EXPECT_EQ(nearest_name("in", {"ground inside", "on"}), "on") << "two letters are in many names";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -54,8 +55,7 @@ TEST(ZoneFiles, ReadsAllAreasOfGeoJson) {
   EXPECT_EQ(list.zones[3].name, "7");
   EXPECT_EQ(list.left_out.at("line"), 1u);
   EXPECT_EQ(list.left_out.at("point"), 1u);
-  const std::string empty = "feature without a geometry";
-  EXPECT_EQ(list.left_out.at(empty), 1u);
+  EXPECT_EQ(list.left_out.at(app::kEmptyArea), 1u);
   EXPECT_EQ(parsed(feature(polygon())).zones.size(), 1u);
   EXPECT_EQ(parsed(polygon()).zones.size(), 1u);
 }
@@ -143,7 +143,14 @@ TEST(ZoneFiles, ReadsPolygonsOfKml) {
 
 void refuse(const std::string& text, ErrorCode code, const std::string& where) {
   SCOPED_TRACE(text);
-  expect_error([&] { parsed(text); }, code, where);
+  const auto parse = [&] {
+    const ZoneList list = parsed(text);
+    if (!list.unread.empty()) throw list.unread.front().fault;
+    for (const ListedZone& zone : list.zones) {
+      if (zone.heights_fault) throw *zone.heights_fault;
+    }
+  };
+  expect_error(parse, code, where);
 }
 
 constexpr ErrorCode kSyntax = ErrorCode::zone_file_syntax;
@@ -161,7 +168,6 @@ TEST(ZoneFiles, RefusesBrokenGeoJson) {
   refuse(collection("{\"type\": \"Feature\"}"), kSyntax, "features[0]");
   refuse(collection(feature("5")), kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Polygon\"}")), kSyntax, "features[0]");
-  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": []}")), kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [5]}")), kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4]]]}")), kSyntax,
          "features[0]");
@@ -184,7 +190,7 @@ TEST(ZoneFiles, RefusesBrokenUasZones) {
   refuse(layer("{\"upper\": 65, \"upperReference\": \"STD\", \"uom\": \"m\"}"), ErrorCode::value_unsupported,
          "features[0]");
   refuse(layer("{\"upper\": 65, \"uom\": \"m\"}"), kSyntax, "features[0]");
-  refuse(layer("{\"upper\": \"65\", \"upperReference\": \"AGL\", \"uom\": \"m\"}"), kSyntax, "features[0]");
+  refuse(layer("{\"upper\": \"65 m\", \"upperReference\": \"AGL\", \"uom\": \"m\"}"), kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [1, 2], \"extent\": {\"subType\": \"Arc\"}}")),
          kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [1, 2], \"extent\": {\"subType\": \"Circle\", "
@@ -211,7 +217,7 @@ TEST(ZoneFiles, RefusesBrokenKml) {
   refuse("<html></html>", kSyntax, "line 1");
   refuse("<!DOCTYPE kml [<!ENTITY a 'b'>]><kml/>", kSyntax, "line 1");
   refuse("<kml><Document>", kSyntax, "line 1");
-  refuse(kml("<Polygon></Polygon>"), kSyntax, "line 2");
+  refuse(kml("<NetworkLink><Link><href>a.kml</href></Link></NetworkLink>"), ErrorCode::value_unsupported, "line 2");
   refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3, 4 5,6 1,2</coordinates></LinearRing>"
              "</outerBoundaryIs></Polygon>"),
          kSyntax, "line 2");
@@ -229,6 +235,139 @@ TEST(ZoneFiles, RefusesBrokenKml) {
   std::string deep;
   for (int i = 0; i < 200; ++i) deep += "<Folder>";
   refuse(kml(deep), kSyntax, "line 2");
+}
+
+TEST(ZoneFiles, ReadsAreasOfDocks) {
+  const auto area = [](const std::string& type, const std::string& radius, const std::string& enable) {
+    return "{\"type\": \"Feature\", \"id\": \"a\", \"geofence_type\": \"" + type +
+           "\", \"geometry\": {\"type\": \"Point\", \"coordinates\": [11, 48]}, \"properties\": {\"subType\": "
+           "\"Circle\", \"radius\": " +
+           radius + ", \"enable\": " + enable + "}}";
+  };
+  const ZoneList list = parsed(collection(area("nfz", "60", "true") + ", " + area("dfence", "\"500\"", "true") + ", " +
+                                          area("nfz", "70", "false")));
+  ASSERT_EQ(list.zones.size(), 2u);
+  EXPECT_EQ(list.zones[0].circle->radius_m, 60);
+  EXPECT_EQ(list.zones[0].is_inclusion, std::optional(false));
+  EXPECT_EQ(list.zones[1].circle->radius_m, 500);
+  EXPECT_EQ(list.zones[1].is_inclusion, std::optional(true));
+  EXPECT_EQ(list.left_out.at(app::kDisabledArea), 1u);
+  refuse(collection(area("other", "60", "true")), ErrorCode::value_unsupported, "features[0]");
+  refuse(collection(area("nfz", "60", "5")), kSyntax, "features[0]");
+  refuse(collection(area("nfz", "0", "true")), ErrorCode::value_out_of_range, "features[0]");
+  // A radius of what, and in which unit?
+  refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [11, 48]}", "{\"radius\": 5}")), kSyntax,
+         "features[0]");
+}
+
+TEST(ZoneFiles, ReadsNumbersThatAreText) {
+  const std::string circle =
+      "{\"type\": \"Point\", \"coordinates\": [\"11\", \"48\"], \"extent\": {\"subType\": \"Circle\", \"radius\": "
+      "\"30\"}, \"layer\": {\"upper\": \"120\", \"upperReference\": \"AGL\", \"uom\": \"m\"}}";
+  const ZoneList list = parsed(collection(feature(circle)));
+  ASSERT_EQ(list.zones.size(), 1u);
+  EXPECT_EQ(list.zones[0].circle->centre, Eigen::Vector2d(11, 48));
+  EXPECT_EQ(list.zones[0].circle->radius_m, 30);
+  EXPECT_EQ(list.zones[0].upper->metres, 120);
+}
+
+TEST(ZoneFiles, ReadsListsOfZonesByOtherNames) {
+  const std::string one = "{\"identifier\": \"Z1\", \"geometry\": {" + kMetres +
+                          ", \"horizontalProjection\": " + polygon() + "}}";  // a volume, not a list of them
+  for (const std::string& text :
+       {"{\"UASZoneList\": [" + one + "]}", "{\"version\": [2], \"zones\": [" + one + "]}", "[" + one + "]"}) {
+    const ZoneList list = parsed(text);
+    ASSERT_EQ(list.zones.size(), 1u) << text;
+    EXPECT_EQ(list.zones[0].name, "Z1");
+    EXPECT_EQ(list.zones[0].lower->metres, 10);
+  }
+  refuse("{\"a\": [" + one + "], \"b\": [" + one + "]}", kSyntax, "/data/zones");
+}
+
+TEST(ZoneFiles, OneAreaThatCannotBeReadLeavesTheOthers) {
+  const std::string open = "{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4], [2, 4]]]}";
+  const ZoneList list = parsed(collection(feature(open, "{\"name\": \"open\"}") + ", 5, " + feature(polygon()) + ", " +
+                                          feature("{\"type\": \"Polygon\", \"coordinates\": []}") + ", " +
+                                          feature("{\"type\": \"MultiPolygon\", \"coordinates\": [[]]}")));
+  EXPECT_EQ(list.zones.size(), 1u);
+  ASSERT_EQ(list.unread.size(), 2u);
+  EXPECT_EQ(list.unread[0].zone.names, std::vector<std::string>{"open"});
+  EXPECT_EQ(list.unread[1].zone.place, "features[1]");
+  EXPECT_EQ(list.left_out.at(app::kEmptyArea), 2u);
+  const ZoneList drawn =
+      parsed(kml("<Placemark><name>open</name><Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 "
+                 "3,4 5,6</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>"
+                 "<Placemark><Polygon></Polygon></Placemark>" +
+                 placemark("")));
+  EXPECT_EQ(drawn.zones.size(), 1u);
+  ASSERT_EQ(drawn.unread.size(), 1u);
+  EXPECT_EQ(drawn.unread[0].zone.name, "open");
+  EXPECT_EQ(drawn.left_out.at(app::kEmptyArea), 1u);
+}
+
+TEST(ZoneFiles, ReadsFencesOfWaypoints) {
+  const auto row = [](int command, const std::string& parameter, const std::string& place) {
+    return "1\t0\t0\t" + std::to_string(command) + "\t" + parameter + "\t0\t0\t0\t" + place + "\t100\t1\n";
+  };
+  const std::string start = "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t500\t1\n";
+  const ZoneList list = parsed(
+      start + row(5001, "3", "48\t11") + row(5001, "3", "48\t11.001") + row(5001, "3", "48.001\t11.001") +
+      row(5002, "3", "48\t11") + row(5002, "3", "48\t11.001") + row(5002, "3", "48.001\t11.001") +
+      row(5003, "400", "48\t11") + row(5004, "20.5", "48\t11.001") + row(5000, "0", "48\t11") + row(16, "0", "48\t11"));
+  ASSERT_EQ(list.zones.size(), 4u);
+  EXPECT_EQ(list.zones[0].outer, (Zone::Ring{{11, 48}, {11.001, 48}, {11.001, 48.001}}));
+  EXPECT_EQ(list.zones[0].is_inclusion, std::optional(true));
+  EXPECT_EQ(list.zones[1].name, "polygon 1");
+  EXPECT_EQ(list.zones[1].is_inclusion, std::optional(false));
+  EXPECT_EQ(list.zones[2].circle->radius_m, 400);
+  EXPECT_EQ(list.zones[2].is_inclusion, std::optional(true));
+  EXPECT_EQ(list.zones[3].circle->centre, Eigen::Vector2d(11.001, 48));
+  EXPECT_EQ(list.zones[3].is_inclusion, std::optional(false));
+  EXPECT_EQ(list.left_out, (std::map<std::string, std::size_t>{{"return point", 1}, {"waypoint", 1}}));
+  EXPECT_TRUE(list.has_no_heights);
+  refuse(start + row(5002, "3", "48\t11") + row(5002, "3", "48\t11.001"), kSyntax, "line 4");
+  refuse(start + row(5002, "3", "48\t11") + row(5001, "1", "48\t11"), kSyntax, "line 3");
+  refuse(start + row(5005, "3", "48\t11"), kSyntax, "line 3");
+  refuse(start + row(5004, "-3", "48\t11"), kSyntax, "line 3");
+  refuse(start + row(5004, "3", "98\t11"), ErrorCode::not_on_earth, "line 3");
+  refuse(start + row(5004, "x", "48\t11"), kSyntax, "line 3");
+  refuse(start + "1\t0\t0\t5004\n", kSyntax, "line 3");
+}
+
+/// A face of a solid over the triangle of placemark().
+std::string face(const std::string& corners) {
+  return "<Polygon><altitudeMode>absolute</altitudeMode><outerBoundaryIs><LinearRing><coordinates>" + corners +
+         "</coordinates></LinearRing></outerBoundaryIs></Polygon>";
+}
+std::string level_face(const std::string& z) {
+  return face("11,48," + z + " 11.001,48," + z + " 11.001,48.001," + z + " 11,48," + z);
+}
+std::string wall(const std::string& a, const std::string& b) {
+  return face(a + ",520 " + b + ",520 " + b + ",560 " + a + ",560 " + a + ",520");
+}
+
+TEST(ZoneFiles, AFloorACeilingAndWallsAreOneZone) {
+  const std::string walls =
+      wall("11,48", "11.001,48") + wall("11.001,48", "11.001,48.001") + wall("11.001,48.001", "11,48");
+  const auto solid = [](const std::string& faces) {
+    return parsed(kml("<Placemark><name>CTR</name><MultiGeometry>" + faces + "</MultiGeometry></Placemark>"));
+  };
+  const ZoneList list = solid(level_face("520") + level_face("560") + walls);
+  ASSERT_EQ(list.zones.size(), 1u);
+  EXPECT_EQ(list.zones[0].name, "CTR");
+  EXPECT_TRUE(list.zones[0].has_heights);
+  EXPECT_EQ(list.zones[0].lower->metres, 520);
+  EXPECT_EQ(list.zones[0].upper->metres, 560);
+  EXPECT_EQ(list.zones[0].upper->from, HeightReference::sea_level);
+  // A floor in between is not all of the solid's, and one of another shape not the same one.
+  const ZoneList between = solid(level_face("520") + level_face("540") + walls);
+  ASSERT_EQ(between.zones.size(), 1u);
+  EXPECT_FALSE(between.zones[0].has_heights);
+  const ZoneList alone = solid(walls);
+  EXPECT_EQ(alone.zones.size(), 3u);
+  EXPECT_FALSE(alone.zones[0].has_heights);
+  const ZoneList elsewhere = solid(level_face("520") + level_face("560") + wall("11,48", "11.002,48"));
+  EXPECT_EQ(elsewhere.zones.size(), 3u);
 }
 
 /// A mission in a map about 48 N, 11 E, with these files beside it.
@@ -292,6 +431,136 @@ TEST(ZoneFiles, HeightsRelativeToTheGroundMustBeGiven) {
   const Mission resolved = mission.resolve("keep_out: [{file: park.kml, agl: [0, 50]}]");
   ASSERT_EQ(resolved.navigation.keep_out.size(), 1u);
   EXPECT_EQ(resolved.navigation.keep_out[0].above_ground->max_m, 50);
+}
+
+TEST(ZoneFiles, WhatCannotBeReadStopsTheMissionByName) {
+  const ZoneMission mission;
+  const std::string open = "{\"type\": \"Polygon\", \"coordinates\": [[[11, 48], [11.1, 48], [11.1, 48.1]]]}";
+  const std::string crossing =
+      "{\"type\": \"Polygon\", \"coordinates\": [[[11, 48], [11.1, 48.1], [11.1, 48], [11, 48.1], [11, 48]]]}";
+  const std::string levels = polygon(", \"layer\": {\"upper\": 65, \"upperReference\": \"FL\", \"uom\": \"m\"}");
+  const std::string layer = ", \"layer\": {\"upper\": 64, \"upperReference\": \"AGL\", \"uom\": \"m\"}";
+  for (const std::string& bad : {open, crossing, levels}) {
+    SCOPED_TRACE(bad);
+    mission.write("zones.json", collection(feature(bad, "{\"name\": \"BAD7\"}") + ", " + feature(polygon(layer))));
+    const bool is_level = bad == levels;
+    const std::string any = is_level ? "" : ", heights: any";
+    {
+      const std::string limits = "keep_out: [{file: zones.json" + any;
+      const Error error = expect_error([&] { mission.resolve(limits + "}]"); },
+                                       bad == open ? kSyntax
+                                       : is_level  ? ErrorCode::value_unsupported
+                                                   : ErrorCode::zone_not_simple,
+                                       "features[0]");
+      EXPECT_NE(error.problem().find("'BAD7'"), std::string::npos);
+      EXPECT_NE(error.fix().find("skip: true"), std::string::npos);
+      const Mission skipped = mission.resolve(limits + ", skip: true}]");
+      EXPECT_EQ(skipped.navigation.keep_out.size(), 1u);
+      ASSERT_EQ(skipped.notes.size(), 1u);
+      EXPECT_EQ(skipped.notes[0].code, WarningCode::zones_left_out);
+      expect_wording(skipped.notes[0].text);
+    }
+    // Without a zone to stay in nothing more is claimed.
+    const Mission kept = mission.resolve("keep_in: [{file: zones.json" + any + "}]");
+    EXPECT_EQ(kept.navigation.keep_in.size(), 1u);
+    ASSERT_EQ(kept.notes.size(), 1u);
+    EXPECT_EQ(kept.notes[0].code, WarningCode::zones_left_out);
+  }
+  mission.write(
+      "zones.json",
+      collection(feature("{\"type\": \"LineString\", \"coordinates\": " + kSquare.substr(1, kSquare.size() - 2) + "}") +
+                 ", " + feature(polygon())));
+  expect_error([&] { mission.resolve("keep_out: [{file: zones.json, heights: any}]"); }, ErrorCode::value_unsupported,
+               "features[0]");
+  EXPECT_EQ(mission.resolve("keep_in: [{file: zones.json, heights: any}]").navigation.keep_in.size(), 1u);
+  mission.write("zones.json", collection(feature(levels)));
+  EXPECT_EQ(mission.resolve("keep_out: [{file: zones.json, heights: any}]").navigation.keep_out.size(), 1u);
+  expect_error([&] { mission.read("keep_out: [{file: zones.json, skip: 5}]"); }, ErrorCode::unknown_choice);
+}
+
+TEST(ZoneFiles, FlightLevelsOutOfReachAreLeftOut) {
+  const ZoneMission mission;
+  const std::string far =
+      "{\"type\": \"Polygon\", \"coordinates\": [[[2.3, 48.8], [2.4, 48.8], [2.4, 48.9], [2.3, 48.8]]], \"layer\": "
+      "{\"upper\": 95, \"upperReference\": \"FL\", \"uom\": \"m\"}}";
+  const std::string layer = ", \"layer\": {\"upper\": 64, \"upperReference\": \"AGL\", \"uom\": \"m\"}";
+  mission.write("zones.json", collection(feature(far) + ", " + feature(polygon(layer))));
+  const Mission resolved = mission.resolve("keep_out: [{file: zones.json}]");
+  EXPECT_EQ(resolved.navigation.keep_out.size(), 1u);
+  EXPECT_EQ(resolved.notes.size(), 1u);
+}
+
+TEST(ZoneFiles, AFileOfEmptyAreasKeepsOutOfNothing) {
+  const ZoneMission mission;
+  mission.write("zones.json", collection(feature("{\"type\": \"Polygon\", \"coordinates\": []}")));
+  const Mission resolved = mission.resolve("keep_out: [{file: zones.json}]");
+  EXPECT_TRUE(resolved.navigation.keep_out.empty());
+  ASSERT_EQ(resolved.notes.size(), 1u);
+  expect_wording(resolved.notes[0].text);
+  expect_error([&] { mission.resolve("keep_in: [{file: zones.json}]"); }, ErrorCode::nothing_given, "zones.json");
+}
+
+TEST(ZoneFiles, MasksOfTheWorldAreCutToWhatIsNear) {
+  const ZoneMission mission;
+  const std::string world = "[[-180, -90], [0, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]";
+  const auto resolve = [&](const std::string& rings) {
+    mission.write("zones.json", "{\"type\": \"Polygon\", \"coordinates\": [" + rings + "]}");
+    return mission.resolve("keep_out: [{file: zones.json, heights: any}]").navigation.keep_out;
+  };
+  const geo::LocalFrame frame({11, 48});
+  for (const double half : {0.12, 2.5, 6.0}) {
+    const auto at = [&](double x, double y) {
+      return "[" + shortest(11 + half * x) + ", " + shortest(48 + half * y) + "]";
+    };
+    const std::string country =
+        "[" + at(-1, -1) + ", " + at(-1, 1) + ", " + at(1, 1) + ", " + at(1, -1) + ", " + at(-1, -1) + "]";
+    const std::string elsewhere = "[[100, 10], [101, 10], [101, 11], [100, 10]]";
+    const std::vector<Zone> zones = resolve(world + ", " + country + ", " + elsewhere);
+    ASSERT_EQ(zones.size(), 1u);
+    ASSERT_EQ(zones[0].holes.size(), 1u);
+    double nearest = INFINITY, farthest = 0;
+    for (const Eigen::Vector2d& p : zones[0].outer) nearest = std::min(nearest, p.norm());
+    for (const Eigen::Vector2d& p : zones[0].holes[0]) farthest = std::max(farthest, p.norm());
+    EXPECT_GT(nearest, geo::kFarthestM);  // no viewpoint is farther
+    const double corner = frame.to_local({11 - half, 48 - half}).norm();
+    EXPECT_LT(farthest, corner);
+    EXPECT_GT(farthest, 0.999 * corner);
+  }
+  EXPECT_EQ(resolve(world).size(), 1u);
+}
+
+TEST(ZoneFiles, HolesMayTouchTheOutlineAndEachOther) {
+  const ZoneMission mission;
+  const auto at = [](double x, double y) {
+    return "[" + shortest(11 + 0.001 * x) + ", " + shortest(48 + 0.001 * y) + "]";
+  };
+  const std::string square =
+      "[" + at(-1, -1) + ", " + at(1, -1) + ", " + at(1, 1) + ", " + at(-1, 1) + ", " + at(-1, -1) + "]";
+  const auto triangle = [&](double x, double tip) {  // its tip points west
+    return "[" + at(tip, 0) + ", " + at(x, 0.3) + ", " + at(x, -0.3) + ", " + at(tip, 0) + "]";
+  };
+  const geo::LocalFrame frame({11, 48});
+  for (const std::string& holes : {triangle(-0.5, -1), triangle(-0.5, -1) + ", " + triangle(0.5, -0.5)}) {
+    mission.write("zones.json", "{\"type\": \"Polygon\", \"coordinates\": [" + square + ", " + holes + "]}");
+    const std::size_t count = holes.size() > triangle(-0.5, -1).size() ? 2 : 1;
+    const Mission out = mission.resolve("keep_out: [{file: zones.json, heights: any}]");
+    ASSERT_EQ(out.navigation.keep_out.size(), 1u);
+    ASSERT_EQ(out.navigation.keep_out[0].holes.size(), count);
+    double nearest = INFINITY;  // of the hole's tip: it has come apart by centimetres, inward
+    const Eigen::Vector2d tip = frame.to_local({10.999, 48});
+    for (const Eigen::Vector2d& p : out.navigation.keep_out[0].holes[0]) nearest = std::min(nearest, (p - tip).norm());
+    EXPECT_GT(nearest, 0.04);
+    EXPECT_LT(nearest, 0.3);
+    const Mission kept = mission.resolve("keep_in: [{file: zones.json, heights: any}]");
+    ASSERT_EQ(kept.navigation.keep_in.size(), 1u);
+    EXPECT_TRUE(kept.navigation.keep_in[0].holes.empty());
+    EXPECT_EQ(kept.navigation.keep_out.size(), count);
+    EXPECT_EQ(kept.navigation.keep_out[0].name, "zones.json 0 hole");
+  }
+  // One that crosses by more is none.
+  mission.write("zones.json",
+                "{\"type\": \"Polygon\", \"coordinates\": [" + square + ", " + triangle(-0.5, -1.1) + "]}");
+  expect_error([&] { mission.resolve("keep_out: [{file: zones.json, heights: any}]"); }, ErrorCode::zone_not_simple);
 }
 
 TEST(ZoneFiles, FencesGoWhereTheyBelong) {

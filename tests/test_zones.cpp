@@ -429,6 +429,100 @@ TEST(Zones, TheCheckRefusesWhatIsNoZone) {
   expect_error(check, ErrorCode::zone_not_simple, "navigation.keep_in[0]");
 }
 
+/// Whether two sides have a point in common; of small whole numbers, so exact.
+bool sides_meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                const Eigen::Vector2d& d) {
+  const auto left = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r) {
+    const double area = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+    return area > 0 ? 1 : area < 0 ? -1 : 0;
+  };
+  const auto is_between = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r) {
+    return left(p, q, r) == 0 && (r - p).dot(r - q) <= 0;
+  };
+  if (is_between(a, b, c) || is_between(a, b, d) || is_between(c, d, a) || is_between(c, d, b)) return true;
+  return left(a, b, c) * left(a, b, d) < 0 && left(c, d, a) * left(c, d, b) < 0;
+}
+
+/// By its definition: each pair of sides, and each hole's first corner.
+bool is_simple_by_pairs(const Zone& zone) {
+  struct Side {
+    Eigen::Vector2d from, to;
+  };
+  std::vector<Zone::Ring> rings = zone.holes;
+  rings.insert(rings.begin(), zone.outer);
+  std::vector<std::vector<Side>> sides;
+  for (const Zone::Ring& ring : rings) {
+    sides.emplace_back();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (ring[i] == ring[(i + 1) % ring.size()]) return false;
+      sides.back().push_back({ring[i], ring[(i + 1) % ring.size()]});
+    }
+  }
+  for (std::size_t r = 0; r < sides.size(); ++r) {
+    for (std::size_t s = r; s < sides.size(); ++s) {
+      for (std::size_t i = 0; i < sides[r].size(); ++i) {
+        for (std::size_t k = r == s ? i + 1 : 0; k < sides[s].size(); ++k) {
+          const Side &a = sides[r][i], &b = sides[s][k];
+          const bool a_first = r == s && k == i + 1, b_first = r == s && (k + 1) % sides[s].size() == i;
+          if (!a_first && !b_first && sides_meet(a.from, a.to, b.from, b.to)) return false;
+          const Side &one = a_first ? a : b, &next = a_first ? b : a;
+          const Eigen::Vector2d u = one.to - one.from, v = next.to - next.from;
+          if ((a_first || b_first) && u.x() * v.y() == u.y() * v.x() && u.dot(v) < 0) return false;
+        }
+      }
+    }
+  }
+  const auto holds = [](const Zone::Ring& ring, const Eigen::Vector2d& p) {
+    bool is_in = false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) is_in = !is_in;
+    }
+    return is_in;
+  };
+  for (std::size_t i = 0; i < zone.holes.size(); ++i) {
+    if (!holds(zone.outer, zone.holes[i][0])) return false;
+    for (std::size_t k = 0; k < zone.holes.size(); ++k) {
+      if (k != i && holds(zone.holes[k], zone.holes[i][0])) return false;
+    }
+  }
+  return true;
+}
+
+TEST(Zones, AreSimpleWhereNoPairOfSidesMeets) {
+  Random random(20261130);
+  std::size_t simple = 0;
+  for (int draw = 0; draw < 30000; ++draw) {
+    const int room = random.integer(3, 14);
+    const auto ring = [&](int corners) {
+      Zone::Ring result;
+      for (int i = 0; i < corners; ++i) result.emplace_back(random.integer(0, room), random.integer(0, room));
+      return result;
+    };
+    const auto box = [&](int least, int most, int size) {
+      const double x = random.integer(least, most), y = random.integer(least, most);
+      const double w = random.integer(1, size), h = random.integer(1, size);
+      Zone::Ring result = {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
+      if (random.chance(0.5)) std::reverse(result.begin(), result.end());
+      return result;
+    };
+    Zone zone;
+    zone.min_z_m = 0;
+    zone.max_z_m = 1;
+    const bool is_box = random.chance(0.6);
+    zone.outer = is_box ? Zone::Ring{{-1, -1}, {15, -1}, {15, 15}, {-1, 15}} : ring(random.integer(3, 7));
+    for (int i = random.integer(0, 3); i > 0; --i) {
+      zone.holes.push_back(random.chance(0.6) ? box(-2, 14, 5) : ring(random.integer(3, 4)));
+    }
+    const bool expected = is_simple_by_pairs(zone);
+    simple += expected;
+    ASSERT_EQ(!core::fault_of(zone).has_value(), expected) << "draw " << draw;
+  }
+  EXPECT_GT(simple, 3000u);
+  EXPECT_LT(simple, 27000u);
+}
+
 TEST(Zones, RefusesWhatIsNoPolygon) {
   const Volume dome = make_hemisphere(Vec3::Zero(), 10, 8, 4);
   const auto refuse = [&](const Zone::Ring& outer, const std::vector<Zone::Ring>& holes, ErrorCode code) {

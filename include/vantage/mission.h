@@ -197,13 +197,14 @@ struct GroundSource {
 };
 
 /// A file of zones, as a mission file names it: GeoJSON, also of UAS zones (ED-269, ED-318), KML, or a plan of
-/// QGroundControl, of which the fences count. Positions are WGS 84.
+/// QGroundControl or .waypoints, of which the fences count. Positions are WGS 84.
 struct ZoneFile {
   std::filesystem::path file;                                 ///< absolute
   std::string name;                                           ///< as written in the mission; in causes and messages
   std::optional<std::array<double, 2>> z_m = std::nullopt;    ///< of zones that the file gives no heights for
   std::optional<std::array<double, 2>> agl_m = std::nullopt;  ///< likewise, above the ground
   bool any_height = false;                                    ///< without bounds, whatever the file says
+  bool skip = false;  ///< areas that cannot be read are left out, and a note names them; else they are an error
 };
 
 /// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.

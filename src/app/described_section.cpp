@@ -168,11 +168,7 @@ void SectionReader::device(const request::Key& key, DeviceChoice& value) const {
 void SectionReader::flag(const request::Key& key, bool& value) const {
   const YamlNode* const node = required(key);
   if (node == nullptr) return;
-  const std::string word = reader_.text(*node, name_of(key));
-  value = word == "true";
-  if (value || word == "false") return;
-  reader_.fail(ErrorCode::unknown_choice, *node, name_of(key) + " must be true or false, not " + in_quotes(word),
-               "write true or false");
+  value = reader_.flag(*node, name_of(key));
 }
 
 void SectionReader::home(const request::Key& key, std::optional<TourHome>& value) const {

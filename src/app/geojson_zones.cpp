@@ -1,4 +1,5 @@
 // RFC 7946; EUROCAE ED-269 (2020) and ED-318 (2024), whose schemas are at github.com/UASGeoZones.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -30,7 +31,8 @@ constexpr HeightKeys kVolumeKeys = {"lowerLimit", "lowerVerticalReference", "upp
 
 class GeoJsonReader {
  public:
-  explicit GeoJsonReader(const std::filesystem::path& file) : file_(file) {}
+  GeoJsonReader(const std::filesystem::path& file, const core::ProgressReporter& progress)
+      : file_(file), progress_(progress) {}
 
   ZoneList read(const json& root);
 
@@ -38,19 +40,33 @@ class GeoJsonReader {
   struct Heights {
     std::optional<ZoneHeight> lower, upper;
     bool are_given = false;
+    std::optional<Error> fault;
   };
 
-  void read_features(const json& root);
+  void read_features(const json& features, const std::string& key);
   void read_feature(const json& feature, const std::string& place, std::size_t number);
   void read_geometry(const json& geometry, const std::string& place, const std::string& name, Heights heights);
+  void read_point(const json& geometry, const std::string& place, const std::string& name, const Heights& heights);
+  void read_line(const json& positions, const std::string& place, const std::string& name);
   void read_volume(const json& volume, const std::string& place, const std::string& name);
+  bool read_fence(const json& feature, const std::string& place);
+  ListedZone zone_of(const std::string& place, const std::string& name, const Heights& heights) const;
+  /// One area that cannot be read does not keep the others from being read.
+  template <typename Read>
+  void guarded(const std::string& place, const std::string& name, const Read& read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      leave_unread(zone_of(place, name, {}), error, result_);
+    }
+  }
   void add_polygon(const json& rings, const std::string& place, const std::string& name, const Heights& heights);
   void add_circle(const json& centre, const json& radius, bool may_be_feet, const std::string& place,
                   const std::string& name, const Heights& heights);
   void check_crs(const json& root) const;
 
   Heights heights_of(const json& layer, const HeightKeys& keys, const std::string& place) const;
-  std::optional<ZoneHeight> height(const json& layer, const char* key, const char* reference, double unit_m,
+  std::optional<ZoneHeight> height(const json& layer, const char* key, const char* reference, const char* unit,
                                    const std::string& place) const;
   double unit_of(const json& layer, const char* key, const std::string& place) const;
   ListedRing ring(const json& positions, const std::string& place) const;
@@ -65,10 +81,42 @@ class GeoJsonReader {
   }
 
   const std::filesystem::path& file_;
-  std::size_t feature_ = 0;  // that is read
+  const core::ProgressReporter& progress_;
+  // Of the feature that is read.
+  std::size_t feature_ = 0;
   std::vector<std::string> names_;
+  const json* properties_ = nullptr;
+  std::optional<bool> is_inclusion_;
   ZoneList result_;
 };
+
+/// Null where it has none of that name.
+const json* find_member(const json* object, const char* key) {
+  if (object == nullptr || !object->is_object()) return nullptr;
+  const auto found = object->find(key);
+  return found == object->end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string word_in(const json* value) {
+  return value != nullptr && value->is_string() ? io::clean_name(value->get_ref<const std::string&>()) : std::string();
+}
+
+bool is_word(std::string_view text, std::string_view word) {
+  const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+  return std::equal(text.begin(), text.end(), word.begin(), word.end(), is_same);
+}
+
+/// The list of features where it is not called "features": InterUSS calls it "UASZoneList".
+const std::string* other_list(const json& root) {
+  const std::string* name = nullptr;
+  for (const auto& [key, value] : root.items()) {
+    const bool is_list = value.is_array() && !value.empty() && find_member(&value[0], "geometry") != nullptr;
+    if (!is_list) continue;
+    if (name != nullptr) return nullptr;
+    name = &key;
+  }
+  return name;
+}
 
 /// What people call a feature.
 struct FeatureNames {
@@ -118,20 +166,26 @@ std::string GeoJsonReader::type_of(const json& object, const std::string& place)
 }
 
 double GeoJsonReader::number(const json& value, const std::string& what, const std::string& place) const {
-  const double number = value.is_number() ? value.get<double>() : std::nan("");
-  if (!std::isfinite(number)) fail(place, what + " is not a number");
-  return number;
+  const std::optional<double> number = number_in(value);
+  if (!number) fail(place, what + " is not a number");
+  return *number;
 }
 
 ZoneList GeoJsonReader::read(const json& root) {
+  if (root.is_array()) {
+    read_features(root, "");
+    return std::move(result_);
+  }
   check_crs(root);
   const std::string type = root.contains("type") ? type_of(root, "") : "FeatureCollection";
   if (type == "FeatureCollection") {
-    read_features(root);
+    const std::string* const other = root.contains("features") ? nullptr : other_list(root);
+    const std::string key = other == nullptr ? "features" : *other;
+    read_features(list(root, key.c_str(), ""), key);
   } else if (type == "Feature") {
-    read_feature(root, "", 0);
+    guarded("", "", [&] { read_feature(root, "", 0); });
   } else {
-    read_geometry(root, "", "", {});
+    guarded("", "", [&] { read_geometry(root, "", "", {}); });
   }
   return std::move(result_);
 }
@@ -149,10 +203,12 @@ void GeoJsonReader::check_crs(const json& root) const {
        "convert the file to longitudes and latitudes (ogr2ogr -t_srs EPSG:4326)", ErrorCode::value_unsupported);
 }
 
-void GeoJsonReader::read_features(const json& root) {
-  const json& features = list(root, "features", "");
+void GeoJsonReader::read_features(const json& features, const std::string& key) {
   for (std::size_t i = 0; i < features.size(); ++i) {
-    read_feature(features[i], indexed_place("", "features", i), i);
+    const std::string place = indexed_place("", key.c_str(), i);
+    feature_ = i;
+    names_.clear();
+    guarded(place, "", [&] { read_feature(features[i], place, i); });
   }
 }
 
@@ -162,16 +218,44 @@ void GeoJsonReader::read_feature(const json& feature, const std::string& place, 
   FeatureNames names = names_of_feature(feature);
   const std::string name = std::move(names.first);
   names_ = std::move(names.all);
+  properties_ = find_member(&feature, "properties");
+  if (!read_fence(feature, place)) {
+    ++result_.left_out[kDisabledArea];
+    return;
+  }
   const json& geometry = member(feature, "geometry", place);
-  if (geometry.is_null()) {
-    ++result_.left_out["feature without a geometry"];
+  if (geometry.is_null() || (geometry.is_array() && geometry.empty())) {
+    ++result_.left_out[kEmptyArea];
   } else if (geometry.is_array()) {
     for (std::size_t i = 0; i < geometry.size(); ++i) {
-      read_volume(geometry[i], indexed_place(place, "geometry", i), name);
+      const std::string volume = indexed_place(place, "geometry", i);
+      guarded(volume, name, [&] { read_volume(geometry[i], volume, name); });
     }
+  } else if (find_member(&geometry, "horizontalProjection") != nullptr) {
+    read_volume(geometry, place, name);
   } else {
     read_geometry(geometry, place, name, {});
   }
+}
+
+/// What a dock of DJI says of a feature: whether it is to stay in. False where it does not count.
+bool GeoJsonReader::read_fence(const json& feature, const std::string& place) {
+  is_inclusion_.reset();
+  const auto said = [&](const char* key) {
+    const json* const value = find_member(&feature, key);
+    return value != nullptr ? value : find_member(properties_, key);
+  };
+  const json* const type = said("geofence_type");
+  if (type == nullptr) return true;
+  const std::string word = word_in(type);
+  if (!is_word(word, "nfz") && !is_word(word, "dfence")) {
+    fail(place, "\"geofence_type\" is " + in_quotes(word), "write 'nfz' to stay out, 'dfence' to stay in",
+         ErrorCode::value_unsupported);
+  }
+  is_inclusion_ = is_word(word, "dfence");
+  const json* const enable = said("enable");
+  if (enable != nullptr && !enable->is_boolean()) fail(place, "\"enable\" is not true or false");
+  return enable == nullptr || enable->get<bool>();
 }
 
 void GeoJsonReader::read_geometry(const json& geometry, const std::string& place, const std::string& name,
@@ -181,30 +265,57 @@ void GeoJsonReader::read_geometry(const json& geometry, const std::string& place
     heights = heights_of(*layer, kLayerKeys, place);
   }
   const std::string type = type_of(geometry, place);
-  if (type == "GeometryCollection") {
-    const json& parts = list(geometry, "geometries", place);
+  const auto read_all = [&](const char* key, const auto& read) {
+    const json& parts = list(geometry, key, place);
+    if (parts.empty()) ++result_.left_out[kEmptyArea];
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      read_geometry(parts[i], indexed_place(place, "geometries", i), name, heights);
+      const std::string part = indexed_place(place, key, i);
+      guarded(part, name, [&] { read(parts[i], part); });
     }
+  };
+  if (type == "GeometryCollection") {
+    read_all("geometries", [&](const json& one, const std::string& part) { read_geometry(one, part, name, heights); });
   } else if (type == "Polygon") {
     add_polygon(list(geometry, "coordinates", place), place, name, heights);
   } else if (type == "MultiPolygon") {
-    const json& polygons = list(geometry, "coordinates", place);
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-      add_polygon(polygons[i], indexed_place(place, "coordinates", i), name, heights);
-    }
-  } else if (type == "Point" && geometry.contains("extent")) {
-    const json& extent = geometry["extent"];
-    const bool is_circle = extent.is_object() && extent.contains("subType") && extent["subType"] == "Circle";
-    if (!is_circle) fail(place, "\"extent\" is not a circle");
-    add_circle(list(geometry, "coordinates", place), member(extent, "radius", place), false, place, name, heights);
+    read_all("coordinates", [&](const json& one, const std::string& part) { add_polygon(one, part, name, heights); });
   } else if (type == "Point" || type == "MultiPoint") {
-    ++result_.left_out["point"];
-  } else if (type == "LineString" || type == "MultiLineString") {
-    ++result_.left_out["line"];
+    read_point(geometry, place, name, heights);
+  } else if (type == "LineString") {
+    read_line(list(geometry, "coordinates", place), place, name);
+  } else if (type == "MultiLineString") {
+    read_all("coordinates", [&](const json& one, const std::string& part) { read_line(one, part, name); });
   } else {
     fail(place, "there is no geometry of the type " + in_quotes(type), "give areas: Polygon or MultiPolygon");
   }
+}
+
+/// A circle, if the file makes one of it.
+void GeoJsonReader::read_point(const json& geometry, const std::string& place, const std::string& name,
+                               const Heights& heights) {
+  const json* const extent = find_member(&geometry, "extent");
+  const json* const of = extent != nullptr ? extent : properties_;
+  const json* const radius = find_member(of, "radius");
+  if (type_of(geometry, place) == "Point" && is_word(word_in(find_member(of, "subType")), "circle")) {
+    add_circle(list(geometry, "coordinates", place), member(*of, "radius", place), false, place, name, heights);
+  } else if (extent != nullptr) {
+    fail(place, "\"extent\" is not a circle");
+  } else if (radius != nullptr && number_in(*radius) != std::optional(0.0)) {
+    fail(place, "the point has a radius, and nothing says what it is for",
+         "write \"subType\": \"Circle\" beside it, and the radius in metres");
+  } else {
+    ++result_.left_out["point"];
+  }
+}
+
+void GeoJsonReader::read_line(const json& positions, const std::string& place, const std::string& name) {
+  constexpr std::size_t kFewest = 4;
+  const bool is_closed = positions.is_array() && positions.size() >= kFewest && positions.front() == positions.back();
+  if (!is_closed) {
+    ++result_.left_out["line"];
+    return;
+  }
+  leave_closed_line(zone_of(place, name, {}), file_, result_);
 }
 
 void GeoJsonReader::read_volume(const json& volume, const std::string& place, const std::string& name) {
@@ -217,7 +328,8 @@ void GeoJsonReader::read_volume(const json& volume, const std::string& place, co
     add_polygon(list(projection, "coordinates", place), place, name, heights);
   } else if (type == "Circle") {
     // Readers differ on whether the unit of the heights is that of the radius too.
-    const bool may_be_feet = unit_of(volume, kVolumeKeys.unit, place) != 1;
+    const std::string unit = word_in(find_member(&volume, kVolumeKeys.unit));
+    const bool may_be_feet = !is_word(unit, "m");
     add_circle(list(projection, "center", place), member(projection, "radius", place), may_be_feet, place, name,
                heights);
   } else {
@@ -226,23 +338,21 @@ void GeoJsonReader::read_volume(const json& volume, const std::string& place, co
 }
 
 double GeoJsonReader::unit_of(const json& layer, const char* key, const std::string& place) const {
-  const json& unit = member(layer, key, place);
-  const std::string text = unit.is_string() ? io::clean_name(unit.get_ref<const std::string&>()) : "";
-  if (text == "m" || text == "M") return 1;
-  if (text == "ft" || text == "FT") return kFootM;
+  const std::string text = word_in(&member(layer, key, place));
+  if (is_word(text, "m")) return 1;
+  if (is_word(text, "ft")) return kFootM;
   fail(place, std::string("\"") + key + "\" is " + in_quotes(text), "give heights in 'm' or in 'ft'",
        ErrorCode::value_unsupported);
 }
 
 /// A height that is missing is no bound.
 std::optional<ZoneHeight> GeoJsonReader::height(const json& layer, const char* key, const char* reference,
-                                                double unit_m, const std::string& place) const {
-  const auto value = layer.find(key);
-  if (value == layer.end() || value->is_null()) return std::nullopt;
+                                                const char* unit, const std::string& place) const {
+  const json* const value = find_member(&layer, key);
+  if (value == nullptr) return std::nullopt;
   ZoneHeight height;
-  height.metres = number(*value, std::string("\"") + key + "\"", place) * unit_m;
-  const json& from = member(layer, reference, place);
-  const std::string text = from.is_string() ? io::clean_name(from.get_ref<const std::string&>()) : "";
+  height.metres = number(*value, std::string("\"") + key + "\"", place) * unit_of(layer, unit, place);
+  const std::string text = word_in(&member(layer, reference, place));
   if (text == "AMSL") {
     height.from = HeightReference::sea_level;
   } else if (text == "AGL") {
@@ -258,12 +368,15 @@ std::optional<ZoneHeight> GeoJsonReader::height(const json& layer, const char* k
 
 GeoJsonReader::Heights GeoJsonReader::heights_of(const json& layer, const HeightKeys& keys,
                                                  const std::string& place) const {
-  if (!layer.is_object()) fail(place, "\"layer\" is not an object");
   Heights heights;
   heights.are_given = true;
-  const double unit_m = unit_of(layer, keys.unit, place);
-  heights.lower = height(layer, keys.lower, keys.lower_reference, unit_m, place);
-  heights.upper = height(layer, keys.upper, keys.upper_reference, unit_m, place);
+  try {
+    if (!layer.is_object()) fail(place, "\"layer\" is not an object");
+    heights.lower = height(layer, keys.lower, keys.lower_reference, keys.unit, place);
+    heights.upper = height(layer, keys.upper, keys.upper_reference, keys.unit, place);
+  } catch (const Error& error) {
+    heights.fault = error.with_fix(error.fix() + ", or write 'heights: any' beside 'file'");
+  }
   return heights;
 }
 
@@ -277,24 +390,35 @@ ListedRing GeoJsonReader::ring(const json& positions, const std::string& place) 
   if (!positions.is_array()) fail(place, "a ring is not an array of positions");
   ListedRing closed;
   for (const json& numbers : positions) {
+    progress_.tick();
     closed.corners.push_back(position(numbers, place));
-    const bool has_height = numbers.size() > 2 && numbers[2].is_number();
-    closed.z_m.push_back(has_height ? number(numbers[2], "a height", place) : std::nan(""));
+    closed.z_m.push_back(numbers.size() > 2 ? number_in(numbers[2]).value_or(std::nan("")) : std::nan(""));
   }
   return opened_ring(closed, file_, place);
 }
 
-void GeoJsonReader::add_polygon(const json& rings, const std::string& place, const std::string& name,
-                                const Heights& heights) {
-  if (!rings.is_array() || rings.empty()) fail(place, "a polygon is not an array of rings");
+ListedZone GeoJsonReader::zone_of(const std::string& place, const std::string& name, const Heights& heights) const {
   ListedZone zone;
   zone.name = name.empty() ? std::to_string(feature_) : name;
   zone.names = names_;
   zone.place = place;
   zone.feature = feature_;
+  zone.is_inclusion = is_inclusion_;
   zone.lower = heights.lower;
   zone.upper = heights.upper;
   zone.has_heights = heights.are_given;
+  zone.heights_fault = heights.fault;
+  return zone;
+}
+
+void GeoJsonReader::add_polygon(const json& rings, const std::string& place, const std::string& name,
+                                const Heights& heights) {
+  if (!rings.is_array()) fail(place, "a polygon is not an array of rings");
+  if (rings.empty() || (rings[0].is_array() && rings[0].empty())) {
+    ++result_.left_out[kEmptyArea];
+    return;
+  }
+  ListedZone zone = zone_of(place, name, heights);
   for (std::size_t i = 0; i < rings.size(); ++i) {
     add_ring(ring(rings[i], place), i == 0, zone);
   }
@@ -303,14 +427,7 @@ void GeoJsonReader::add_polygon(const json& rings, const std::string& place, con
 
 void GeoJsonReader::add_circle(const json& centre, const json& radius, bool may_be_feet, const std::string& place,
                                const std::string& name, const Heights& heights) {
-  ListedZone zone;
-  zone.name = name.empty() ? std::to_string(feature_) : name;
-  zone.names = names_;
-  zone.place = place;
-  zone.feature = feature_;
-  zone.lower = heights.lower;
-  zone.upper = heights.upper;
-  zone.has_heights = heights.are_given;
+  ListedZone zone = zone_of(place, name, heights);
   const double length = number(radius, "\"radius\"", place);
   if (!(length > 0)) fail(place, "the radius is not above 0", "correct it", ErrorCode::value_out_of_range);
   zone.circle = ListedCircle{position(centre, place), may_be_feet ? kFootM * length : length, length};
@@ -319,6 +436,18 @@ void GeoJsonReader::add_circle(const json& centre, const json& radius, bool may_
 
 }  // namespace
 
-ZoneList geojson_zones(const json& root, const std::filesystem::path& file) { return GeoJsonReader(file).read(root); }
+ZoneList geojson_zones(const json& root, const std::filesystem::path& file, const core::ProgressReporter& progress) {
+  return GeoJsonReader(file, progress).read(root);
+}
+
+std::optional<double> number_in(const json& value) {
+  std::optional<double> number;
+  if (value.is_number()) number = value.get<double>();
+  if (value.is_string()) {
+    const ParsedNumber parsed = parse_number(value.get_ref<const std::string&>());
+    if (parsed.fault == NumberFault::none) number = parsed.value;
+  }
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
 
 }  // namespace vantage::internal::app

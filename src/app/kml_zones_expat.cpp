@@ -1,11 +1,16 @@
 // KML 2.2 (OGC 07-147r2): the polygons of all placemarks. XML is read with Expat, as maps are.
 #include <expat.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +20,122 @@
 
 namespace vantage::internal::app {
 namespace {
+
+/// A polygon of a placemark, with what its altitudes say.
+struct DrawnPolygon {
+  ListedZone zone;
+  double low_m = INFINITY, high_m = -INFINITY;
+  bool is_absolute = false, has_all_altitudes = true;
+  std::optional<Error> fault;
+
+  bool is_level() const { return has_all_altitudes && low_m == high_m; }
+};
+
+/// Whether its corners lie on one line in plan, as far as positions are exact: 0.1 mm.
+bool is_upright(const Zone::Ring& ring) {
+  constexpr double kExactDeg = 1e-9;
+  if (ring.size() < 3) return true;
+  const Eigen::Vector2d& first = ring.front();
+  const auto nearer = [&](const auto& a, const auto& b) { return (a - first).norm() < (b - first).norm(); };
+  const Eigen::Vector2d along = *std::max_element(ring.begin(), ring.end(), nearer) - first;
+  return std::all_of(ring.begin(), ring.end(), [&](const Eigen::Vector2d& p) {
+    const Eigen::Vector2d to = p - first;
+    return std::abs(along.x() * to.y() - along.y() * to.x()) <= kExactDeg * along.norm();
+  });
+}
+
+using Corner = std::pair<double, double>;
+using CornerSet = std::set<Corner>;
+using SideSet = std::set<std::pair<Corner, Corner>>;
+
+/// The sides of its rings, in no direction.
+SideSet sides_of(const ListedZone& zone) {
+  SideSet sides;
+  const auto add = [&](const Zone::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      sides.insert(std::minmax(Corner(a.x(), a.y()), Corner(b.x(), b.y())));
+    }
+  };
+  add(zone.outer);
+  for (const Zone::Ring& hole : zone.holes) add(hole);
+  return sides;
+}
+
+CornerSet corners_of(const SideSet& sides) {
+  CornerSet corners;
+  for (const auto& [a, b] : sides) corners.insert({a, b});
+  return corners;
+}
+
+/// One zone of a floor, a ceiling and walls, which say how high it is if floor and ceiling are level.
+ListedZone joined_solid(const std::vector<DrawnPolygon>& levels, const std::vector<DrawnPolygon>& walls) {
+  double low = INFINITY, high = -INFINITY;
+  bool are_known = true, reaches_ground = false;
+  for (const std::vector<DrawnPolygon>* const faces : {&levels, &walls}) {
+    for (const DrawnPolygon& face : *faces) {
+      low = std::min(low, face.low_m);
+      high = std::max(high, face.high_m);
+      are_known = are_known && face.is_absolute && face.has_all_altitudes;
+      reaches_ground = reaches_ground || face.zone.has_heights;
+    }
+  }
+  for (const DrawnPolygon& level : levels) {
+    are_known = are_known && level.is_level() && (level.low_m == low || level.low_m == high);
+  }
+  ListedZone zone = levels.front().zone;
+  zone.is_solid = true;
+  zone.has_heights = are_known && low < high;
+  zone.lower = zone.upper = std::nullopt;
+  if (!zone.has_heights) {
+    zone.unused_heights = ": its floor and its ceiling are not level above the sea";
+    return zone;
+  }
+  if (!reaches_ground) zone.lower = ZoneHeight{low, HeightReference::sea_level};
+  zone.upper = ZoneHeight{high, HeightReference::sea_level};
+  return zone;
+}
+
+/// The zones of a placemark: walls go to the polygons above or below which all their corners lie. Those that are of no
+/// solid stay as they are.
+std::vector<ListedZone> joined_solids(std::vector<DrawnPolygon> drawn) {
+  struct Solid {
+    CornerSet corners;
+    std::vector<DrawnPolygon> levels, walls;
+  };
+  std::vector<Solid> solids;
+  std::map<SideSet, std::size_t> solid_of;
+  std::map<Corner, std::vector<std::size_t>> solids_at;
+  const auto first_wall = std::stable_partition(drawn.begin(), drawn.end(),
+                                                [](const DrawnPolygon& one) { return !is_upright(one.zone.outer); });
+  for (auto level = drawn.begin(); level != first_wall; ++level) {
+    const auto [found, is_new] = solid_of.try_emplace(sides_of(level->zone), solids.size());
+    if (is_new) {
+      solids.push_back({corners_of(found->first), {}, {}});
+      for (const Corner& corner : solids.back().corners) solids_at[corner].push_back(found->second);
+    }
+    solids[found->second].levels.push_back(std::move(*level));
+  }
+  std::vector<ListedZone> zones;
+  for (auto wall = first_wall; wall != drawn.end(); ++wall) {
+    const CornerSet feet = corners_of(sides_of(wall->zone));
+    bool is_of_solid = false;
+    for (const std::size_t solid : solids_at[*feet.begin()]) {
+      const CornerSet& corners = solids[solid].corners;
+      if (!std::includes(corners.begin(), corners.end(), feet.begin(), feet.end())) continue;
+      is_of_solid = true;
+      solids[solid].walls.push_back(*wall);
+    }
+    if (!is_of_solid) zones.push_back(std::move(wall->zone));
+  }
+  for (Solid& solid : solids) {
+    if (!solid.walls.empty()) zones.push_back(joined_solid(solid.levels, solid.walls));
+    if (solid.walls.empty()) {
+      for (DrawnPolygon& level : solid.levels) zones.push_back(std::move(level.zone));
+    }
+  }
+  return zones;
+}
 
 class KmlReader {
  public:
@@ -62,8 +183,10 @@ class KmlReader {
 
   void start(const std::string& name);
   void end(const std::string& name);
+  void end_boundary();
+  void end_line();
   void end_polygon();
-  ListedRing ring_of(const ListedRing& positions);
+  void end_placemark();
   ListedRing positions() const;
   bool is_in(const char* name) const { return !open_.empty() && open_.back() == name; }
   std::string place() const { return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())); }
@@ -78,10 +201,9 @@ class KmlReader {
   std::exception_ptr error_;
   std::vector<std::string> open_;
   std::string text_, name_, altitude_mode_, extrude_;
-  std::optional<ListedZone> zone_;  // of the polygon that is open
-  std::optional<double> altitude_m_;
-  bool is_level_ = true;
-  std::size_t placemarks_ = 0;
+  std::optional<DrawnPolygon> polygon_;  // that is open
+  std::vector<DrawnPolygon> drawn_;      // of the placemark that is open
+  std::size_t placemarks_ = 0, polygons_ = 0;
   ZoneList result_;
 };
 
@@ -91,6 +213,7 @@ ZoneList KmlReader::read(std::string_view text) {
   if (status != XML_STATUS_OK) {
     fail(std::string("the XML is broken: ") + XML_ErrorString(XML_GetErrorCode(parser_.get())), "save the file anew");
   }
+  end_placemark();
   return std::move(result_);
 }
 
@@ -104,20 +227,20 @@ void KmlReader::start(const std::string& name) {
   open_.push_back(name);
   text_.clear();
   if (name == "Placemark") {
+    end_placemark();
     name_.clear();
     ++placemarks_;
   }
   if (name == "Polygon") {
-    if (zone_) fail("a polygon is inside of another one");
-    zone_.emplace();
-    if (!name_.empty()) zone_->names = {name_};
-    zone_->name = name_.empty() ? std::to_string(result_.zones.size()) : name_;
-    zone_->place = place();
-    zone_->feature = placemarks_ > 0 ? placemarks_ - 1 : 0;
+    if (polygon_) fail("a polygon is inside of another one");
+    ListedZone& zone = polygon_.emplace().zone;
+    if (!name_.empty()) zone.names = {name_};
+    zone.name = name_.empty() ? std::to_string(polygons_) : name_;
+    zone.place = place();
+    zone.feature = placemarks_ > 0 ? placemarks_ - 1 : 0;
+    ++polygons_;
     altitude_mode_.clear();
     extrude_.clear();
-    altitude_m_.reset();
-    is_level_ = true;
   }
 }
 
@@ -127,20 +250,67 @@ void KmlReader::end(const std::string& name) {
   if (name == "name" && is_in("Placemark")) name_ = io::clean_name(text_);
   if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
   if (name == "extrude" && is_in("Polygon")) extrude_ = io::clean_name(text_);
-  if (name == "coordinates" && is_in("LinearRing") && zone_) {
-    const std::string around = open_.size() > 1 ? open_[open_.size() - 2] : "";
-    const bool is_outer = around == "outerBoundaryIs";
-    if (!is_outer && around != "innerBoundaryIs")
-      fail("a ring of a polygon is neither its outer nor an inner boundary");
-    if (is_outer && !zone_->outer.empty()) fail("a polygon has two outer boundaries");
-    add_ring(ring_of(positions()), is_outer, *zone_);
+  if (name == "coordinates" && is_in("LinearRing") && polygon_) {
+    try {
+      end_boundary();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::input) throw;
+      if (!polygon_->fault) polygon_->fault = error;
+    }
   }
   if (name == "Polygon") end_polygon();
+  if (name == "Placemark") end_placemark();
   if (name == "Point") ++result_.left_out["point"];
-  if (name == "LineString" || name == "Track" || (name == "LinearRing" && !zone_)) ++result_.left_out["line"];
-  if (name == "Model") ++result_.left_out["model"];
-  if (name == "NetworkLink") ++result_.left_out["link to another file"];
+  if (name == "coordinates" && !polygon_ && (is_in("LineString") || is_in("LinearRing"))) end_line();
+  if (name == "Track") ++result_.left_out["line"];
+  if (name == "GroundOverlay") ++result_.left_out["image"];
+  if (name == "Model" || name == "NetworkLink") {
+    ListedZone zone;
+    if (is_in("Placemark") && !name_.empty()) zone.names = {name_};
+    zone.name = zone.place = place();
+    zone.feature = static_cast<std::size_t>(-1);  // of none
+    const bool is_link = name == "NetworkLink";
+    const Error fault(ErrorCode::value_unsupported,
+                      is_link ? "a link to another file is not followed" : "a model of another file is not read",
+                      file_.string() + ", " + zone.place,
+                      is_link ? "name that file in the mission, too" : "draw it as a polygon");
+    leave_unread(std::move(zone), fault, result_);
+  }
   text_.clear();
+}
+
+void KmlReader::end_line() {
+  constexpr std::size_t kFewest = 4;
+  Zone::Ring line;
+  try {
+    line = positions().corners;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;  // else it is a line, whatever is wrong with it
+  }
+  if (line.size() < kFewest || line.front() != line.back()) {
+    ++result_.left_out["line"];
+    return;
+  }
+  ListedZone zone;
+  if (!name_.empty()) zone.names = {name_};
+  zone.name = name_.empty() ? place() : name_;
+  zone.place = place();
+  leave_closed_line(std::move(zone), file_, result_);
+}
+
+void KmlReader::end_boundary() {
+  const std::string around = open_.size() > 1 ? open_[open_.size() - 2] : "";
+  const bool is_outer = around == "outerBoundaryIs";
+  if (!is_outer && around != "innerBoundaryIs") fail("a ring of a polygon is neither its outer nor an inner boundary");
+  if (is_outer && !polygon_->zone.outer.empty()) fail("a polygon has two outer boundaries");
+  const ListedRing corners = positions();
+  if (corners.corners.empty()) return;
+  for (const double altitude_m : corners.z_m) {
+    polygon_->has_all_altitudes = polygon_->has_all_altitudes && !std::isnan(altitude_m);
+    polygon_->low_m = std::fmin(polygon_->low_m, altitude_m);
+    polygon_->high_m = std::fmax(polygon_->high_m, altitude_m);
+  }
+  add_ring(opened_ring(corners, file_, place()), is_outer, polygon_->zone);
 }
 
 /// A polygon at one height above the sea, extruded to the ground, is a zone below that height. At other heights it is a
@@ -148,27 +318,33 @@ void KmlReader::end(const std::string& name) {
 /// and the surface between them does not follow the ground: to keep out of what is so far above the ground would be too
 /// little over a valley, and to stay in it too much over a hill. So these heights are not used either.
 void KmlReader::end_polygon() {
-  if (zone_->outer.empty()) fail("a polygon has no outer boundary");
-  const bool is_above_ground = altitude_mode_ == "relativeToGround", is_absolute = altitude_mode_ == "absolute";
-  if (is_absolute && (extrude_ == "1" || extrude_ == "true") && is_level_ && altitude_m_) {
-    zone_->has_heights = true;
-    zone_->upper = ZoneHeight{*altitude_m_, HeightReference::sea_level};
-  } else if (is_above_ground && altitude_m_) {
-    zone_->unused_heights = ": altitudes that are relativeToGround are those of its corners alone";
+  DrawnPolygon polygon = std::move(*polygon_);
+  polygon_.reset();
+  ListedZone& zone = polygon.zone;
+  if (polygon.fault) {
+    leave_unread(std::move(zone), *polygon.fault, result_);
+    return;
   }
-  if (is_absolute) zone_->corners_from = HeightReference::sea_level;
-  if (is_above_ground) zone_->corners_from = HeightReference::ground;
-  if (!is_absolute && !is_above_ground) zone_->corner_z_m.clear();  // clamped to the ground
-  result_.zones.push_back(std::move(*zone_));
-  zone_.reset();
+  if (zone.outer.empty()) {
+    ++result_.left_out[kEmptyArea];
+    return;
+  }
+  const bool is_above_ground = altitude_mode_ == "relativeToGround", has_altitude = polygon.low_m < INFINITY;
+  polygon.is_absolute = altitude_mode_ == "absolute";
+  if (polygon.is_absolute && (extrude_ == "1" || extrude_ == "true") && polygon.is_level()) {
+    zone.has_heights = true;
+    zone.upper = ZoneHeight{polygon.low_m, HeightReference::sea_level};
+  } else if (is_above_ground && has_altitude) {
+    zone.unused_heights = ": altitudes that are relativeToGround are those of its corners alone";
+  }
+  if (polygon.is_absolute) zone.corners_from = HeightReference::sea_level;
+  if (is_above_ground) zone.corners_from = HeightReference::ground;
+  if (!polygon.is_absolute && !is_above_ground) zone.corner_z_m.clear();  // clamped to the ground
+  drawn_.push_back(std::move(polygon));
 }
 
-ListedRing KmlReader::ring_of(const ListedRing& positions) {
-  for (const double altitude_m : positions.z_m) {
-    if (!altitude_m_ && !std::isnan(altitude_m)) altitude_m_ = altitude_m;
-    is_level_ = is_level_ && altitude_m_ && *altitude_m_ == altitude_m;
-  }
-  return opened_ring(positions, file_, place());
+void KmlReader::end_placemark() {
+  for (ListedZone& zone : joined_solids(std::exchange(drawn_, {}))) result_.zones.push_back(std::move(zone));
 }
 
 /// "longitude,latitude[,altitude]", with blanks between them and none within.
@@ -180,6 +356,7 @@ ListedRing KmlReader::positions() const {
     const std::size_t begin = rest.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) return positions;
     rest.remove_prefix(begin);
+    progress_.tick();
     const std::string_view tuple = rest.substr(0, rest.find_first_of(kBlanks));
     rest.remove_prefix(tuple.size());
     double numbers[3] = {0, 0, 0};

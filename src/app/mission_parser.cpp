@@ -62,7 +62,23 @@ class MissionParser : private ValueReader {
   MissionFile mission_;
 };
 
+/// What a plan of a flight begins with, which is easily given in a mission's place; empty for other texts.
+std::string plan_in(std::string_view text) {
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of("\xEF\xBB\xBF \t\r\n")));
+  if (text.starts_with("QGC WPL")) return "a list of waypoints";
+  if (text.starts_with("PK\x03\x04")) return "a zip archive, as KMZ is";
+  if (text.starts_with('<')) return "XML, as GPX and KML are";
+  const bool is_json = text.starts_with('{') && text.find("\"fileType\"") != std::string_view::npos;
+  return is_json && text.find("\"Plan\"") != std::string_view::npos ? "a plan of QGroundControl" : "";
+}
+
 MissionFile MissionParser::parse(std::string_view mission_text) {
+  if (const std::string plan = plan_in(mission_text); !plan.empty()) {
+    const std::string name = path_.filename().string();
+    throw Error(ErrorCode::wrong_type, "the file is " + plan + ", and no mission", file(),
+                "to judge a flight give the mission, and then it: vantage check mission.yaml " + name +
+                    "; its zones are named in a mission: 'keep_out: [{file: " + name + "}]'");
+  }
   const YamlNode root = parse_yaml(mission_text, file());
   check_keys(root, "the mission", file());
   mission_.file = fs::absolute(path_);

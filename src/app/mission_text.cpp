@@ -287,7 +287,8 @@ class Writer {
       text += (text.empty() ? "" : ", ") + ("{file: " + path(file.file));
       if (file.z_m) text += ", z: " + list_of(*file.z_m);
       if (file.agl_m) text += ", agl: " + list_of(*file.agl_m);
-      text += file.any_height ? ", heights: any}" : "}";
+      if (file.any_height) text += ", heights: any";
+      text += file.skip ? ", skip: true}" : "}";
     }
     return "[" + text + "]";
   }

@@ -221,7 +221,7 @@ void NavigationParser::refuse_beside(const YamlNode& node, const char* key,
 Box NavigationParser::box(const YamlNode& node, const std::string& what) const {
   const YamlNode& min = require(node, "a zone", "min", kZoneForms);
   const YamlNode& max = require(node, "a zone", "max", kZoneForms);
-  refuse_beside(node, "min", {"holes", "z", "heights"});
+  refuse_beside(node, "min", {"holes", "z", "heights", "skip"});
   Box result;
   result.min = reader_.vector(min, what + ".min");
   result.max = reader_.vector(max, what + ".max");
@@ -230,7 +230,7 @@ Box NavigationParser::box(const YamlNode& node, const std::string& what) const {
 }
 
 Zone NavigationParser::polygon(const YamlNode& node, const std::string& what) const {
-  refuse_beside(node, "polygon", {"min", "max"});
+  refuse_beside(node, "polygon", {"min", "max", "skip"});
   Zone zone;
   zone.outer = reader_.ring(*find(node, "polygon"), what + ".polygon");
   if (const YamlNode* holes = find(node, "holes")) {
@@ -288,6 +288,7 @@ ZoneFile NavigationParser::file(const YamlNode& node, const YamlNode& named, con
   result.z_m = given.z_m;
   result.agl_m = given.agl_m;
   result.any_height = given.are_any;
+  if (const YamlNode* skip = find(node, "skip")) result.skip = reader_.flag(*skip, what + ".skip");
   if (given.z_m) refuse(core::fault_of_band((*given.z_m)[0], (*given.z_m)[1]), node, what + ".z");
   if (given.agl_m) refuse(core::fault_of_band((*given.agl_m)[0], (*given.agl_m)[1]), node, what + ".agl");
   return result;

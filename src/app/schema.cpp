@@ -43,7 +43,9 @@ const KeyList* owner_of(std::string_view key, const KeyList& known) {
 [[noreturn]] void fail_unknown(const YamlEntry& entry, const KeyList& list, const std::string& file) {
   const std::string_view nearest = nearest_name(entry.key, list.keys);
   const std::string known = " (keys of " + list.name + ": " + joined(list.keys) + ")";
-  std::string fix = "did you mean '" + std::string(nearest) + "'?" + known;
+  // Where most letters differ, no key is meant.
+  const bool is_like_one = 2 * edit_distance(entry.key, nearest) <= static_cast<int>(entry.key.size());
+  std::string fix = (is_like_one ? "did you mean '" + std::string(nearest) + "'?" : "take one of its keys") + known;
   // What {max_range: 1,000} holds.
   if (!entry.key.empty() && entry.key.find_first_not_of("0123456789") == std::string::npos)
     fix = "write numbers without a comma: 1000" + known;
@@ -80,9 +82,10 @@ void check_keys(const YamlNode& node, const KeyList& known, const std::string& f
     fail_at(ErrorCode::wrong_type, node, file, known.name + " must be a mapping of keys, not " + describe(node), fix);
   }
   for (const YamlEntry& entry : node.entries) {
-    if (std::find(known.keys.begin(), known.keys.end(), entry.key) == known.keys.end()) {
-      fail_unknown(entry, known, file);
-    }
+    const auto is_one_of = [&](const std::vector<std::string_view>& keys) {
+      return std::find(keys.begin(), keys.end(), entry.key) != keys.end();
+    };
+    if (!is_one_of(known.keys) && !is_one_of(known.old_keys)) fail_unknown(entry, known, file);
   }
 }
 

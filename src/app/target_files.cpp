@@ -98,6 +98,14 @@ const std::vector<ListedZone>& FeatureOfFile::chosen(const Features& features) c
 }
 
 std::vector<ListedZone> FeatureOfFile::polygons(ZoneList list) const {
+  const auto is_named = [&](const ListedZone& zone) {
+    const auto is_wanted = [&](const std::string& name) { return is_same_name(name, from_.feature); };
+    return std::to_string(zone.feature) == from_.feature ||
+           std::any_of(zone.names.begin(), zone.names.end(), is_wanted);
+  };
+  for (const UnreadZone& unread : list.unread) {
+    if (list.zones.empty() || is_named(unread.zone)) throw unread.fault;
+  }
   if (list.zones.empty()) {
     fail(ErrorCode::nothing_given, "", "the file has no areas",
          "give polygons: lines and points are no targets of a file");
@@ -105,9 +113,16 @@ std::vector<ListedZone> FeatureOfFile::polygons(ZoneList list) const {
   Features features;
   for (ListedZone& listed : list.zones) features[listed.feature].push_back(std::move(listed));
   std::vector<ListedZone> polygons = chosen(features);
+  for (const UnreadZone& unread : list.unread) {
+    if (unread.zone.feature == polygons.front().feature) throw unread.fault;  // a part of the target
+  }
   for (const ListedZone& listed : polygons) {
     if (listed.circle) {
       fail(ErrorCode::value_unsupported, listed.place, "the area is a circle", "give a polygon, of up to 64 corners");
+    }
+    if (listed.is_solid) {
+      fail(ErrorCode::value_unsupported, listed.place, "the area has a floor, a ceiling and walls",
+           "give one polygon, in a file of its own");
     }
   }
   return polygons;

@@ -109,6 +109,12 @@ std::vector<Eigen::Vector2d> ValueReader::ring(const YamlNode& node, const std::
   return corners;
 }
 
+bool ValueReader::flag(const YamlNode& node, const std::string& what) const {
+  const std::string word = text(node, what);
+  if (word == "true" || word == "false") return word == "true";
+  fail(ErrorCode::unknown_choice, node, what + " must be true or false, not " + in_quotes(word), "write true or false");
+}
+
 std::string ValueReader::text(const YamlNode& node, const std::string& what) const {
   if (node.kind != YamlNode::Kind::scalar || node.text.empty()) {
     fail(ErrorCode::wrong_type, node,

@@ -40,6 +40,7 @@ class ValueReader {
               const char* form = "write three numbers in brackets, in metres, z up: [x, y, z]") const;
   /// The corners of a polygon: two coordinates each.
   std::vector<Eigen::Vector2d> ring(const YamlNode& node, const std::string& what) const;
+  bool flag(const YamlNode& node, const std::string& what) const;
   std::string text(const YamlNode& node, const std::string& what) const;  ///< not empty, no control characters
   const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
 

@@ -30,13 +30,6 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 std::vector<std::filesystem::path> volume_files(const std::filesystem::path& file,
@@ -64,11 +57,11 @@ std::string table_csv(const std::vector<TableRow>& rows) {
     const Volume& volume = *row.volume;
     const bool has_volume = volume.outcome == Outcome::computed;
     const double lift = volume.lift_m.empty() ? 0 : *std::max_element(volume.lift_m.begin(), volume.lift_m.end());
-    text += field(row.target) + "," + name_of(volume.outcome) + "," + field(volume.reason) + ",";
+    text += csv_field(row.target) + "," + name_of(volume.outcome) + "," + csv_field(volume.reason) + ",";
     text += shortest(row.measures->volume_m3) + "," + shortest(row.measures->area_m2) + ",";
     text += std::to_string(row.measures->facets) + "," + std::to_string(row.measures->pieces) + ",";
     text += shortest(lift) + "," + shortest(volume.seconds.total) + ",";
-    text += (has_volume ? field(row.file.filename().string()) : "") + "\n";
+    text += (has_volume ? csv_field(row.file.filename().string()) : "") + "\n";
   }
   return text;
 }

@@ -12,7 +12,8 @@
 namespace vantage::internal::app {
 namespace {
 
-constexpr const char* kZoneFileAdvice = "give GeoJSON, ED-269, ED-318, KML, KMZ, or a .plan of QGroundControl";
+constexpr const char* kZoneFileAdvice =
+    "give GeoJSON, ED-269, ED-318, KML, KMZ, a .plan of QGroundControl, or .waypoints with a fence";
 
 std::string_view without_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
@@ -53,14 +54,29 @@ ZoneList parse_zones(std::string_view text, const std::filesystem::path& file, c
   text = without_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const char begin = first == std::string_view::npos ? '\0' : text[first];
-  if (begin == '<') return parse_kml_zones(text, file, progress);
+  const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  if (begin == '<' || is_utf16) return parse_kml_zones(text, file, progress);
   if (io::is_zip(text)) return parse_zones(kml_of_archive(text, file), file, progress);
-  if (begin != '{') {
-    fail_in_zones(ErrorCode::zone_file_syntax, file, "", "not a file of zones: it is neither a JSON object nor XML",
-                  kZoneFileAdvice);
+  if (text.starts_with("QGC WPL")) return waypoint_zones(text, file, progress);
+  if (begin != '{' && begin != '[') {
+    fail_in_zones(ErrorCode::zone_file_syntax, file, "",
+                  "not a file of zones: it is neither JSON nor XML, and no list of waypoints", kZoneFileAdvice);
   }
   const nlohmann::json root = json_of_zones(text, file, progress);
-  return root.contains("geoFence") ? plan_zones(root, file) : geojson_zones(root, file);
+  return root.contains("geoFence") ? plan_zones(root, file) : geojson_zones(root, file, progress);
+}
+
+void leave_unread(ListedZone zone, const Error& fault, ZoneList& list) {
+  if (fault.kind() != ErrorKind::input || list.unread.size() >= Navigation::kMostZones) throw fault;
+  list.unread.push_back({std::move(zone), fault});
+}
+
+void leave_closed_line(ListedZone zone, const std::filesystem::path& file, ZoneList& list) {
+  zone.is_inclusion = false;
+  zone.feature = static_cast<std::size_t>(-1);  // of none
+  const Error fault(ErrorCode::value_unsupported, "the line is closed, and may be meant as an area",
+                    file.string() + ", " + zone.place, "write it as a polygon");
+  leave_unread(std::move(zone), fault, list);
 }
 
 void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,

@@ -46,6 +46,8 @@ struct ListedZone {
   std::optional<ZoneHeight> lower, upper;  ///< nothing: without that bound
   bool has_heights = false;                ///< the file says between which heights; else it says nothing of them
   std::string unused_heights;              ///< what else it says of heights, and why that is not used; for messages
+  std::optional<Error> heights_fault;      ///< why its heights cannot be used; it has some then
+  bool is_solid = false;                   ///< the file draws a floor, a ceiling and walls: no target
   std::optional<bool> is_inclusion;        ///< of a fence: to stay in or out
   /// Of the corners themselves, of `outer` and then of the holes; empty where the file has none, or says to ignore
   /// them. Not a number for a corner without, beside others with one. They are no bounds of a zone.
@@ -53,21 +55,38 @@ struct ListedZone {
   std::optional<HeightReference> corners_from;  ///< nothing: the file leaves open from where they are measured
 };
 
+/// An area whose outline cannot be read, or what may be one. Of ListedZone's members it has the names, the place, the
+/// feature and `is_inclusion`.
+struct UnreadZone {
+  ListedZone zone;
+  Error fault;
+};
+inline constexpr const char* kEmptyArea = "empty area";
+inline constexpr const char* kDisabledArea = "disabled area";
+
 struct ZoneList {
   std::vector<ListedZone> zones;
-  std::map<std::string, std::size_t> left_out;  ///< what is no area, by what it is: "point", "line"
+  std::vector<UnreadZone> unread;
+  std::map<std::string, std::size_t> left_out;  ///< what bounds nothing, by what it is: "point", "line", kEmptyArea
   bool has_no_heights = false;                  ///< the format has none: its zones are without bounds
 };
 
 /// Of a file of zones, decompressed or not: national zones have some ten megabytes.
 inline constexpr std::uintmax_t kMostZoneBytes = 64'000'000;
 
-/// The zones of GeoJSON (RFC 7946), of UAS zones in ED-269 and ED-318, of KML, also in a KMZ archive, and of a plan of
-/// QGroundControl. The format is told by the content. `file` is for messages. Throws Error(zone_file_syntax) with the
-/// place for what is none of these, or breaks its rules; Error(input) for values that cannot be used; Error(cancelled)
-/// when told to stop.
+/// The zones of GeoJSON (RFC 7946), of UAS zones in ED-269 and ED-318, of KML, also in a KMZ archive, of a plan of
+/// QGroundControl, and of a list of waypoints with a fence of ArduPilot. The format is told by the content. `file` is
+/// for messages. What is wrong with one area is told in `unread`. Throws Error(zone_file_syntax) with the place for
+/// what is none of these formats; Error(input) for positions of another system; Error(cancelled) when told to stop.
 ZoneList parse_zones(std::string_view text, const std::filesystem::path& file,
                      const core::ProgressReporter& progress = {});
+
+/// For readers: keeps a fault of one area. Throws it where it is not of the file, and where the file has more of them
+/// than zones are possible.
+void leave_unread(ListedZone zone, const Error& fault, ZoneList& list);
+
+/// For readers: a line that is closed may be meant as an area to stay out of, and is none to stay in or of a target.
+void leave_closed_line(ListedZone zone, const std::filesystem::path& file, ZoneList& list);
 
 /// For readers: throws Error(input) with the file and the place in it.
 [[noreturn]] void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,

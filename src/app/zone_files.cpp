@@ -1,6 +1,8 @@
 #include "app/zone_files.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -55,17 +57,31 @@ class FileZones {
   void add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress);
 
  private:
+  /// What was not taken.
+  struct Left {
+    std::size_t other_fences = 0, far = 0, swapped = 0;
+    std::vector<std::string> skipped;
+    std::optional<Error> fault;  // of the first of these
+    double nearest_m = kInfinity;
+  };
+
+  bool add_one(const ListedZone& listed, bool has_none, std::vector<Zone>& zones);
+  void add_zone(Zone zone, const std::string& name, const ListedZone& listed, std::vector<Zone>& zones);
+  void skip(const ListedZone& listed, const Error& fault);
+  bool may_be_empty(const ZoneList& list) const;
+  [[noreturn]] void fail_for_nothing() const;
   bool is_for_use(const ListedZone& listed) const {
     return !listed.is_inclusion || *listed.is_inclusion == (use_ == ZoneUse::keep_in);
   }
-  Zone placed(const ListedZone& listed, bool has_none) const;
+  Zone placed(const ListedZone& listed, Zone zone) const;
+  ListedZone near_part(const ListedZone& listed) const;
   Zone::Ring circle(const ListedCircle& circle, double z_m, double lean_m) const;
   void add_heights(const ListedZone& listed, bool has_none, Zone& zone) const;
   double z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const;
   double distance_m(const ListedZone& listed) const;
   Zone::Ring unwrapped(Zone::Ring ring, const std::string& place) const;
   bool seems_swapped(const ListedZone& listed) const;
-  void note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far, std::size_t swapped) const;
+  void note_left_out(const ZoneList& list) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& place, const std::string& problem,
                          const std::string& fix) const {
     fail_in_zones(code, file_.file, place, problem, fix);
@@ -86,6 +102,8 @@ class FileZones {
   ZoneUse use_;
   const geo::OnGlobe& globe_;
   ZoneWalls walls_;
+  Left left_;
+  std::set<std::string> names_;
 };
 
 /// Sides may cross the antimeridian: each is taken the short way round, and all of the ring is turned to be nearest to
@@ -217,10 +235,28 @@ void FileZones::add_heights(const ListedZone& listed, bool has_none, Zone& zone)
                        {}};
 }
 
-/// Between its heights, those of the file converted to z.
-Zone FileZones::placed(const ListedZone& listed, bool has_none) const {
+/// Whether rings touch each other, or cross by rounding, and are sound by themselves: holes that touch the outline are
+/// valid in GIS.
+bool only_touches(const Zone& zone) {
+  if (zone.holes.empty()) return false;
+  const auto is_sound = [](const Zone::Ring& ring) {
+    Zone alone;
+    alone.outer = ring;
+    return !core::fault_of(alone);
+  };
+  return is_sound(zone.outer) && std::all_of(zone.holes.begin(), zone.holes.end(), is_sound);
+}
+
+bool has_touching_holes(const ListedZone& listed) {
   Zone zone;
-  add_heights(listed, has_none, zone);
+  zone.outer = listed.outer;
+  zone.holes = listed.holes;
+  return !listed.holes.empty() && core::fault_of(zone) && only_touches(zone);
+}
+
+/// `zone` has its heights, and gets its rings.
+Zone FileZones::placed(const ListedZone& listed, Zone zone) const {
+  constexpr double kTouchM = 0.05;  // seven decimals of a degree are a centimetre
   const Heights heights{zone.min_z_m, zone.max_z_m};
   const double middle = walls_.middle_z_m(heights);
   const ToFrame to_frame = [&](const Point& p) { return globe_.at_z({p.x(), p.y()}, middle); };
@@ -242,11 +278,13 @@ Zone FileZones::placed(const ListedZone& listed, bool has_none) const {
   } else {
     zone.outer = unwrapped(listed.outer, listed.place);
     for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole, listed.place));
-    if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
+    const auto fault = core::fault_of(zone);
+    // To stay out of, holes shrink, and come apart from what they touch.
+    const bool come_apart = fault && use_ == ZoneUse::keep_out && only_touches(zone);
+    if (fault && !come_apart) fail(fault->code, listed.place, fault->problem, fault->fix);
     extent = extent_of(zone.outer, to_frame);
-    zone = in_file(listed, [&] {
-      return placed_zone(zone, use_, to_frame, kLonLatAdvice, walls_.lean_m(heights, extent.farthest_m));
-    });
+    const double margin = walls_.lean_m(heights, extent.farthest_m) + (come_apart ? kTouchM : 0);
+    zone = in_file(listed, [&] { return placed_zone(zone, use_, to_frame, kLonLatAdvice, margin); });
   }
   if (file_.z_m || file_.any_height) return zone;
   const Heights z = in_file(listed, [&] { return walls_.z_of(heights, extent, use_); });
@@ -255,83 +293,203 @@ Zone FileZones::placed(const ListedZone& listed, bool has_none) const {
   return zone;
 }
 
-void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far,
-                              std::size_t swapped) const {
+/// Whether the ring is the border of a box of longitudes and latitudes.
+bool is_border(const Zone::Ring& ring, const Eigen::AlignedBox2d& box) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    const bool along_x = a.y() == b.y() && (a.y() == box.min().y() || a.y() == box.max().y());
+    const bool along_y = a.x() == b.x() && (a.x() == box.min().x() || a.x() == box.max().x());
+    if (!along_x && !along_y) return false;
+  }
+  return true;
+}
+
+/// Of a belt round the world, as masks that leave out a country are: what of it lies near the scene, with the holes
+/// that are there. Other zones stay as they are.
+ListedZone FileZones::near_part(const ListedZone& listed) const {
+  constexpr double kRound = 359, kFarthestLatitude = 75, kDegreeM = 111e3;
+  constexpr int kParts = 8;  // of a side: long ones curve
+  Eigen::AlignedBox2d all;
+  for (const Point& p : listed.outer) all.extend(p);
+  if (listed.circle || !(all.sizes().x() >= kRound) || !is_border(listed.outer, all)) return listed;
+  const Point origin(globe_.map().origin().longitude_deg, globe_.map().origin().latitude_deg);
+  const double reach_deg = farthest_viewpoint_m(mission_) / kDegreeM;
+  for (double reach = 2; reach < 16 && std::abs(origin.y()) < kFarthestLatitude; reach *= 2) {
+    if (reach < 1.5 * reach_deg) continue;
+    const double wide = reach / std::cos((std::abs(origin.y()) + reach) * std::numbers::pi / 180);
+    const Point half(std::min(wide, 80.0), reach);
+    Eigen::AlignedBox2d near(origin - half, origin + half);
+    near.min().y() = std::clamp(near.min().y(), all.min().y(), all.max().y());
+    near.max().y() = std::clamp(near.max().y(), all.min().y(), all.max().y());
+    if (near.sizes().y() <= 0) return listed;
+    ListedZone part = listed;
+    part.outer.clear();
+    part.holes.clear();
+    const std::array<Point, 4> corners = {
+        near.min(), {near.max().x(), near.min().y()}, near.max(), {near.min().x(), near.max().y()}};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (int k = 0; k < kParts; ++k) {
+        part.outer.push_back(corners[i] + (corners[(i + 1) % corners.size()] - corners[i]) * k / kParts);
+      }
+    }
+    bool fits = true;
+    for (const Zone::Ring& hole : listed.holes) {
+      Eigen::AlignedBox2d of_hole;
+      for (const Point& p : unwrapped(hole, listed.place)) of_hole.extend(p);
+      if (!near.intersects(of_hole)) continue;
+      fits = fits && near.contains(of_hole);
+      part.holes.push_back(hole);
+    }
+    if (fits) return part;
+  }
+  return listed;
+}
+
+void FileZones::note_left_out(const ZoneList& list) const {
   std::string what;
   const auto add = [&](std::size_t count, const std::string& one, const std::string& many) {
     if (count == 0) return;
     what += (what.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? one : many);
   };
-  for (const auto& [kind, count] : list.left_out) {
-    const bool is_phrase = kind.find(' ') != std::string::npos;
-    add(count, kind, is_phrase ? kind : kind + "s");
-  }
+  for (const auto& [kind, count] : list.left_out) add(count, kind, kind + "s");
   const bool is_kept = use_ == ZoneUse::keep_in;
   const MissionFile& mission = mission_.as_written;
   const std::vector<ZoneFile>& others = is_kept ? mission.keep_out_files : mission.keep_in_files;
   const bool takes_others =
       std::any_of(others.begin(), others.end(), [this](const ZoneFile& other) { return other.file == file_.file; });
   if (!takes_others) {
-    add(other_fences, is_kept ? "fence to stay out of" : "fence to stay in",
+    add(left_.other_fences, is_kept ? "fence to stay out of" : "fence to stay in",
         is_kept ? "fences to stay out of" : "fences to stay in");
   }
-  add(far, "zone beyond the reach of the sensor", "zones beyond the reach of the sensor");
-  if (what.empty()) return;
-  if (swapped > 0) {
-    what +=
-        "; longitude and latitude of " + std::to_string(swapped) + " of these seem to be swapped, so check the file";
+  add(left_.far, "zone beyond the reach of the sensor", "zones beyond the reach of the sensor");
+  if (left_.swapped > 0) {
+    what += "; longitude and latitude of " + std::to_string(left_.swapped) +
+            " of these seem to be swapped, so check the file";
   }
+  if (!left_.skipped.empty()) {
+    constexpr std::size_t kMost = 5;
+    const std::size_t count = left_.skipped.size();
+    what += std::string(what.empty() ? "" : "; ") + "what cannot be read: ";
+    for (std::size_t i = 0; i < std::min(count, kMost); ++i) what += (i == 0 ? "" : ", ") + left_.skipped[i];
+    if (count > kMost) what += " and " + std::to_string(count - kMost) + " more";
+  }
+  if (what.empty()) return;
   mission_.notes.push_back({WarningCode::zones_left_out, "not taken as zones to stay " +
                                                              std::string(is_kept ? "in" : "out of") + " from " +
                                                              file_.file.filename().string() + ": " + what});
 }
 
+/// A zone that cannot be read. To stay in it may be missing; to stay out of, the mission has to say so.
+void FileZones::skip(const ListedZone& listed, const Error& fault) {
+  if (fault.kind() != ErrorKind::input) throw fault;
+  const std::string name = listed.names.empty() ? "" : in_quotes(listed.names.front());
+  const std::string problem = (name.empty() ? "" : "the zone " + name + ": ") + fault.problem();
+  const bool is_kept = use_ == ZoneUse::keep_in;
+  const Error named(
+      fault.code(), problem, fault.where(),
+      is_kept ? fault.fix() : fault.fix() + "; or leave out what cannot be read: 'skip: true' beside 'file'");
+  if (!is_kept && !file_.skip) throw named;
+  if (!left_.fault) left_.fault = named;
+  left_.skipped.push_back(listed.place + (name.empty() ? "" : " " + name) + " (" + fault.problem() + ")");
+}
+
+/// Whether it may be that no zone is taken: of a file to stay out of that has some which count nowhere.
+bool FileZones::may_be_empty(const ZoneList& list) const {
+  if (use_ == ZoneUse::keep_in || left_.swapped > 0) return false;
+  return !left_.skipped.empty() || list.left_out.contains(kEmptyArea) || list.left_out.contains(kDisabledArea);
+}
+
+void FileZones::fail_for_nothing() const {
+  const bool is_kept = use_ == ZoneUse::keep_in;
+  if (left_.far > 0) {
+    fail(ErrorCode::too_far_away, "",
+         "the nearest zone lies at least " + std::to_string(std::lround(left_.nearest_m / 1000)) +
+             " km from the scene's origin" + (left_.swapped > 0 ? "; longitude and latitude seem to be swapped" : ""),
+         left_.swapped > 0 ? "write the longitude before the latitude" : kLonLatAdvice);
+  }
+  if (left_.other_fences > 0) {
+    fail(ErrorCode::nothing_given, "", std::string("the file has no fence to stay ") + (is_kept ? "in" : "out of"),
+         std::string("name it under '") + (is_kept ? "keep_out'" : "keep_in'") + ", or add a fence");
+  }
+  if (left_.fault) throw *left_.fault;
+  fail(ErrorCode::nothing_given, "", "the file has no areas",
+       "give polygons or circles: lines and points are no zones");
+}
+
+void FileZones::add_zone(Zone zone, const std::string& name, const ListedZone& listed, std::vector<Zone>& zones) {
+  if (names_.empty()) {
+    for (const Zone& one : zones) names_.insert(one.name);
+  }
+  zone.name = name;
+  for (int i = 2; !names_.insert(zone.name).second; ++i) zone.name = name + " (" + std::to_string(i) + ")";
+  if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
+  zones.push_back(std::move(zone));
+  const Navigation& all = mission_.navigation;
+  if (const auto fault = core::fault_of_count(all.keep_in.size() + all.keep_out.size())) {
+    fail(fault->code, "", fault->problem, fault->fix);
+  }
+}
+
+/// Whether the zone is taken.
+bool FileZones::add_one(const ListedZone& listed, bool has_none, std::vector<Zone>& zones) {
+  ListedZone near;
+  Zone zone;
+  try {
+    near = near_part(listed);
+    const double distance = distance_m(near);
+    left_.nearest_m = std::min(left_.nearest_m, distance);
+    if (distance > farthest_viewpoint_m(mission_)) {
+      ++left_.far;
+      left_.swapped += seems_swapped(listed) ? 1 : 0;
+      return false;
+    }
+  } catch (const Error& error) {
+    skip(listed, error);
+    return false;
+  }
+  if (listed.heights_fault && !file_.any_height) {
+    skip(listed, *listed.heights_fault);
+    return false;
+  }
+  add_heights(listed, has_none, zone);
+  std::vector<Zone> holes;
+  try {
+    // To stay in, holes grow, and would cross what they touch: they are zones to stay out of.
+    if (use_ == ZoneUse::keep_in && has_touching_holes(near)) {
+      const FileZones out(mission_, file_, ZoneUse::keep_out, globe_);
+      for (const Zone::Ring& hole : std::exchange(near.holes, {})) {
+        ListedZone area = near;
+        area.outer = hole;
+        holes.push_back(out.placed(area, zone));
+      }
+    }
+    zone = placed(near, zone);
+  } catch (const Error& error) {
+    skip(listed, error);
+    return false;
+  }
+  const std::string name = file_.file.filename().string() + " " + listed.name;
+  add_zone(std::move(zone), name, listed, zones);
+  for (Zone& hole : holes) add_zone(std::move(hole), name + " hole", listed, mission_.navigation.keep_out);
+  return true;
+}
+
 void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress) {
   const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file, progress);
-  std::set<std::string> names;
-  for (const Zone& zone : zones) names.insert(zone.name);
-  std::size_t taken = 0, other_fences = 0, far = 0, swapped = 0;
-  double nearest_m = kInfinity;
+  for (const UnreadZone& unread : list.unread) {
+    if (is_for_use(unread.zone)) skip(unread.zone, unread.fault);
+  }
+  bool has_any = false;
   for (const ListedZone& listed : list.zones) {
     progress.check();
     if (!is_for_use(listed)) {
-      ++other_fences;
-      continue;
+      ++left_.other_fences;
+    } else if (add_one(listed, list.has_no_heights, zones)) {
+      has_any = true;
     }
-    const double distance = distance_m(listed);
-    nearest_m = std::min(nearest_m, distance);
-    if (distance > farthest_viewpoint_m(mission_)) {
-      ++far;
-      swapped += seems_swapped(listed) ? 1 : 0;
-      continue;
-    }
-    Zone zone = placed(listed, list.has_no_heights);
-    const std::string name = file_.file.filename().string() + " " + listed.name;
-    zone.name = name;
-    for (int i = 2; !names.insert(zone.name).second; ++i) zone.name = name + " (" + std::to_string(i) + ")";
-    if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
-    zones.push_back(std::move(zone));
-    const Navigation& all = mission_.navigation;
-    if (const auto fault = core::fault_of_count(all.keep_in.size() + all.keep_out.size())) {
-      fail(fault->code, "", fault->problem, fault->fix);
-    }
-    ++taken;
   }
-  if (taken == 0 && far > 0) {
-    fail(ErrorCode::too_far_away, "",
-         "the nearest zone lies at least " + std::to_string(std::lround(nearest_m / 1000)) +
-             " km from the scene's origin" + (swapped > 0 ? "; longitude and latitude seem to be swapped" : ""),
-         swapped > 0 ? "write the longitude before the latitude" : kLonLatAdvice);
-  }
-  if (taken == 0) {
-    const bool is_kept = use_ == ZoneUse::keep_in;
-    fail(ErrorCode::nothing_given, "",
-         other_fences > 0 ? std::string("the plan has no fence to stay ") + (is_kept ? "in" : "out of")
-                          : "the file has no areas",
-         other_fences > 0 ? std::string("name it under '") + (is_kept ? "keep_out'" : "keep_in'") + ", or add a fence"
-                          : "give polygons or circles: lines and points are no zones");
-  }
-  note_left_out(list, other_fences, far, swapped);
+  if (!has_any && !may_be_empty(list)) fail_for_nothing();
+  note_left_out(list);
 }
 
 }  // namespace

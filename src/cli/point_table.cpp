@@ -81,14 +81,17 @@ void append_field(std::string& text, std::string_view field) {
   text += '"';
 }
 
+/// Joined by semicolons; one within a name, and a backslash, has a backslash before it.
 void append_names(std::string& text, const std::vector<std::string>& names) {
-  if (names.size() == 1) return append_field(text, names.front());
   std::string joined;
   for (const std::string& name : names) {
-    if (!joined.empty()) joined += ';';
-    joined += name;
+    if (&name != &names.front()) joined += ';';
+    for (const char c : name) {
+      if (c == ';' || c == '\\') joined += '\\';
+      joined += c;
+    }
   }
-  append_field(text, joined);
+  text += csv_field(joined);
 }
 
 /// Bytes that are not UTF-8 are replaced rather than refused.
@@ -369,7 +372,7 @@ void PointTable::append_csv(std::string& text, const Vec3& coordinates, const Po
   }
   if (options_.target) {
     text += ',';
-    append_field(text, target);
+    text += csv_field(target);
   }
   text += '\n';
 }

@@ -54,6 +54,11 @@ VANTAGE_API std::string in_quotes(std::string_view text);
 /// order of what follows, become U+FFFD. Bytes that are no UTF-8 are taken as Latin-1. All else stays as it is.
 VANTAGE_API std::string printable(std::string_view text);
 
+/// `text` as a field of a table that commas separate: in double quotes where it would break the row (RFC 4180). A ' is
+/// put before = + - @ ' and control characters at its begin, since spreadsheets run what begins so, and names come from
+/// files of others; so a first ' is never of the text.
+VANTAGE_API std::string csv_field(std::string_view text);
+
 /// The shortest decimal that reads back as `value`; independent of the locale.
 VANTAGE_API std::string shortest(double value);
 
@@ -63,7 +68,8 @@ VANTAGE_API std::string shortest(double value);
 /// alignment distance), upper and lower case taken as equal. Cost: O(|a| |b|).
 VANTAGE_API int edit_distance(std::string_view a, std::string_view b);
 
-/// The entry of `names` with the smallest edit distance to `word`, the first one on a tie; empty for no names.
+/// The entry of `names` with the smallest edit distance to `word`, the first one on a tie; empty for no names. Those
+/// that hold all of a word of three letters or more come before all others.
 VANTAGE_API std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names);
 
 // ---- files ----

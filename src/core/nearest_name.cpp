@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/input.h"
 
@@ -30,10 +31,17 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names) {
   // A word longer than this is not a slip of the pen; its beginning is enough to compare and keeps the cost bounded.
   constexpr std::size_t kLongest = 100;
+  constexpr std::size_t kShortest = 3;  // a letter or two are in most names
+  word = word.substr(0, kLongest);
+  const auto holds_word = [&](std::string_view name) {
+    const auto same = [](char a, char b) { return lower(a) == lower(b); };
+    return std::search(name.begin(), name.end(), word.begin(), word.end(), same) != name.end();
+  };
   std::string_view nearest;
-  int least = std::numeric_limits<int>::max();
+  std::pair<bool, int> least(true, std::numeric_limits<int>::max());
   for (const std::string_view name : names) {
-    const int distance = edit_distance(word.substr(0, kLongest), name);
+    const bool lacks_word = word.size() < kShortest || !holds_word(name);
+    const std::pair<bool, int> distance(lacks_word, edit_distance(word, name));
     if (distance < least) {
       least = distance;
       nearest = name;

@@ -136,6 +136,17 @@ std::string number_advice(std::string_view text, NumberFault fault) {
   return "write a plain decimal number, such as 12.5";
 }
 
+std::string csv_field(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.empty() ? 'a' : text.front());
+  const bool is_formula =
+      first < ' ' || std::string_view("=+-@'").find(static_cast<char>(first)) != std::string_view::npos;
+  const std::string field = (is_formula ? "'" : "") + std::string(text);
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string quoted = "\"";
+  for (const char c : field) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + "\"";
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string shown(text.substr(0, kLongest));

@@ -60,7 +60,7 @@ class Examination {
     return (c[0] + c[1] + c[2]) / 3;
   }
   int shared_corners(std::size_t a, std::size_t b) const;
-  std::size_t first_crossing(std::size_t t, const TriangleTree& tree);
+  std::size_t first_crossing(std::size_t t, const TriangleTree& tree, const ProgressReporter& progress);
   std::vector<std::size_t> samples() const;
 
   Mesh local_;
@@ -121,9 +121,10 @@ int Examination::shared_corners(std::size_t a, std::size_t b) const {
 }
 
 /// The first triangle that passes through `t`; notes whether `t` touches any at all.
-std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree) {
+std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree, const ProgressReporter& progress) {
   std::size_t first = kNone;
   tree.for_each_near(triangle_box(local_, t), distance_, [&](std::size_t other) {
+    progress.tick();
     if (other == t) return;
     const int shared = shared_corners(t, other);
     const Contact contact = contact_of(corners(t), corners(other), shared, distance_);
@@ -145,7 +146,7 @@ bool Examination::check_contacts(const TriangleTree& tree, const ProgressReporte
   std::vector<std::size_t> crossing(count, kNone);
   ProgressCounter counter(progress, count);
   parallel::for_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) crossing[t] = first_crossing(t, tree);
+    for (std::size_t t = begin; t < end; ++t) crossing[t] = first_crossing(t, tree, progress);
     counter.add(end - begin);
   });
   const auto crosses = [](std::size_t other) { return other != kNone; };

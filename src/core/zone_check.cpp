@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -21,8 +23,6 @@ struct Side {
   std::size_t ring = 0;  ///< 0: outer; holes are counted from 1
   std::size_t index = 0, count = 0;
 
-  double min_x() const { return std::min(from.x(), to.x()); }
-  double max_x() const { return std::max(from.x(), to.x()); }
   bool follows(const Side& other) const { return ring == other.ring && index == (other.index + 1) % other.count; }
 };
 
@@ -35,8 +35,8 @@ int side_of(const Point& a, const Point& b, const Point& c) {
 }
 
 bool in_box_of(const Side& side, const Point& p) {
-  return p.x() >= side.min_x() && p.x() <= side.max_x() && p.y() >= std::min(side.from.y(), side.to.y()) &&
-         p.y() <= std::max(side.from.y(), side.to.y());
+  return p.x() >= std::min(side.from.x(), side.to.x()) && p.x() <= std::max(side.from.x(), side.to.x()) &&
+         p.y() >= std::min(side.from.y(), side.to.y()) && p.y() <= std::max(side.from.y(), side.to.y());
 }
 
 bool meet(const Side& a, const Side& b) {
@@ -123,46 +123,137 @@ std::vector<Side> sides_of(const Zone& zone) {
   return sides;
 }
 
-/// A sweep along x.
-std::optional<std::pair<Side, Side>> first_meeting(std::vector<Side> sides) {
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.min_x() < b.min_x(); });
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Side& a = sides[i];
-    for (std::size_t k = i + 1; k < sides.size() && sides[k].min_x() <= a.max_x(); ++k) {
-      const Side& b = sides[k];
-      const bool b_after_a = b.follows(a), a_after_b = a.follows(b);
-      const bool bad = b_after_a ? folds_back(a, b) : a_after_b ? folds_back(b, a) : meet(a, b);
-      if (bad) return std::pair(a, b);
+bool is_before(const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
+
+/// A sweep along x over sides that do not meet: those at the sweep line are in order, from below. Where some meet, two
+/// that are next to each other in that order do so first (Shamos, Hoey, 1976).
+class Sweep {
+ public:
+  explicit Sweep(const Zone& zone) : sides_(sides_of(zone)), around_(1 + zone.holes.size(), kNone) {
+    is_counter_clockwise_.push_back(is_counter_clockwise(zone.outer));
+    for (const Zone::Ring& hole : zone.holes) is_counter_clockwise_.push_back(is_counter_clockwise(hole));
+  }
+
+  /// Two sides that meet, other than neighbours at their common corner.
+  std::optional<std::pair<Side, Side>> first_meeting();
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  /// Where no sides meet: which ring a ring lies in; kNone for none.
+  std::size_t around(std::size_t ring) const { return around_[ring]; }
+
+ private:
+  struct Below {
+    const std::vector<Side>* sides;
+    bool operator()(std::size_t a, std::size_t b) const;
+  };
+  using Order = std::set<std::size_t, Below>;
+  struct Event {
+    Point at;
+    bool begins;
+    std::size_t side;
+  };
+
+  static bool runs_left(const Side& side) { return is_before(side.to, side.from); }
+  static const Point& begin(const Side& side) { return runs_left(side) ? side.to : side.from; }
+  static const Point& end(const Side& side) { return runs_left(side) ? side.from : side.to; }
+  bool are_bad(std::size_t one, std::size_t other) const;
+  std::vector<Event> events() const;
+  std::optional<std::size_t> other_corner_at(const std::vector<Event>& events, std::size_t first) const;
+  void place_ring(Order::const_iterator first, const Order& order);
+
+  std::vector<Side> sides_;
+  std::vector<bool> is_counter_clockwise_;
+  std::vector<std::size_t> around_;
+};
+
+/// Where both are, the one that begins later begins on one side of the other; or at its begin, and goes there.
+bool Sweep::Below::operator()(std::size_t a, std::size_t b) const {
+  if (a == b) return false;
+  const Side &one = (*sides)[a], &other = (*sides)[b];
+  const bool is_later = is_before(begin(other), begin(one));
+  const Side &early = is_later ? other : one, &late = is_later ? one : other;
+  int left = turn(begin(early), end(early), begin(late));
+  if (left == 0) left = turn(begin(early), end(early), end(late));
+  if (left == 0) return a < b;
+  return (left < 0) == is_later;
+}
+
+bool Sweep::are_bad(std::size_t one, std::size_t other) const {
+  const Side &a = sides_[one], &b = sides_[other];
+  const bool b_after_a = b.follows(a), a_after_b = a.follows(b);
+  return b_after_a ? folds_back(a, b) : a_after_b ? folds_back(b, a) : meet(a, b);
+}
+
+std::vector<Sweep::Event> Sweep::events() const {
+  std::vector<Event> events;
+  events.reserve(2 * sides_.size());
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    events.push_back({begin(sides_[i]), true, i});
+    events.push_back({end(sides_[i]), false, i});
+  }
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    if (a.at != b.at) return is_before(a.at, b.at);
+    return std::pair(a.begins, a.side) < std::pair(b.begins, b.side);
+  });
+  return events;
+}
+
+/// A corner of another place in the rings where that of `first` is: only two sides may be there.
+std::optional<std::size_t> Sweep::other_corner_at(const std::vector<Event>& events, std::size_t first) const {
+  const Event& event = events[first];
+  for (std::size_t i = first + 1; i < events.size() && events[i].at == event.at; ++i) {
+    const Side &a = sides_[event.side], &b = sides_[events[i].side];
+    if (!a.follows(b) && !b.follows(a)) return events[i].side;
+  }
+  return std::nullopt;
+}
+
+/// At its first corner a ring lies in what is above the side below.
+void Sweep::place_ring(Order::const_iterator first, const Order& order) {
+  const std::size_t ring = sides_[*first].ring;
+  while (first != order.begin()) {
+    const Side& below = sides_[*--first];
+    if (below.ring == ring) continue;
+    const bool is_inside = runs_left(below) != is_counter_clockwise_[below.ring];
+    around_[ring] = is_inside ? below.ring : around_[below.ring];
+    return;
+  }
+}
+
+std::optional<std::pair<Side, Side>> Sweep::first_meeting() {
+  const std::vector<Event> all = events();
+  Order order(Below{&sides_});
+  std::vector<Order::iterator> places(sides_.size(), order.end());
+  std::vector<bool> is_placed(around_.size(), false);
+  const auto pair = [&](std::size_t a, std::size_t b) { return std::pair(sides_[a], sides_[b]); };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t side = all[i].side;
+    if (const auto other = other_corner_at(all, i)) return pair(side, *other);
+    if (all[i].begins) {
+      const auto place = places[side] = order.insert(side).first;
+      const auto next = std::next(place);
+      if (next != order.end() && are_bad(side, *next)) return pair(side, *next);
+      if (place != order.begin() && are_bad(side, *std::prev(place))) return pair(side, *std::prev(place));
+      if (!is_placed[sides_[side].ring]) place_ring(place, order);
+      is_placed[sides_[side].ring] = true;
+    } else {
+      const auto next = order.erase(places[side]);
+      if (next != order.begin() && next != order.end() && are_bad(*next, *std::prev(next))) {
+        return pair(*next, *std::prev(next));
+      }
     }
   }
   return std::nullopt;
 }
 
-/// For points on no side.
-bool encloses(const Zone::Ring& ring, const Point& p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (side_of(a, b, p) * (b.y() > a.y() ? 1 : -1) > 0) inside = !inside;
-  }
-  return inside;
-}
-
-/// Where no sides meet, one corner tells where all of a hole lies.
-std::optional<LimitFault> fault_of_nesting(const Zone& zone) {
+std::optional<LimitFault> fault_of_nesting(const Zone& zone, const Sweep& sweep) {
   for (std::size_t i = 0; i < zone.holes.size(); ++i) {
-    const Point& corner = zone.holes[i][0];
-    if (!encloses(zone.outer, corner)) {
-      return LimitFault{ErrorCode::zone_not_simple, "hole " + std::to_string(i) + " lies outside the outline",
-                        "leave it out, or make a zone of its own of it"};
-    }
-    for (std::size_t k = 0; k < zone.holes.size(); ++k) {
-      if (k == i || !encloses(zone.holes[k], corner)) continue;
-      return LimitFault{ErrorCode::zone_not_simple,
-                        "hole " + std::to_string(i) + " lies inside hole " + std::to_string(k),
-                        "leave it out, or make a zone of its own of it"};
-    }
+    const std::size_t around = sweep.around(i + 1);
+    if (around == 0) continue;
+    return LimitFault{
+        ErrorCode::zone_not_simple,
+        "hole " + std::to_string(i) + " lies " +
+            (around == Sweep::kNone ? "outside the outline" : "inside hole " + std::to_string(around - 1)),
+        "leave it out, or make a zone of its own of it"};
   }
   return std::nullopt;
 }
@@ -180,9 +271,6 @@ std::optional<LimitFault> fault_of_box(const Zone& zone) {
 }  // namespace
 
 bool is_counter_clockwise(const Zone::Ring& ring) {
-  const auto is_before = [](const Point& a, const Point& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
   const std::size_t count = ring.size();
   const auto first = static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), is_before) - ring.begin());
   return turn(ring[(first + count - 1) % count], ring[first], ring[(first + 1) % count]) > 0;
@@ -211,7 +299,8 @@ std::optional<LimitFault> fault_of(const Zone& zone) {
                           " are possible",
                       "simplify it, or cut it into several zones"};
   }
-  if (const auto meeting = first_meeting(sides_of(zone))) {
+  Sweep sweep(zone);
+  if (const auto meeting = sweep.first_meeting()) {
     const auto& [a, b] = *meeting;
     const bool a_first = std::pair(a.ring, a.index) < std::pair(b.ring, b.index);
     const Side &first = a_first ? a : b, &second = a_first ? b : a;
@@ -221,7 +310,7 @@ std::optional<LimitFault> fault_of(const Zone& zone) {
                           place_text(second.to),
                       "give the corners in order round the zone; sides may not meet but at their common corners"};
   }
-  return fault_of_nesting(zone);
+  return fault_of_nesting(zone, sweep);
 }
 
 }  // namespace vantage::internal::core

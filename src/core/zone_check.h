@@ -10,7 +10,7 @@
 namespace vantage::internal::core {
 
 /// What is wrong with a zone first. Sides that pass each other within rounding count as touching. Cost: O(n log n) in
-/// the corners where sides are short, O(n^2) at worst.
+/// the corners.
 std::optional<LimitFault> fault_of(const Zone& zone);
 
 /// Whether a ring that does not meet itself runs counter-clockwise: as it turns at an outermost corner. The sign of

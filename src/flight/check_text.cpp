@@ -105,20 +105,12 @@ Json link_json(const LinkCheck& link, const PositionJson& position) {
   return json;
 }
 
-/// A field of a table: quoted where it must be (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 void append_rows(std::string& table, const std::string& target, std::string_view state, const std::string& what,
                  const std::vector<FlightSpan>& spans) {
   const auto seconds = [](double value) { return std::isnan(value) ? std::string() : shortest(value); };
   for (const FlightSpan& span : spans) {
     table +=
-        internal::core::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(target), state, field(what),
+        internal::core::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(target), state, csv_field(what),
                                shortest(span.begin_m), shortest(span.end_m), seconds(span.begin_s), seconds(span.end_s),
                                shortest(span.begin.x()), shortest(span.begin.y()), shortest(span.begin.z()),
                                shortest(span.end.x()), shortest(span.end.y()), shortest(span.end.z()));

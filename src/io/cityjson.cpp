@@ -433,6 +433,7 @@ class CityJsonReader {
       if (!rings[i].is_array()) trail_.fail("its boundaries are nested less deep than its type has levels");
       rings_[i].clear();
       for (const Json& index : rings[i]) {
+        progress_.tick();
         const std::size_t vertex = cityjson::index_below(index, vertices_->size(), "vertex", trail_);
         rings_[i].push_back(vertices_->use(vertex, placement_, builder_));
       }

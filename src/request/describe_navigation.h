@@ -52,6 +52,7 @@ inline constexpr std::array kZoneKeys = {
     Own{{"z", "lowest and highest z"}, Kind::numbers, Unit::metres},
     Own{{"agl", "lowest and highest height above the ground"}, Kind::numbers, Unit::metres},
     Own{{"heights", "`any`: without bounds below and above"}, Kind::word},
+    Own{{"skip", "`true`: what cannot be read of `file` is left out with a warning, instead of an error"}, Kind::flag},
 };
 
 inline constexpr std::array kNavigationMeshKeys = {

@@ -14,13 +14,14 @@ namespace vantage::internal::request {
 
 struct KeyList {
   std::string name;  ///< of the map: "tour.view"
-  std::vector<std::string_view> keys;
+  std::vector<std::string_view> keys = {};
+  std::vector<std::string_view> old_keys = {};  ///< that are read too, and that nothing suggests
 };
 
 /// A visitor that collects them.
 class KeyLister : Visitor {
  public:
-  explicit KeyLister(std::string_view section) { lists_.push_back({std::string(section), {}}); }
+  explicit KeyLister(std::string_view section) { lists_.push_back({std::string(section)}); }
 
   template <typename Value, typename Choices>
   void choice(const Key& key, const Value& /*value*/, const Choices& /*choices*/) {
@@ -74,7 +75,8 @@ class KeyLister : Visitor {
     for (std::string_view rest = key.path;;) {
       const std::size_t dot = rest.find('.');
       const std::string_view word = rest.substr(0, dot);
-      std::vector<std::string_view>& keys = keys_of(map);
+      KeyList& list = list_of(map);
+      std::vector<std::string_view>& keys = key.is_old ? list.old_keys : list.keys;
       if (std::find(keys.begin(), keys.end(), word) == keys.end()) keys.push_back(word);
       if (dot == std::string_view::npos) return;
       map.append(".").append(word);
@@ -82,11 +84,11 @@ class KeyLister : Visitor {
     }
   }
 
-  std::vector<std::string_view>& keys_of(const std::string& map) {
+  KeyList& list_of(const std::string& map) {
     for (KeyList& list : lists_) {
-      if (list.name == map) return list.keys;
+      if (list.name == map) return list;
     }
-    return lists_.emplace_back(KeyList{map, {}}).keys;
+    return lists_.emplace_back(KeyList{map});
   }
 
   std::vector<KeyList> lists_;

@@ -126,12 +126,6 @@ std::string kml_data(const char* name, const std::string& value) {
   return std::string("<Data name=\"") + name + "\"><value>" + xml_text(value) + "</value></Data>";
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : printable(text)) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
 std::string field(const std::optional<double>& number, int decimals) {
   return "," + (number && !std::isnan(*number) ? decimal(*number, decimals) : std::string());
 }
@@ -220,7 +214,7 @@ std::string write_csv(const FlightOut& flight) {
     for (const double coordinate : point.position) text += field(coordinate, kHeight);
     text += std::string(",") + hold_text(point.hold_s) + field(point.speed_m_s, kSmall) +
             field(angles.yaw_deg, kSmall) + field(angles.pitch_deg, kSmall) + (point.action.photo ? ",1" : ",0") +
-            (point.action.video ? ",1," : ",0,") + quoted(point.action.sees) + "\n";
+            (point.action.video ? ",1," : ",0,") + csv_field(printable(point.action.sees)) + "\n";
   }
   return text;
 }

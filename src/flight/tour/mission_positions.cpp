@@ -58,7 +58,16 @@ bool is_volume(const Mission& one) { return one.views.empty() && one.target.is_v
 
 std::vector<Mission> each_of(const Mission& mission) {
   std::vector<Mission> each;
-  for (std::size_t i = 0; i < volume_count(mission); ++i) each.push_back(one_volume(mission, i));
+  const std::size_t count = volume_count(mission);
+  Mission rest = mission;
+  const bool is_split = count > 1 && mission.as_written.targets.size() == count;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_split) {  // thousands of copies of thousands of targets would take gigabytes
+      rest.views = {mission.views[i]};
+      rest.as_written.targets = {mission.as_written.targets[i]};
+    }
+    each.push_back(one_volume(rest, is_split ? 0 : i));
+  }
   return each;
 }
 

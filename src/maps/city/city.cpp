@@ -8,6 +8,7 @@
 #include "core/stopwatch.h"
 #include "maps/city/assembly.h"
 #include "maps/city/ground.h"
+#include "maps/city/interruption.h"
 #include "maps/city/region.h"
 #include "maps/city/site.h"
 #include "maps/city/solid_list.h"
@@ -132,6 +133,9 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
 
   // For a part of a map all that was read is looked at, so that nothing depends on the region.
   const internal::osm::RegionFilter filter(options.frame ? std::nullopt : region);
+  const internal::core::ProgressReporter reporter(progress);
+  reporter.begin("outlines");
+  const internal::city::Interruption interruption(reporter);
   internal::city::Site site = internal::city::make_site(extract, filter, frame, options);
   if (options.frame) internal::city::leave_out_beyond(region, frame, site);
   result.report.outside = site.outside.objects;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "maps/city/interruption.h"
+
 namespace vantage::internal::city {
 namespace {
 
@@ -35,6 +37,7 @@ class Sides {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return all_[i].low_x < all_[j].low_x; });
     for (const std::size_t i : order) {
+      Interruption::tick();
       const Side& side = all_[i];
       std::size_t kept = 0;
       for (const std::size_t j : open) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "maps/city/clipping.h"
+#include "maps/city/interruption.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -42,6 +43,7 @@ std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>
   };
   std::vector<std::array<std::size_t, 2>> found;
   for (std::size_t i = 0; i < sides.size(); ++i) {
+    Interruption::tick();
     const Side& a = sides[i];
     for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right; ++j) {
       const Side& b = sides[j];
@@ -91,12 +93,15 @@ std::optional<double> wound_area(const GridRing& ring) {
   std::vector<Vec2> points;
   for (const GridPoint& p : ring) points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
   const std::size_t count = points.size();
+  constexpr std::size_t kMostSteps = 100'000'000;
+  if (count * count > kMostSteps) return std::nullopt;
   const auto x_at = [&](std::size_t i, double y) {
     const Vec2 &a = points[i], &b = points[(i + 1) % count];
     return a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
   };
   std::vector<double> heights;
   for (std::size_t i = 0; i < count; ++i) {
+    Interruption::tick();
     heights.push_back(points[i].y());
     const Vec2 a = points[i], along = points[(i + 1) % count] - a;
     for (std::size_t j = 0; j < i; ++j) {
@@ -107,12 +112,12 @@ std::optional<double> wound_area(const GridRing& ring) {
       if (t > 0 && t < 1 && u > 0 && u < 1) heights.push_back(a.y() + t * along.y());
     }
   }
-  constexpr std::size_t kMostSteps = 100'000'000;
   if (heights.size() * count > kMostSteps) return std::nullopt;
   std::sort(heights.begin(), heights.end());
   double sum = 0;
   std::vector<std::pair<double, int>> crossed;  // x, and whether the ring goes up or down there
   for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+    Interruption::tick();
     if (heights[k + 1] <= heights[k]) continue;
     const double middle = (heights[k] + heights[k + 1]) / 2;
     crossed.clear();
@@ -201,12 +206,14 @@ std::vector<GridPolygon> sound_holes(const GridPolygon& rough) {
   std::vector<Eigen::AlignedBox<std::int64_t, 2>> boxes(count);
   std::vector<bool> sound(count);
   for (std::size_t i = 0; i < count; ++i) {
+    Interruption::tick();
     for (const GridPoint& p : rough.holes[i]) boxes[i].extend(Eigen::Matrix<std::int64_t, 2, 1>(p.x, p.y));
     const GridPolygon alone{rough.outer, {rough.holes[i]}};
     sound[i] = !meeting_of({rough.holes[i]}).crossing && !meeting_of(rings_of({alone})).crossing && is_nested(alone);
   }
   std::vector<bool> apart = sound;
   for (std::size_t i = 0; i < count; ++i) {
+    Interruption::tick();
     for (std::size_t j = 0; j < count && apart[i]; ++j) {
       if (j != i && sound[j] && boxes[i].intersects(boxes[j])) apart[i] = are_apart(rough.holes[i], rough.holes[j]);
     }

@@ -17,7 +17,8 @@ constexpr double kOnCrease = 1e-4;        // metres of height within which a cor
 constexpr double kOnCreaseShare = 1e-3;   // of the roof's height, where that is less
 constexpr std::int64_t kLeastReach = 64;  // units of the grid (8 mm): a centre is that far inside every side's line
 
-constexpr std::size_t kMostSides = 256;  // of a dome with courtyards, which takes time with the square of them
+constexpr std::size_t kMostCorners = 1000;  // of a roof that runs round a centre: no more are drawn round one
+constexpr std::size_t kMostSides = 256;     // of a dome with courtyards, which takes time with the square of them
 
 /// One ring of a roof that runs round a centre: how much the outline is scaled, at which height.
 struct Level {
@@ -255,6 +256,12 @@ bool is_convex(const GridRing& ring) {
 RoofSurface central_surface(const Footprint& footprint, const Grid& grid, const std::vector<GridRing>& rings,
                             const BuildingForm& form, const RoofFrame& frame) {
   const GridRing outline = grid.to_grid(footprint.outer);
+  if (outline.size() > kMostCorners) {
+    RoofSurface surface = flat_surface(grid, rings);
+    surface.heights.assign(surface.points.size(), form.roof_m);
+    surface.repair = std::string(text(form.roof)) + " roof over an outline of more than 1,000 corners: flat instead";
+    return surface;
+  }
   const bool open = rings.size() == 1 && footprint.holes.empty();
   const std::optional<GridPoint> centre = star_centre(open ? rings[0] : outline, grid, frame);
   const std::string name(text(form.roof));

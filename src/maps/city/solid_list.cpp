@@ -7,6 +7,7 @@
 #include "core/progress_reporter.h"
 #include "core/solid_check.h"
 #include "maps/city/building_solid.h"
+#include "maps/city/interruption.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -59,10 +60,10 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
 }
 
 /// What is wrong with the first piece that is not a solid, or nothing.
-std::string fault(const std::vector<Mesh>& pieces, const std::string& name) {
+std::string fault(const std::vector<Mesh>& pieces, const std::string& name, const core::ProgressReporter& progress) {
   for (const Mesh& piece : pieces) {
     try {
-      core::checked_solid(piece, name);
+      core::checked_solid(piece, name, progress);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
       return error.problem();
@@ -76,14 +77,14 @@ bool has_roof(const Item& item) {
                      [](const Shape& shape) { return !shape.tree && shape.form.roof != RoofShape::flat; });
 }
 
-void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground) {
-  const std::string wrong = fault(pieces, item.record.object.source_id);
+void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground, const core::ProgressReporter& progress) {
+  const std::string wrong = fault(pieces, item.record.object.source_id, progress);
   if (wrong.empty()) return;
   if (has_roof(item)) {
     Item flat = item;
     for (Shape& shape : flat.shapes) shape.form.roof = RoofShape::flat;
     std::vector<Mesh> simpler = build(flat, ground);
-    if (fault(simpler, item.record.object.source_id).empty()) {
+    if (fault(simpler, item.record.object.source_id, progress).empty()) {
       pieces = std::move(simpler);
       repair(item.record, "roof of its shape is not a solid here: flat instead");
       return;
@@ -103,10 +104,10 @@ Mesh joined(const std::vector<Mesh>& pieces, CityRecord& record) {
 }
 
 /// Nothing where it cannot be built: one object out of line must not cost all the others.
-Mesh solid_of(Item& item, const Ground& ground) {
+Mesh solid_of(Item& item, const Ground& ground, const core::ProgressReporter& progress) {
   try {
     std::vector<Mesh> pieces = build(item, ground);
-    check(item, pieces, ground);
+    check(item, pieces, ground, progress);
     return joined(pieces, item.record);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
@@ -123,9 +124,11 @@ std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress&
   const core::ProgressReporter progress(callback);
   progress.begin("building");
   core::ProgressCounter counter(progress, site.items.size());
+  const core::ProgressReporter asking = progress.part(0, 0);  // only whether to go on
   parallel::for_ranges(site.items.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const Interruption interruption(asking);
     for (std::size_t i = begin; i < end; ++i) {
-      solids[i] = solid_of(site.items[i], ground);
+      solids[i] = solid_of(site.items[i], ground, asking);
     }
     counter.add(end - begin);
   });

@@ -2,6 +2,8 @@
 
 #include <CDT.h>
 
+#include <utility>
+
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -20,16 +22,31 @@ bool is_strictly_convex(const GridRing& ring) {
   return true;
 }
 
-std::vector<Triangle> fan(std::size_t count) {
+/// A fan; of many corners one triangle for each half, quarter and so on, since the triangles of a fan of thousands all
+/// lie next to each other, and whatever looks at those that are near takes time with the square of their number.
+std::vector<Triangle> triangles_of_convex(std::size_t count) {
+  constexpr std::uint32_t kFan = 256;
   std::vector<Triangle> result;
-  for (std::uint32_t i = 1; i + 1 < count; ++i) result.push_back({0, i, i + 1});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open = {{0, static_cast<std::uint32_t>(count - 1)}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    if (last - first < kFan) {
+      for (std::uint32_t i = first + 1; i < last; ++i) result.push_back({first, i, i + 1});
+      continue;
+    }
+    const std::uint32_t middle = first + (last - first) / 2;
+    result.push_back({first, middle, last});
+    open.emplace_back(middle, last);
+    open.emplace_back(first, middle);
+  }
   return result;
 }
 
 }  // namespace
 
 std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
-  if (rings.size() == 1 && is_strictly_convex(rings[0])) return fan(rings[0].size());
+  if (rings.size() == 1 && is_strictly_convex(rings[0])) return triangles_of_convex(rings[0].size());
   std::vector<CDT::V2d<double>> points;
   std::vector<CDT::Edge> edges;
   for (const GridRing& ring : rings) {

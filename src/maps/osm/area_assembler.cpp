@@ -13,6 +13,7 @@
 #include <osmium/area/problem_reporter.hpp>
 #include <osmium/builder/osm_object_builder.hpp>
 #include <osmium/osm/area.hpp>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -32,9 +33,14 @@ class Complaints : public osmium::area::ProblemReporter {
  public:
   Complaints(ObjectId subject, const AssemblyPlane& plane) : subject_(subject), plane_(plane) {}
 
+  /// `piece` is an id for a piece of `way`.
+  void set_piece(osmium::object_id_type piece, osmium::object_id_type way) { way_of_[piece] = way; }
+
   void report_intersection(osmium::object_id_type way1, osmium::Location, osmium::Location, osmium::object_id_type way2,
                            osmium::Location, osmium::Location, osmium::Location where) override {
     if (crossings_++ > 0) return;
+    way1 = whole(way1);
+    way2 = whole(way2);
     std::string who = subject_ == ObjectId{ObjectType::way, way1} ? "it" : text({ObjectType::way, way1});
     who.append(" crosses ").append(way1 == way2 ? "itself" : text({ObjectType::way, way2}));
     first_crossing_ = who.append(" at ").append(place_text(plane_.from_plane(where)));
@@ -42,7 +48,8 @@ class Complaints : public osmium::area::ProblemReporter {
   void report_ring_not_closed(const osmium::NodeRef& node, const osmium::Way* way) override {
     if (open_ends_++ > 0) return;
     first_open_end_ = std::string("the ring is open at ").append(place_text(plane_.from_plane(node.location())));
-    if (way != nullptr) first_open_end_.append(" (").append(text(ObjectId{ObjectType::way, way->id()})).append(")");
+    if (way == nullptr) return;
+    first_open_end_.append(" (").append(text(ObjectId{ObjectType::way, whole(way->id())})).append(")");
   }
   void report_duplicate_segment(const osmium::NodeRef& a, const osmium::NodeRef&) override { note_doubled(a); }
   void report_overlapping_segment(const osmium::NodeRef& a, const osmium::NodeRef&) override { note_doubled(a); }
@@ -55,9 +62,14 @@ class Complaints : public osmium::area::ProblemReporter {
     return "the rings do not bound an area";
   }
 
- private:
   void note_doubled(const osmium::NodeRef& node) {
     if (doubled_++ == 0) first_doubled_ = place_text(plane_.from_plane(node.location()));
+  }
+
+ private:
+  osmium::object_id_type whole(osmium::object_id_type id) const {
+    const auto found = way_of_.find(id);
+    return found == way_of_.end() ? id : found->second;
   }
   static std::string with_count(const std::string& first, std::size_t count, const char* what) {
     if (count == 1) return first;
@@ -66,6 +78,7 @@ class Complaints : public osmium::area::ProblemReporter {
 
   ObjectId subject_;
   const AssemblyPlane& plane_;
+  std::map<osmium::object_id_type, osmium::object_id_type> way_of_;
   std::size_t crossings_ = 0, open_ends_ = 0, doubled_ = 0;
   std::string first_crossing_, first_open_end_, first_doubled_;
 };
@@ -276,16 +289,146 @@ class ProjectedWays {
   osmium::memory::Buffer copies_{1 << 10, osmium::memory::Buffer::auto_grow::yes};
 };
 
-/// A relation of these members only: the assembler takes it that all are there.
-const osmium::Relation& relation_of(const osmium::Relation& relation, const std::vector<MemberWay>& members,
-                                    osmium::memory::Buffer& buffer) {
+/// The segments of ways, each way once, as the assembler takes them.
+template <typename Visit>
+void for_each_segment(const std::vector<const osmium::Way*>& ways, const Visit& visit) {
+  std::set<osmium::object_id_type> seen;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (!seen.insert(ways[i]->id()).second) continue;
+    const osmium::NodeRef* from = nullptr;
+    for (const osmium::NodeRef& node : ways[i]->nodes()) {
+      if (!node.location()) continue;
+      if (from != nullptr && from->location() != node.location()) visit(i, *from, node);
+      from = &node;
+    }
+  }
+}
+
+/// What the assembler has to do, and ways that give it less to do for the same area. It erases segments that are there
+/// twice one pair after the other, and looks for crossings among all that share a longitude: both take time with the
+/// square of their number.
+class AssemblyWork {
+ public:
+  explicit AssemblyWork(const std::vector<const osmium::Way*>& ways) : ways_(ways) {
+    for_each_segment(ways, [this](std::size_t, const osmium::NodeRef& from, const osmium::NodeRef& to) {
+      sides_.push_back(segment(from, to));
+    });
+    std::sort(sides_.begin(), sides_.end());
+  }
+
+  /// Segments that are there an even number of times, and all but one of others, are taken away, as the assembler does.
+  void take_away_doubled(Complaints& complaints) {
+    const std::size_t all = sides_.size();
+    std::vector<Segment> single = sides_;
+    single.erase(std::unique(single.begin(), single.end()), single.end());
+    const double pairs = static_cast<double>(all - single.size()) / 2;
+    if (pairs * static_cast<double>(all) <= kMostSteps) return;
+    std::vector<bool> is_left(single.size(), false);
+    const auto number_of = [&](const Segment& side) {
+      return static_cast<std::size_t>(std::lower_bound(single.begin(), single.end(), side) - single.begin());
+    };
+    for (const Segment& side : sides_) is_left[number_of(side)].flip();
+    sides_.clear();
+    for (std::size_t i = 0; i < single.size(); ++i) {
+      if (is_left[i]) sides_.push_back(single[i]);
+    }
+    for_each_segment(ways_, [&](std::size_t way, const osmium::NodeRef& from, const osmium::NodeRef& to) {
+      const std::size_t number = number_of(segment(from, to));
+      if (!is_left[number]) {
+        complaints.note_doubled(from);
+        return;
+      }
+      is_left[number] = false;
+      add_piece(way, from, to);
+    });
+    make_pieces(complaints);
+  }
+
+  /// Whether crossings are found in a fraction of a second.
+  bool is_little() const {
+    std::vector<std::int32_t> begins;
+    begins.reserve(sides_.size());
+    for (const Segment& side : sides_) begins.push_back(side.first.x());
+    double steps = 0;
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const auto end = std::upper_bound(begins.begin(), begins.end(), sides_[i].second.x());
+      steps += static_cast<double>(end - begins.begin()) - static_cast<double>(i);
+    }
+    return steps <= kMostSteps;
+  }
+
+  /// Without pieces the ways themselves.
+  const std::vector<const osmium::Way*>& ways() const { return ways_; }
+  /// Of each of these the number of the way that it is a piece of.
+  std::size_t whole_of(std::size_t way) const { return pieces_.empty() ? way : pieces_[way].way; }
+
+ private:
+  static constexpr double kMostSteps = 1e8;
+  struct Piece {
+    std::size_t way;
+    std::vector<osmium::NodeRef> nodes;
+  };
+
+  void add_piece(std::size_t way, const osmium::NodeRef& from, const osmium::NodeRef& to) {
+    const bool goes_on = !pieces_.empty() && pieces_.back().way == way && &from == last_;
+    if (!goes_on) pieces_.push_back({way, {from}});
+    pieces_.back().nodes.push_back(to);
+    last_ = &to;
+  }
+
+  void make_pieces(Complaints& complaints) {
+    osmium::object_id_type id = 0;
+    for (const osmium::Way* const way : ways_) id = std::min(id, way->id());
+    std::vector<std::size_t> offsets;
+    for (const Piece& piece : pieces_) {
+      complaints.set_piece(--id, ways_[piece.way]->id());
+      {
+        osmium::builder::WayBuilder builder(buffer_);
+        builder.set_id(id);
+        osmium::builder::WayNodeListBuilder nodes(builder);
+        for (const osmium::NodeRef& node : piece.nodes) nodes.add_node_ref(node);
+      }
+      offsets.push_back(buffer_.commit());
+    }
+    ways_.clear();
+    for (const std::size_t offset : offsets) ways_.push_back(&buffer_.get<osmium::Way>(offset));
+  }
+
+  std::vector<const osmium::Way*> ways_;
+  std::vector<Segment> sides_;
+  std::vector<Piece> pieces_;
+  const osmium::NodeRef* last_ = nullptr;
+  osmium::memory::Buffer buffer_{1 << 10, osmium::memory::Buffer::auto_grow::yes};
+};
+
+/// A relation of these ways only: the assembler takes it that all are there. `role_of`: of each way's number.
+template <typename RoleOf>
+const osmium::Relation& relation_of(osmium::object_id_type id, const std::vector<const osmium::Way*>& ways,
+                                    const RoleOf& role_of, osmium::memory::Buffer& buffer) {
   {
     osmium::builder::RelationBuilder builder(buffer);
-    builder.set_id(relation.id());
+    builder.set_id(id);
     osmium::builder::RelationMemberListBuilder list(builder);
-    for (const MemberWay& member : members) list.add_member(osmium::item_type::way, member.way->id(), member.role);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      list.add_member(osmium::item_type::way, ways[i]->id(), role_of(i));
+    }
   }
   return buffer.get<osmium::Relation>(buffer.commit());
+}
+
+/// Puts the area of these ways into the buffer, or says what is wrong.
+template <typename RoleOf>
+std::string assemble_into(osmium::memory::Buffer& buffer, ObjectId subject, const std::vector<const osmium::Way*>& ways,
+                          const RoleOf& role_of, const AssemblyPlane& plane) {
+  Complaints complaints(subject, plane);
+  AssemblyWork work(ways);
+  work.take_away_doubled(complaints);
+  if (!work.is_little()) return "too many of its sides lie above each other to look for crossings";
+  osmium::memory::Buffer relation_buffer(1 << 10, osmium::memory::Buffer::auto_grow::yes);
+  const osmium::Relation& relation = relation_of(
+      subject.id, work.ways(), [&](std::size_t i) { return role_of(work.whole_of(i)); }, relation_buffer);
+  const osmium::area::AssemblerConfig config = config_with(complaints);
+  return osmium::area::Assembler(config)(relation, work.ways(), buffer) ? "" : complaints.sentence();
 }
 
 }  // namespace
@@ -293,10 +436,10 @@ const osmium::Relation& relation_of(const osmium::Relation& relation, const std:
 Assembly assemble(const osmium::Way& way) {
   const AssemblyPlane plane({&way});
   const ProjectedWays projected({&way}, plane);
-  Complaints complaints({ObjectType::way, way.id()}, plane);
-  const osmium::area::AssemblerConfig config = config_with(complaints);
   osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
-  if (!osmium::area::Assembler(config)(*projected.ways().front(), buffer)) return {{}, complaints.sentence()};
+  const auto outer = [](std::size_t) { return "outer"; };
+  std::string problem = assemble_into(buffer, {ObjectType::way, way.id()}, projected.ways(), outer, plane);
+  if (!problem.empty()) return {{}, std::move(problem)};
   return {to_polygons(buffer.get<osmium::Area>(0), plane), ""};
 }
 
@@ -306,12 +449,10 @@ Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& memb
   for (const MemberWay& member : members) ways.push_back(member.way);
   const AssemblyPlane plane(ways);
   const ProjectedWays projected(ways, plane);
-  Complaints complaints({ObjectType::relation, relation.id()}, plane);
-  const osmium::area::AssemblerConfig config = config_with(complaints);
   osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
-  osmium::memory::Buffer relation_buffer(1 << 10, osmium::memory::Buffer::auto_grow::yes);
-  const osmium::Relation& complete = relation_of(relation, members, relation_buffer);
-  if (!osmium::area::Assembler(config)(complete, projected.ways(), buffer)) return {{}, complaints.sentence()};
+  const auto role_of = [&](std::size_t i) { return members[i].role; };
+  std::string problem = assemble_into(buffer, {ObjectType::relation, relation.id()}, projected.ways(), role_of, plane);
+  if (!problem.empty()) return {{}, std::move(problem)};
   const auto& area = buffer.get<osmium::Area>(0);
   classify(members, projected.ways(), area);
   return {to_polygons(area, plane), ""};
