@@ -220,6 +220,9 @@ struct ProofReport {
                                  ///< outside of it: for what numbers are rounded; 0: of all of it
   double limit_tolerance_m = 0;  ///< limits besides altitude and a single box may be broken by so much (docs/proof.md):
                                  ///< rounding_m, `shrink` times the distance of a facet, and rounding; the largest
+  /// The proof is of the scene as built. What of its ledger lies within reach of the mission's target, as the warning
+  /// scene_incomplete tells it; empty: nothing, or no mission was given.
+  std::string scene_incomplete;
   double seconds = 0;
   std::optional<MaximalProof> maximal;     ///< where it was asked for
   std::optional<Certificate> certificate;  ///< where sight, range and front are proved and nothing is wrong

@@ -227,6 +227,7 @@ Json json_of(const ProofReport& report) {
   json["rounding_m"] = report.rounding_m;
   json["layer_m"] = report.layer_m;
   json["lift_m"] = report.lift_m;
+  json["scene_incomplete"] = report.scene_incomplete.empty() ? Json(nullptr) : Json(report.scene_incomplete);
   json["seconds"] = report.seconds;
   return json;
 }

@@ -184,6 +184,9 @@ ProofReport prove_volume(const Mission& mission, const Mesh& volume, const Prove
       all = std::move(report);
     }
   }
+  for (Warning& warning : mission_warnings(mission)) {
+    if (warning.code == WarningCode::scene_incomplete) all->scene_incomplete = std::move(warning.text);
+  }
   return std::move(*all);
 }
 

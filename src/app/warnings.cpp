@@ -228,13 +228,6 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                             ": what stands out there hides nothing, and the volume may claim too much; " +
                             shortfall.fix});
   }
-  if (const auto& tileset = mission.loaded->tileset; tileset && tileset->holes > 0) {
-    warnings.push_back({WarningCode::scene_incomplete,
-                        std::to_string(tileset->holes) +
-                            " files of the tileset are missing or cannot be read: what they hold hides nothing, and "
-                            "the volume may claim too much; the first: " +
-                            tileset->first_hole});
-  }
   if (auto missing = incomplete(mission, volume)) warnings.push_back(std::move(*missing));
   Box box;
   for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);

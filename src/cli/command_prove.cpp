@@ -131,7 +131,8 @@ std::string table_text(const ProofReport& report, const std::string& file, bool 
   if (asks_maximal && !report.maximal) table.row("maximal", "none", "not of a volume for both sides of a target");
   table.row("time", fixed(report.seconds, 3), "seconds");
   const ProofVerdict verdict = report.verdict();
-  table.heading(verdict == ProofVerdict::proved  ? "proved"
+  if (!report.scene_incomplete.empty()) table.heading(report.scene_incomplete);
+  table.heading(verdict == ProofVerdict::proved  ? "proved for the scene as built"
                 : verdict == ProofVerdict::wrong ? "WRONG: the volume over-claims"
                                                  : "not all is proved, and nothing wrong was found");
   return table.text();
