@@ -292,7 +292,12 @@ Zone FileZones::placed(const ListedZone& listed, Zone zone) const {
     if (fault && !come_apart) fail(fault->code, listed.place, fault->problem, fault->fix);
     extent = extent_of(zone.outer, to_frame);
     const double margin = walls_.lean_m(heights, extent.farthest_m) + (come_apart ? kTouchM : 0);
-    zone = in_file(listed, [&] { return placed_zone(zone, use_, to_frame, kLonLatAdvice, margin); });
+    try {
+      zone = in_file(listed, [&] { return placed_zone(zone, use_, to_frame, kLonLatAdvice, margin); });
+    } catch (const Error& error) {
+      if (!come_apart || error.kind() != ErrorKind::input) throw;
+      fail(fault->code, listed.place, fault->problem, fault->fix);  // it does more than touch
+    }
   }
   if (file_.z_m || file_.any_height) return zone;
   const Heights z = in_file(listed, [&] { return walls_.z_of(heights, extent, use_); });
