@@ -49,7 +49,7 @@ double longest_deafness_s(const std::function<void(const Progress&)>& call) {
       return seconds(Clock::now() - begin) < kEnough;
     });
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled) << error.what();
+    EXPECT_NE(error.kind(), ErrorKind::internal) << error.what();  // it may be refused for what is wrong with it
   }
   note();
   return longest;
@@ -178,13 +178,7 @@ TEST(Cancelling, TemplatesOfCityJson) {
               "\"vertices\":[[0,0,0]],\"CityObjects\":{" +
                   objects + "},\"geometry-templates\":{\"vertices-templates\":[" + vertices +
                   "],\"templates\":[{\"type\":\"MultiSurface\",\"lod\":\"2\",\"boundaries\":[" + triangles + "]}]}}");
-  EXPECT_LT(longest_deafness_s([&](const Progress& progress) {
-              try {
-                read_scene(directory / "a.city.json", {}, progress);
-              } catch (const Error& error) {  // too many triangles
-                if (error.kind() == ErrorKind::cancelled) throw;
-              }
-            }),
+  EXPECT_LT(longest_deafness_s([&](const Progress& progress) { read_scene(directory / "a.city.json", {}, progress); }),
             kPromised);
 }
 

@@ -51,10 +51,11 @@ double farthest_viewpoint_m(const Mission& mission) {
 
 class FileZones {
  public:
-  FileZones(Mission& mission, const ZoneFile& file, ZoneUse use, const geo::OnGlobe& globe)
-      : mission_(mission), file_(file), use_(use), globe_(globe), walls_(globe, mission) {}
+  FileZones(Mission& mission, const ZoneFile& file, ZoneUse use, const geo::OnGlobe& globe,
+            const core::ProgressReporter& progress)
+      : mission_(mission), file_(file), use_(use), globe_(globe), progress_(progress), walls_(globe, mission) {}
 
-  void add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress);
+  void add_to(std::vector<Zone>& zones);
 
  private:
   /// What was not taken.
@@ -101,6 +102,7 @@ class FileZones {
   const ZoneFile& file_;
   ZoneUse use_;
   const geo::OnGlobe& globe_;
+  const core::ProgressReporter& progress_;
   ZoneWalls walls_;
   Left left_;
   std::set<std::string> names_;
@@ -135,7 +137,10 @@ Zone::Ring FileZones::unwrapped(Zone::Ring ring, const std::string& place) const
 /// 2000 km by 80 km), so there are points on them every 10 km, between which they curve by far less than the slack.
 double FileZones::distance_m(const ListedZone& listed) const {
   constexpr double kStepM = 10e3, kMostSteps = 2000, kSlackM = 2e3;
-  const auto position = [&](const Point& p) { return globe_.map().to_local({p.x(), p.y()}); };
+  const auto position = [&](const Point& p) {
+    progress_.tick();
+    return globe_.map().to_local({p.x(), p.y()});
+  };
   if (listed.circle) {
     return std::max(position(listed.circle->centre).norm() - listed.circle->radius_m - kSlackM, 0.0);
   }
@@ -259,7 +264,10 @@ Zone FileZones::placed(const ListedZone& listed, Zone zone) const {
   constexpr double kTouchM = 0.05;  // seven decimals of a degree are a centimetre
   const Heights heights{zone.min_z_m, zone.max_z_m};
   const double middle = walls_.middle_z_m(heights);
-  const ToFrame to_frame = [&](const Point& p) { return globe_.at_z({p.x(), p.y()}, middle); };
+  const ToFrame to_frame = [&](const Point& p) {
+    progress_.tick();
+    return globe_.at_z({p.x(), p.y()}, middle);
+  };
   Extent extent;
   if (listed.circle) {
     if (listed.circle->radius_m > geo::kFarthestM) {
@@ -284,7 +292,12 @@ Zone FileZones::placed(const ListedZone& listed, Zone zone) const {
     if (fault && !come_apart) fail(fault->code, listed.place, fault->problem, fault->fix);
     extent = extent_of(zone.outer, to_frame);
     const double margin = walls_.lean_m(heights, extent.farthest_m) + (come_apart ? kTouchM : 0);
-    zone = in_file(listed, [&] { return placed_zone(zone, use_, to_frame, kLonLatAdvice, margin); });
+    try {
+      zone = in_file(listed, [&] { return placed_zone(zone, use_, to_frame, kLonLatAdvice, margin); });
+    } catch (const Error& error) {
+      if (!come_apart || error.kind() != ErrorKind::input) throw;
+      fail(fault->code, listed.place, fault->problem, fault->fix);  // it does more than touch
+    }
   }
   if (file_.z_m || file_.any_height) return zone;
   const Heights z = in_file(listed, [&] { return walls_.z_of(heights, extent, use_); });
@@ -456,7 +469,7 @@ bool FileZones::add_one(const ListedZone& listed, bool has_none, std::vector<Zon
   try {
     // To stay in, holes grow, and would cross what they touch: they are zones to stay out of.
     if (use_ == ZoneUse::keep_in && has_touching_holes(near)) {
-      const FileZones out(mission_, file_, ZoneUse::keep_out, globe_);
+      const FileZones out(mission_, file_, ZoneUse::keep_out, globe_, progress_);
       for (const Zone::Ring& hole : std::exchange(near.holes, {})) {
         ListedZone area = near;
         area.outer = hole;
@@ -474,14 +487,14 @@ bool FileZones::add_one(const ListedZone& listed, bool has_none, std::vector<Zon
   return true;
 }
 
-void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress) {
-  const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file, progress);
+void FileZones::add_to(std::vector<Zone>& zones) {
+  const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file, progress_);
   for (const UnreadZone& unread : list.unread) {
     if (is_for_use(unread.zone)) skip(unread.zone, unread.fault);
   }
   bool has_any = false;
   for (const ListedZone& listed : list.zones) {
-    progress.check();
+    progress_.check();
     if (!is_for_use(listed)) {
       ++left_.other_fences;
     } else if (add_one(listed, list.has_no_heights, zones)) {
@@ -513,7 +526,7 @@ void add_file_zones(Mission& mission, const Progress& callback) {
                        std::vector<Zone>& zones) {
     for (std::size_t i = 0; i < files.size(); ++i) {
       core::with_place(i < places.size() ? places[i] : "", [&] {
-        FileZones(mission, files[i], use, globe).add_to(zones, progress);
+        FileZones(mission, files[i], use, globe, progress).add_to(zones);
         return 0;
       });
     }

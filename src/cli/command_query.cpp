@@ -360,6 +360,9 @@ int run_query(const QueryArguments& options) {
   if (!is_quiet) tell_of_columns(table);
 
   Mission mission = resolve_mission(file, progress.callback());
+  for (const Warning& warning : mission.notes) {
+    if (warning.code == WarningCode::zones_left_out && !is_quiet) note(warning.text);
+  }
   if (!options.target.empty()) mission = of_target(mission, options.target);
   check_fraction(options, mission);
   const Scene& scene = mission.scene();
