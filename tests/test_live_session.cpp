@@ -550,7 +550,7 @@ TEST_F(LiveSession, AReportHasNoKeysOfServers) {
         R"("https://user:SECRET%40@a.example/ok/tileset.json")",
         R"("https://a.example/ok/tileset.json%3Ftoken=SECRET")",
         R"(&tiles https://a.example/ok/tileset.json?a=1&key=SECRET)", R"('https://a.example/ok/tileset.json#SECRET')",
-        "!!str https://a.example/ok/tileset.json?key=SECRET # ?key=SECRET",
+        "https://a.example/ok/tileset.json?key=SECRET # ?key=SECRET",
         ">-\n    https://a.example/ok/tileset.json?key=SECRET",
         "|-\n    https://a.example/ok/tileset.json?key=SECRET"}) {
     const std::string text = mission_of_report("scene:\n  tiles: " + address + "\n", city);
