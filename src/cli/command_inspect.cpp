@@ -62,8 +62,8 @@ std::string table_text(const LoadedScene& loaded, const SceneStatistics& found) 
   table.row("from", vector(found.bounds.min), "metres, z up");
   table.row("to", vector(found.bounds.max), "");
   // Cities are wide and flat: one much higher than wide is most often a file with y up.
-  const bool is_upright =
-      size.z() <= 2 * std::min(size.x(), size.y()) || loaded.city || loaded.raster || loaded.tileset;
+  const bool is_upright = size.z() <= 2 * std::min(size.x(), size.y()) || loaded.city || loaded.raster ||
+                          loaded.tileset || scene.states_axes;
   table.row("size", vector(size), is_upright || scene.up == UpAxis::y ? "" : "is z up? --up y for a file with y up");
   if (scene.georeference) add_place(table, *scene.georeference);
   if (loaded.city || loaded.raster || loaded.tileset) table.heading("what the file holds");

@@ -180,9 +180,9 @@ Missing parse_entry(const LedgerJson& written) {
 
 /// A point as JSON, an infinite number as null.
 LedgerJson point_json(const Vec3& point) {
-  LedgerJson json = LedgerJson::array();
-  for (const double number : point) json.push_back(std::isfinite(number) ? LedgerJson(number) : LedgerJson());
-  return json;
+  LedgerJson numbers = LedgerJson::array();
+  for (const double number : point) numbers.push_back(std::isfinite(number) ? LedgerJson(number) : LedgerJson());
+  return numbers;
 }
 
 }  // namespace
