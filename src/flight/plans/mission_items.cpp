@@ -94,6 +94,7 @@ class Runner {
   void loiter(const MissionItem& item, double radius_m, double turns, double hold_s);
   void land(const MissionItem& item);
   void turn_camera(const MissionItem& item);
+  void come_to(const MissionItem& item);
   bool come_on_arc(const MissionItem& item);
   void leave_out(const MissionItem& item);
   void not_judged(const MissionItem& item, const std::string& why);
@@ -187,24 +188,30 @@ void Runner::keep_height(const PlanItem& before, const MissionItem& item, PlanIt
   ++kept_heights_;
 }
 
+/// A waypoint, straight or on a spline.
+void Runner::come_to(const MissionItem& item) {
+  const auto& p = item.parameters;
+  const auto or_zero = [&](std::size_t i) { return std::isnan(p[i]) ? 0 : p[i]; };
+  const bool is_spline = item.command == kNavSpline;
+  const bool is_behind_arc = !plan_.items.empty() && plan_.items.back().arc_deg != 0;
+  if (is_spline && is_behind_arc) not_judged(item, "it is a spline behind an arc");
+  PlanItem& added = add(PlanItemKind::waypoint, item);
+  added.hold_s = std::max(or_zero(0), 0.0);
+  added.is_spline = is_spline;
+  splines_ += is_spline ? 1 : 0;
+  added.acceptance_radius_m = is_spline ? 0 : or_zero(1);
+  // 0 is north in the standard, and "not given" to those who write the files.
+  if (or_zero(3) != 0) added.yaw_deg = p[3];
+}
+
 bool Runner::move(const MissionItem& item) {
   const auto& p = item.parameters;
   const auto or_zero = [&](std::size_t i) { return std::isnan(p[i]) ? 0 : p[i]; };
   switch (item.command) {
     case kNavSpline:
-    case kNavWaypoint: {
-      const bool is_spline = item.command == kNavSpline;
-      const bool is_behind_arc = !plan_.items.empty() && plan_.items.back().arc_deg != 0;
-      if (is_spline && is_behind_arc) not_judged(item, "it is a spline behind an arc");
-      PlanItem& added = add(PlanItemKind::waypoint, item);
-      added.hold_s = std::max(or_zero(0), 0.0);
-      added.is_spline = is_spline;
-      splines_ += is_spline ? 1 : 0;
-      added.acceptance_radius_m = is_spline ? 0 : or_zero(1);
-      // 0 is north in the standard, and "not given" to those who write the files.
-      if (or_zero(3) != 0) added.yaw_deg = p[3];
+    case kNavWaypoint:
+      come_to(item);
       return true;
-    }
     case kNavArc:
       return come_on_arc(item);
     case kDoOrbit: {  // of param4 radians
