@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/cli_fixture.h"
@@ -89,6 +90,44 @@ TEST_F(CliCheck, WhatIsNotFlownIsTold) {
   // There, back by the jump, and there again.
   EXPECT_NEAR(answer["length_m"].get<double>(), 3 * 0.0002 * 111200, 0.2);
   EXPECT_EQ(Json::parse(content(folder_ / "old.json")), answer);
+}
+
+// What moves the vehicle and cannot be followed: no answer passes, and each names it.
+TEST_F(CliCheck, PlansThatCannotBeFollowedAreNotJudged) {
+  write("a.plan",
+        plan({waypoint(48, 11, 30), simple(94, 3, "[10, 0, 0, 0, 48.0001, 11, 30]"), waypoint(48.0002, 11, 30)}));
+  const ProgramRun table = run({"check", "map.yaml", "a.plan", "--picture", "a.png"});
+  EXPECT_EQ(table.exit_code, 4) << table.err;
+  expect_wording(table.out);
+  const ProgramRun check = run({"check", "map.yaml", "a.plan", "--json", "-o", "a.csv"});
+  EXPECT_EQ(check.exit_code, 4) << check.err;
+  const Json answer = Json::parse(check.out);
+  EXPECT_EQ(answer["passes"], false);
+  ASSERT_EQ(answer["not_judged"].size(), 1u);
+  const std::string told = answer["not_judged"][0];
+  EXPECT_NE(told.find("item 2"), std::string::npos) << told;
+  EXPECT_NE(told.find("94"), std::string::npos) << told;
+  EXPECT_NE(content(folder_ / "a.csv").find("\n,not_judged,"), std::string::npos);
+  // Also where something fails.
+  EXPECT_EQ(run({"check", "map.yaml", "a.plan", "--clearance", "1000"}).exit_code, 4);
+  write("b.plan", plan({waypoint(48, 11, 30), waypoint(48.0002, 11, 30)}));
+  EXPECT_EQ(run({"check", "map.yaml", "b.plan"}).exit_code, 0);
+}
+
+// Eastward along an arc that leads 70 m to the north, where the target is out of range.
+TEST_F(CliCheck, ArcsAreJudgedAsArcs) {
+  const auto seen = [&](const std::string& angle) {
+    write("a.plan", plan({waypoint(48, 10.9995, 30), simple(36, 3, "[" + angle + ", 0, 0, null, 48, 11.0005, 30]")}));
+    const Json answer = Json::parse(run({"check", "map.yaml", "a.plan", "--json"}).out);
+    double length = 0;
+    for (const Json& span : answer["targets"][0]["seen"])
+      length += span["end_m"].get<double>() - span["begin_m"].get<double>();
+    return std::pair(length, answer["length_m"].get<double>());
+  };
+  EXPECT_EQ(seen("0").first, seen("0").second);
+  const auto [length, whole] = seen("300");
+  EXPECT_GT(length, 0);
+  EXPECT_LT(length, whole / 2);
 }
 
 // A pilot behind the building, given as a place on the ground or in coordinates of a system: the same check.

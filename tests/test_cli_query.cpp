@@ -73,6 +73,48 @@ TEST_F(CliQuery, TakesAnyTable) {
   }
 }
 
+// `check` reads the same titles.
+TEST_F(CliQuery, TakesTheTitlesOfPlans) {
+  options_.input = "1,2,30.48\n";
+  const std::string answer =
+      lines(output_of({"query", "mission.yaml", "-"})).at(1).substr(std::string("1,2,30.48").size());
+  const auto expect_same = [&](const std::string& text, const std::string& begin) {
+    SCOPED_TRACE(text);
+    options_.input = text;
+    const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "-"}));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1], begin + answer);
+  };
+  expect_same("x_m,y (m),Z (ft)\n1,2,100\n", "1,2,100");
+  expect_same("X;Y;Z\n1;2;30,48\n", "1,2,30.48");
+  expect_same("\xEF\xBB\xBFx;y;z\n1,0;2,0;30,48\n", "1,2,30.48");
+  const auto expect_bad_points = [&](const std::string& text, const std::string& line) {
+    write("points.csv", text);
+    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, "points.csv" + line);
+  };
+  expect_bad_points("x,y,height\n1,2,3\n", ":1");
+  expect_bad_points("x,y,height_home_m\n1,2,3\n", "");
+  expect_bad_points("x,y,hae\n1,2,3\n", "");
+  expect_bad_points("x,y,AltitudeAMSL,AltitudeAGL\n1,2,3,4\n", ":1");
+  options_.input = "x,y,height,z\n1,2,7,30.48\n";
+  EXPECT_EQ(lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1), "1,2,7,30.48" + answer);
+  expect_bad_points("x;y;z\n1,5;2.5;3\n", ":2");
+  expect_bad_points("lat,lon,z\n47\u00b061'0\"N,11,3\n", ":2");
+  write("mission.yaml", std::string(kScene) + kTarget + kSensor + "tour: {home: [0, 0, 5]}\n");
+  expect_same("x,y,height above home (m)\n1,2,25.48\n", "1,2,25.48");
+  write("mission.yaml",
+        "scene: {mesh: city.obj, origin: [48.1, 11.5], sea_level: -500}\n" + std::string(kTarget) + kSensor);
+  options_.input = "Latitude,LNG,z\n48.1,11.5,30.48\n";
+  const std::string placed = lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1);
+  options_.input = "Latitude,LNG,z\n\"48\u00b0 6' 0\"\"N\",11\u00b029'60\"E,30.48\n";
+  EXPECT_EQ(lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1), placed);
+  for (const std::string title : {"alt", "altitude(m)", "Altitude (m)", "AltitudeAMSL", "msl"}) {
+    options_.input = "latitude,longitude," + title + "\n48.1,11.5,530.48\n";
+    const std::string row = lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1);
+    EXPECT_EQ(row, "48.1,11.5,530.48" + placed.substr(std::string("48.1,11.5,30.48").size())) << title;
+  }
+}
+
 TEST_F(CliQuery, WritesAFile) {
   write("points.csv", "0,0,30\n");
   const std::string answers = output_of({"query", "mission.yaml", "points.csv"});
@@ -91,7 +133,7 @@ TEST_F(CliQuery, RefusesBadRows) {
   expect_bad_points("1,2,nan\n", "1");
   expect_bad_points("1,2,-inf\n", "1");
   expect_bad_points("1,2,1e999\n", "1");
-  expect_bad_points("1;2,5;3\n", "1");
+  expect_bad_points("1;2,5;3.5\n", "1");
   expect_bad_points("a,b,c\n1,2,3\n", "1");
   expect_bad_points("x,y\n1,2\n", "1");
   expect_bad({"query", "mission.yaml", "none.csv"}, "none.csv");

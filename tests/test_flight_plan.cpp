@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/plan_texts.h"
+#include "support/shared_data.h"
 #include "support/wording.h"
 #include "vantage/flight.h"
 
@@ -170,11 +171,175 @@ TEST(ReadFlightPlan, CountsWhatItDoesNotKnow) {
             simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"), simple(82, 3, "[0, 0, 0, 0, 48.001, 11, 5]"),
             simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]"), waypoint(48, 11, 10)}));
   EXPECT_EQ(read.items.size(), 3u);
+  std::vector<std::string> texts = read.not_judged;
+  for (const Warning& note : read.notes) texts.push_back(note.text);
+  expect_wording(texts);
+  EXPECT_EQ(read.not_judged.size(), 1u);
+  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_left_out));
+  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
+}
+
+TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
+  const auto not_judged = [](const std::string& item) {
+    return parsed_plan(plan({waypoint(48, 11, 10, 3, 1), item, waypoint(48.001, 11, 10)})).not_judged;
+  };
+  const std::string nowhere = "[2, 0, 0, 0, 0, 0, 0]", somewhere = "[0, 0, 0, null, 48.002, 11, 30]";
+  for (const int command : {25, 30, 32, 35, 37, 83, 91, 92, 94, 113, 176, 185, 186, 192, 208, 224, 601, 4001, 42703}) {
+    const std::vector<std::string> told = not_judged(simple(command, 3, nowhere));
+    ASSERT_EQ(told.size(), 1u) << command;
+    EXPECT_NE(told[0].find("item 2"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find(std::to_string(command)), std::string::npos) << told[0];
+    EXPECT_EQ(not_judged(simple(command, 3, somewhere)).size(), command == 92 || command == 208 ? 0u : 1u) << command;
+  }
+  // Not known: it depends on whether they have a position.
+  for (const int command : {31000, 30001, 43000}) {
+    EXPECT_EQ(not_judged(simple(command, 3, somewhere)).size(), 1u) << command;
+    EXPECT_TRUE(not_judged(simple(command, 2, nowhere)).empty()) << command;
+  }
+  for (const int command : {112, 189, 206, 2000, 4501, 5001, 5100, 31005}) {
+    EXPECT_TRUE(not_judged(simple(command, 3, somewhere)).empty()) << command;
+  }
+  EXPECT_EQ(not_judged(simple(179, 3, somewhere)).size(), 1u) << "another home in flight";
+  // Each item once, however often it is come to; and of very many the first.
+  EXPECT_EQ(not_judged(simple(94, 3, somewhere) + ", " + simple(177, 2, "[1, 3, 0, 0, 0, 0, 0]")).size(), 1u);
+  std::string many = simple(94, 3, somewhere);
+  for (int i = 0; i < 30; ++i) many += ", " + simple(192, 3, somewhere);
+  const std::vector<std::string> told = not_judged(many);
+  ASSERT_EQ(told.size(), 21u);
+  EXPECT_NE(told.back().find("11 items more"), std::string::npos) << told.back();
+}
+
+TEST(ReadFlightPlan, NamesRallyPointsThatItMayReturnTo) {
+  const auto with = [](const std::string& points, const std::vector<std::string>& items) {
+    std::string text = plan(items);
+    text.insert(1, "\"rallyPoints\": {\"points\": [" + points + "], \"version\": 2}, ");
+    return parsed_plan(text).not_judged;
+  };
+  const std::string home = simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]");
+  const std::vector<std::string> told = with("[48, 11, 30], [48.001, 11, 30]", {waypoint(48, 11, 10), home});
+  ASSERT_EQ(told.size(), 1u);
+  expect_wording(told);
+  EXPECT_TRUE(with("", {waypoint(48, 11, 10), home}).empty());
+  EXPECT_TRUE(with("[48, 11, 30]", {waypoint(48, 11, 10)}).empty());
+}
+
+// Of the ground station's own samples nothing is left out; one has rally points, and returns.
+TEST(ReadFlightPlan, ReadsRealPlansWhole) {
+  VANTAGE_REQUIRE_SHARED("missions/simple.plan");
+  for (const std::string name : {"qgroundcontrol_sample", "qgroundcontrol_sample_with_survey", "simple"}) {
+    const FlightPlan read = read_flight_plan(shared_data("missions/" + name + ".plan"));
+    EXPECT_EQ(read.not_judged.size(), name == "simple" ? 1u : 0u) << name;
+    EXPECT_FALSE(has_note(read.notes, WarningCode::plan_left_out)) << name;
+  }
+}
+
+TEST(ReadFlightPlan, TakesArcsAndOrbits) {
+  const auto read = [](const std::string& arc, const std::string& before = waypoint(48, 11, 10)) {
+    return parsed_plan(plan({before, arc, waypoint(48.002, 11, 10)}));
+  };
+  const auto arc = [](const std::string& first, const std::string& second) {
+    return simple(36, 3, "[" + first + ", " + second + ", 0, null, 48.001, 11, 30]");
+  };
+  const FlightPlan standard = read(arc("-270", "0"));
+  ASSERT_EQ(standard.items.size(), 3u);
+  EXPECT_EQ(standard.items[1].kind, PlanItemKind::waypoint);
+  EXPECT_EQ(standard.items[1].arc_deg, -270);
+  EXPECT_EQ(standard.items[1].position.height_m, 30);
+  EXPECT_TRUE(standard.not_judged.empty());
+  EXPECT_TRUE(standard.notes.empty());
+  const FlightPlan early = read(arc("0", "180"));
+  EXPECT_EQ(early.items[1].arc_deg, 180);
+  EXPECT_TRUE(early.not_judged.empty());
+  ASSERT_EQ(early.notes.size(), 1u);
+  expect_wording(early.notes[0].text);
+  EXPECT_TRUE(read(arc("0", "null")).not_judged.empty()) << "a straight leg";
+  const std::string takeoff = simple(22, 3, "[0, 0, 0, null, null, null, 20]");
+  EXPECT_TRUE(read(arc("0", "0"), takeoff).not_judged.empty()) << "a straight leg";
+  std::vector<std::string> told;
+  for (const FlightPlan& plan :
+       {read(arc("90", "90")), read(arc("720", "0")), read(arc("90", "0"), takeoff), read(arc("1e9", "0")),
+        read(arc("90", "0"), simple(82, 3, "[0, 0, 0, 0, 48, 11, 5]"))}) {
+    ASSERT_EQ(plan.not_judged.size(), 1u);
+    EXPECT_EQ(plan.items.size(), 3u);
+    told.push_back(plan.not_judged[0]);
+  }
+  expect_wording(told);
+  const FlightPlan orbit = read(simple(34, 3, "[-25, 3, 0, 4.71238898038469, 48.001, 11, 30]"));
+  EXPECT_TRUE(orbit.not_judged.empty());
+  EXPECT_EQ(orbit.items[1].kind, PlanItemKind::loiter);
+  EXPECT_EQ(orbit.items[1].loiter_radius_m, -25);
+  EXPECT_NEAR(orbit.items[1].turns, 0.75, 1e-12);
+  EXPECT_EQ(orbit.items[1].speed_m_s, 3);
+  const FlightPlan endless = read(simple(34, 3, "[25, null, 0, null, 48.001, 11, 30]"));
+  EXPECT_EQ(endless.items[1].turns, 1);
+  EXPECT_TRUE(has_note(endless.notes, WarningCode::plan_assumed));
+}
+
+TEST(ReadFlightPlan, NamesSplinesThatNobodyDefines) {
+  const std::string spline = simple(82, 3, "[0, 0, 0, 0, 48.002, 11, 5]"),
+                    arc = simple(36, 3, "[90, 0, 0, 0, 48.001, 11, 5]");
+  EXPECT_TRUE(parsed_plan(plan({waypoint(48, 11, 10), spline})).not_judged.empty());
+  EXPECT_EQ(parsed_plan(plan({waypoint(48, 11, 10), arc, spline})).not_judged.size(), 1u);
+  EXPECT_EQ(parsed_plan(plan({waypoint(48, 11, 10), spline, simple(93, 2, "[3, 0, 0, 0, 0, 0, 0]")})).not_judged.size(),
+            1u);
+}
+
+TEST(ReadFlightPlan, KeepsTheHeightBeforeForTheHeightZero) {
+  const std::string rows =
+      "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t500\t1\n1\t0\t3\t22\t0\t0\t0\t0\t0\t0\t50\t1\n"
+      "2\t0\t3\t16\t0\t0\t0\t0\t48\t11.001\t0\t1\n3\t0\t0\t82\t0\t0\t0\t0\t48.001\t11.001\t0\t1\n"
+      "4\t0\t3\t21\t0\t0\t0\t0\t48\t11\t0\t1\n";
+  const FlightPlan read = parsed_plan(rows);
+  ASSERT_EQ(read.items.size(), 4u);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(read.items[i].position.height_m, 50);
+    EXPECT_EQ(read.items[i].position.datum, HeightDatum::home);
+  }
+  EXPECT_EQ(read.items[3].position.height_m, 0) << "it lands";
   std::vector<std::string> texts;
   for (const Warning& note : read.notes) texts.push_back(note.text);
   expect_wording(texts);
-  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_left_out));
-  EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
+  // Of other autopilots, and of ArduPilot's Plane, 0 is a height.
+  const auto second = [](int firmware, int vehicle) {
+    std::string text = plan({waypoint(48, 11, 50), waypoint(48.001, 11, 0)}, vehicle);
+    const std::string px4 = "\"firmwareType\": 12";
+    return parsed_plan(text.replace(text.find(px4), px4.size(), "\"firmwareType\": " + std::to_string(firmware)))
+        .items[1]
+        .position.height_m;
+  };
+  EXPECT_EQ(second(3, 2), 50);
+  EXPECT_EQ(second(12, 2), 0);
+  EXPECT_EQ(second(3, 1), 0);
+  // Over another ground the height is not that of the item before.
+  const std::string terrain =
+      "QGC WPL 110\n0\t1\t10\t16\t0\t0\t0\t0\t48\t11\t50\t1\n1\t0\t3\t16\t0\t0\t0\t0\t48\t11.001\t0\t1\n";
+  EXPECT_EQ(parsed_plan(terrain).not_judged.size(), 1u);
+}
+
+TEST(ReadFlightPlan, TellsVersionsThatItDoesNotKnow) {
+  std::string text = plan({waypoint(48, 11, 50)});
+  EXPECT_TRUE(parsed_plan(text).notes.empty());
+  text.replace(text.find("\"version\": 1"), 12, "\"version\": 42");
+  text.replace(text.find("\"version\": 2"), 12, "\"version\": 7");
+  const std::vector<Warning> notes = parsed_plan(text).notes;
+  ASSERT_EQ(notes.size(), 2u);
+  expect_wording({notes[0].text, notes[1].text});
+}
+
+TEST(ReadFlightPlan, RefusesHeightsThatContradictEachOther) {
+  const auto item = [](const std::string& mode, int frame, const std::string& more) {
+    return simple(16, frame, "[0, 0, 0, null, 48, 11, 50]", 1, ", \"AltitudeMode\": " + mode + ", " + more);
+  };
+  const auto read = [&](const std::string& text) { return parsed_plan(plan({text})); };
+  expect_error([&] { read(item("3", 0, "\"Altitude\": 50, \"AMSLAltAboveTerrain\": 550")); },
+               ErrorCode::conflicting_keys, "item 1");
+  expect_error([&] { read(item("1", 3, "\"Altitude\": 30, \"AMSLAltAboveTerrain\": null")); },
+               ErrorCode::conflicting_keys, "item 1");
+  expect_code([&] { read(item("\"CalcAboveTerrain\"", 0, "\"Altitude\": 50, \"AMSLAltAboveTerrain\": 550")); },
+              ErrorCode::conflicting_keys, "item 1");
+  EXPECT_EQ(read(item("3", 0, "\"Altitude\": 20, \"AMSLAltAboveTerrain\": 50.01")).items[0].position.height_m, 50);
+  EXPECT_EQ(read(item("1", 3, "\"Altitude\": 50, \"AMSLAltAboveTerrain\": 12")).items[0].position.height_m, 50);
+  EXPECT_EQ(read(item("\"Absolute\"", 0, "\"Altitude\": 50")).items[0].position.height_m, 50);
 }
 
 TEST(ReadFlightPlan, TakesTablesOfWaypoints) {
@@ -225,6 +390,52 @@ TEST(ReadFlightPlan, TakesLinesAndTracksOfKml) {
            "</coordinates></Point></Placemark>";
   };
   EXPECT_EQ(parsed_plan(kml(point("11,48,500") + point("11.1,48,500"))).items.size(), 2u);
+}
+
+TEST(ReadFlightPlan, TakesKmlAsManyWriteIt) {
+  const std::string multi =
+      "<Placemark><gx:MultiTrack><altitudeMode>relativeToGround</altitudeMode><gx:Track><gx:coord>11 48 50</gx:coord>"
+      "</gx:Track><gx:Track><altitudeMode>absolute</altitudeMode><gx:coord>11 48.1 550</gx:coord></gx:Track>"
+      "</gx:MultiTrack></Placemark>";
+  const FlightPlan tracks = parsed_plan(kml(multi));
+  ASSERT_EQ(tracks.items.size(), 2u);
+  EXPECT_EQ(tracks.items[0].position.datum, HeightDatum::ground);
+  EXPECT_EQ(tracks.items[1].position.datum, HeightDatum::sea_level);
+  const FlightPlan commas = parsed_plan(kml(kml_line(",11,48,500 ,11.001,48,510\n, 11.002,48,520")));
+  ASSERT_EQ(commas.items.size(), 3u);
+  EXPECT_EQ(commas.items[1].position.horizontal, Eigen::Vector2d(11.001, 48));
+  EXPECT_EQ(commas.items[1].position.height_m, 510);
+  const std::string offset = "<gx:altitudeOffset>-7</gx:altitudeOffset><altitudeMode>";
+  std::string shifted = kml(kml_line("11,48,500"));
+  EXPECT_EQ(parsed_plan(shifted.replace(shifted.find("<altitudeMode>"), 14, offset)).items.at(0).position.height_m,
+            493);
+  const FlightPlan beside =
+      parsed_plan(kml(kml_line("11,48,500 11.001,48,500") +
+                      "<Placemark><Point><coordinates>11.2,48</coordinates></Point></Placemark>"));
+  EXPECT_EQ(beside.items.size(), 2u);
+  ASSERT_EQ(beside.notes.size(), 1u);
+  expect_wording(beside.notes[0].text);
+  // In UTF-16, of both orders, with a mark and without; also where the declaration says UTF-16.
+  std::string text = kml(kml_line("11,48,500", "absolute", "H\xC3\xB6he \xF0\x9F\x9A\x81") + kml_line("11,48.1,500"));
+  text.replace(text.find("UTF-8"), 5, "UTF-16");
+  for (const bool is_big : {false, true}) {
+    for (const bool has_mark : {false, true}) {
+      const FlightPlan read = parsed_plan(in_utf16(text, is_big, has_mark));
+      ASSERT_EQ(read.items.size(), 2u);
+      EXPECT_NE(read.notes.at(0).text.find("H\xC3\xB6he \xF0\x9F\x9A\x81"), std::string::npos) << read.notes[0].text;
+    }
+  }
+  EXPECT_EQ(parsed_plan(in_utf16("lat;lon;msl\n48;11;500\n", false, true)).items.at(0).position.height_m, 500);
+}
+
+TEST(ReadFlightPlan, TakesAllTracksOfAName) {
+  const std::string text = kml(kml_line("11,48,1 11,48.001,2", "absolute", "out") +
+                               kml_line("11,49,3", "absolute", "b") + kml_line("11,48.002,4", "absolute", "out"));
+  const FlightPlan out = parsed_plan(text, "out");
+  ASSERT_EQ(out.items.size(), 3u);
+  EXPECT_EQ(out.items[2].position.height_m, 4);
+  EXPECT_TRUE(has_note(out.notes, WarningCode::plan_joined));
+  EXPECT_EQ(parsed_plan(text, "3").items.size(), 1u);
 }
 
 TEST(ReadFlightPlan, JoinsTracksOrTakesOne) {
@@ -289,6 +500,34 @@ TEST(ReadFlightPlan, TakesWaylinesOfDji) {
       WarningCode::plan_joined));
 }
 
+TEST(ReadFlightPlan, RefusesWaypointsInAnotherOrder) {
+  const auto read = [](const std::string& first, const std::string& second) {
+    const auto index = [](const std::string& number) { return "<wpml:index>" + number + "</wpml:index>"; };
+    return parsed_plan(
+        waylines(wayline(wayline_point(11, 48, 40, index(first)) + wayline_point(11.001, 48, 40, index(second)))));
+  };
+  EXPECT_EQ(read("0", "1").items.size(), 2u);
+  expect_error([&] { read("1", "0"); }, ErrorCode::value_unsupported, "line");
+}
+
+TEST(ReadFlightPlan, NamesCurvesOfTheAircraftsOwn) {
+  const auto point = [](double longitude, const std::string& mode, const std::string& straight) {
+    return wayline_point(longitude, 48, 40,
+                         "<wpml:waypointTurnParam><wpml:waypointTurnMode>" + mode +
+                             "</wpml:waypointTurnMode></wpml:waypointTurnParam>"
+                             "<wpml:useStraightLine>" +
+                             straight + "</wpml:useStraightLine>");
+  };
+  const auto read = [&](const std::string& mode, const std::string& straight) {
+    return parsed_plan(waylines(wayline(point(11, mode, straight) + point(11.001, mode, straight))));
+  };
+  const FlightPlan curved = read("toPointAndPassWithContinuityCurvature", "0");
+  ASSERT_EQ(curved.not_judged.size(), 1u);
+  expect_wording(curved.not_judged[0]);
+  EXPECT_TRUE(read("toPointAndPassWithContinuityCurvature", "1").not_judged.empty());
+  EXPECT_TRUE(read("toPointAndStopWithDiscontinuityCurvature", "0").not_judged.empty());
+}
+
 TEST(ReadFlightPlan, TakesTemplatesOfDji) {
   const auto with = [](const std::string& type, const std::string& mode) {
     return waylines(
@@ -320,6 +559,8 @@ TEST(ReadFlightPlan, TakesTracksRoutesAndPointsOfGpx) {
   EXPECT_EQ(all.items[2].position.height_m, 502);
   EXPECT_EQ(all.items[0].position.datum, HeightDatum::sea_level);
   EXPECT_TRUE(has_note(all.notes, WarningCode::plan_left_out));
+  ASSERT_TRUE(has_note(all.notes, WarningCode::plan_joined)) << "two segments";
+  expect_wording(all.notes[0].text);
   EXPECT_EQ(parsed_plan(gpx(waypoints + route)).items.size(), 1u);
   EXPECT_EQ(parsed_plan(gpx(waypoints)).items.size(), 2u);
   EXPECT_TRUE(std::isnan(parsed_plan(gpx("<wpt lat=\"48\" lon=\"11\"/>")).items[0].position.height_m));
@@ -339,6 +580,13 @@ TEST(ReadFlightPlan, TakesLinesAndPointsOfGeoJson) {
   EXPECT_EQ(parsed_plan("{\"type\": \"Point\", \"coordinates\": [11, 48]}").items.size(), 1u);
   expect_error([] { parsed_plan("{\"type\": \"LineString\", \"coordinates\": [[11]]}"); }, ErrorCode::plan_syntax,
                "position 1");
+  const std::string collection =
+      "{\"type\": \"GeometryCollection\", \"geometries\": [{\"type\": \"LineString\", \"coordinates\": [[11, 48, 560], "
+      "[11.001, 48, 570]]}, {\"type\": \"LineString\", \"coordinates\": [[11.002, 48, 580]]}]}";
+  EXPECT_EQ(parsed_plan(collection).items.size(), 3u);
+  EXPECT_EQ(parsed_plan("{\"type\": \"Feature\", \"properties\": {}, \"geometry\": " + collection + "}").items.size(),
+            3u);
+  EXPECT_EQ(parsed_plan("{\"type\": \"MultiPoint\", \"coordinates\": [[11, 48, 1], [11.1, 48, 2]]}").items.size(), 2u);
 }
 
 TEST(ReadFlightPlan, TakesStaysOfPointsBesideTheirLine) {
@@ -422,6 +670,62 @@ TEST(ReadFlightPlan, TakesTablesWhoseColumnsSayWhatTheyAre) {
   expect_error([] { parsed_plan("lat,lon,msl\n48,11,high\n"); }, ErrorCode::not_a_number, "line 2, column 3");
   expect_error([] { parsed_plan("x,y,z\n1,2,\n"); }, ErrorCode::plan_syntax, "line 2");
   expect_error([] { parsed_plan("lat,lon,msl\n"); }, ErrorCode::plan_empty);
+}
+
+TEST(ReadFlightPlan, TakesDegreesMinutesAndSeconds) {
+  const auto first = [](const std::string& latitude, const std::string& longitude) {
+    return parsed_plan("latitude;longitude;agl\n" + latitude + ";" + longitude + ";50\n")
+        .items.at(0)
+        .position.horizontal;
+  };
+  EXPECT_EQ(first("47\u00b059'60\"N", "10\u00b059'60\"E"), Eigen::Vector2d(11, 48));
+  EXPECT_EQ(first("\"47\u00b0 59' 60\"\" N\"", "\"11\u00b0 0' 0\"\" E\""), Eigen::Vector2d(11, 48));
+  EXPECT_EQ(first("S 47\u00b030\u2032", "W11\u00b030.6'"), Eigen::Vector2d(-11.51, -47.5));
+  EXPECT_EQ(first("-47\u00b030'0\u2033", "11.25\u00b0"), Eigen::Vector2d(11.25, -47.5));
+  EXPECT_NEAR(first("48\u00b00'0,36\"N", "11\u00b00'0\"E").y(), 48.0001, 1e-12);
+  // Of the other kind, too large, cut off, with two signs.
+  for (const std::string wrong :
+       {"47\u00b059'60\"E", "47\u00b061'0\"N", "47\u00b00'61\"N", "47\u00b05", "47\u00b05'6", "-47\u00b00'0\"S",
+        "47.5\u00b030'0\"N", "47\u00b030.5'10\"N", "47'30\"N", "\u00b0", "N"}) {
+    EXPECT_EQ(code_of([&] { first(wrong, "11"); }), ErrorCode::not_a_number) << wrong;
+  }
+  // Without semicolons and quotes, too.
+  EXPECT_EQ(parsed_plan("lat,lon,agl\n47\u00b059'60\"N,10\u00b059'60\"E,50\n").items.at(0).position.horizontal,
+            Eigen::Vector2d(11, 48));
+}
+
+TEST(ReadFlightPlan, TakesDecimalCommasBetweenSemicolons) {
+  const FlightPlan read =
+      parsed_plan("\xEF\xBB\xBFlatitude;longitude;height_agl_m\n48,0000000;10,9997320;50\n48;11,5;50,25\n");
+  ASSERT_EQ(read.items.size(), 2u);
+  EXPECT_EQ(read.items[0].position.horizontal, Eigen::Vector2d(10.999732, 48));
+  EXPECT_EQ(read.items[1].position.height_m, 50.25);
+  EXPECT_EQ(parsed_plan("x\ty\tz\n1,5\t2\t3\n").items.at(0).position.horizontal.x(), 1.5);
+  // Thousands, and both kinds of marks: nobody knows.
+  for (const std::string row : {"48.5;11.5;1,234", "48,5;11,5;1.234", "48,5;11,5;1,234,567", "48,5;11,5;1.234,5"}) {
+    expect_code([&] { parsed_plan("lat;lon;agl\n" + row + "\n"); }, ErrorCode::not_a_number, "line 2");
+  }
+}
+
+TEST(ReadFlightPlan, TakesTablesOfUgcs) {
+  const FlightPlan read =
+      parsed_plan("Latitude,Longitude,AltitudeAMSL,AltitudeAGL,UavSpeed\n48,11,550,50,5\n48,11.1,551,50,5\n");
+  EXPECT_EQ(read.items.at(1).position.height_m, 551);
+  EXPECT_EQ(read.items[1].position.datum, HeightDatum::sea_level);
+  EXPECT_EQ(read.items[1].speed_m_s, 5);
+  ASSERT_EQ(read.notes.size(), 1u);
+  expect_wording(read.notes[0].text);
+  EXPECT_EQ(parsed_plan("Latitude,Longitude,AltitudeAGL\n48,11,50\n").items[0].position.datum, HeightDatum::ground);
+}
+
+TEST(ReadFlightPlan, RefusesModesOfLitchiThatItDoesNotKnow) {
+  const auto read = [](const std::string& mode) {
+    return parsed_plan("latitude,longitude,altitude(m),curvesize(m),altitudemode\n48,11,50,0," + mode + "\n");
+  };
+  EXPECT_EQ(read("0").items[0].position.datum, HeightDatum::home);
+  EXPECT_EQ(read("1").items[0].position.datum, HeightDatum::ground);
+  expect_error([&] { read("2"); }, ErrorCode::value_unsupported, "line 2");
+  expect_code([&] { read("-1"); }, ErrorCode::value_unsupported, "line 2");
 }
 
 TEST(ReadFlightPlan, TakesNoFieldForAnotherColumns) {

@@ -338,6 +338,152 @@ TEST(LocateFlight, TakesOffAndReturns) {
   expect_error([&] { locate_flight(homeless, options); }, ErrorCode::missing_key, "item 2");
 }
 
+/// Waypoints in the scene frame.
+FlightPlan in_scene(const std::vector<Vec3>& positions) {
+  FlightPlan plan;
+  plan.is_in_scene_frame = true;
+  for (const Vec3& at : positions) {
+    plan.items.emplace_back().position = {at.head<2>(), at.z(), HeightDatum::scene_z};
+  }
+  return plan;
+}
+
+/// How far the flight's legs are from a point.
+double distance_to_flight(const Flight& flight, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < flight.leg_count(); ++i) least = std::min(least, distance_to_leg(flight.leg(i), p));
+  return least;
+}
+
+// Clockwise from the west over the north to the east, and likewise.
+TEST(LocateFlight, FliesArcs) {
+  const auto arc = [](double angle, const Vec3& to, const LocateOptions& options = {}) {
+    FlightPlan plan = in_scene({{-20, 0, 10}, to});
+    plan.items[1].arc_deg = angle;
+    plan.items[1].hold_s = 3;
+    return locate_flight(plan, options).flight;
+  };
+  const Flight half = arc(180, {20, 0, 30});
+  EXPECT_EQ(half.chord_error_m, 0.05);
+  EXPECT_LT(distance_to_flight(half, {0, 20, 20}), 0.05);
+  EXPECT_GT(distance_to_flight(half, {0, -20, 20}), 20);
+  EXPECT_LT((half.points.back().position - Vec3(20, 0, 30)).norm(), 1e-9);
+  EXPECT_EQ(half.points.back().hold_s, 3);
+  for (std::size_t i = 0; i + 1 < half.points.size(); ++i) EXPECT_EQ(half.points[i].hold_s, 0);
+  EXPECT_LT(distance_to_flight(arc(-180, {20, 0, 30}), {0, -20, 20}), 0.05);
+  EXPECT_LT(distance_to_flight(arc(270, {20, 0, 10}), {0, 20 + 20 * std::numbers::sqrt2, 10}), 0.05);
+  EXPECT_LT(distance_to_flight(arc(-90, {20, 0, 10}), {0, 20 - 20 * std::numbers::sqrt2, 10}), 0.05);
+  EXPECT_EQ(arc(180, {-20, 0, 30}).points.size(), 2u) << "where it is: straight";
+  // Seven and a half turns up: every position of the helix.
+  const Flight helix = arc(-2700, {20, 0, 90});
+  for (int i = 0; i <= 200; ++i) {
+    const double share = i / 200.0, angle = std::numbers::pi + share * 15 * std::numbers::pi;
+    ASSERT_LT(distance_to_flight(helix, {20 * std::cos(angle), 20 * std::sin(angle), 10 + 80 * share}), 0.05) << i;
+  }
+  expect_error([&] { arc(35000, {20, 0, 10}, {.chord_error_m = 1e-9}); }, ErrorCode::work_too_large);
+}
+
+// The frame of the scene bends it by nothing that counts, and ground legs keep their height.
+TEST(LocateFlight, FliesArcsOnTheEarthAndOverGround) {
+  const FlightPlan plan = parsed_plan(plan_texts::plan(
+      {waypoint(48, 10.999731994569604, 50), simple(36, 3, "[180, 0, 0, null, 48.00269807653214, 11, 50]")}));
+  const Flight flight = locate_flight(plan, in_munich()).flight;
+  const geo::LocalFrame frame({11, 48});
+  const Vec3 begin = flight.points.front().position, end = flight.points.back().position;
+  EXPECT_LT((end.head<2>() - frame.to_local({11, 48.00269807653214})).norm(), 1e-6);
+  const Vec3 centre = (begin + end) / 2;
+  for (const FlightPoint& point : flight.points) {
+    EXPECT_NEAR((point.position - centre).norm(), (end - begin).norm() / 2, 0.01);
+    EXPECT_LE((point.position - begin).head<2>().dot(Eigen::Vector2d((end - begin).y(), -(end - begin).x())), 1);
+  }
+  FlightPlan low = in_scene({{-20, 0, 0}, {20, 0, 0}});
+  for (PlanItem& item : low.items) {
+    item.position.datum = HeightDatum::ground;
+    item.position.height_m = 10;
+  }
+  low.items[1].follows_ground = true;
+  low.items[1].arc_deg = 180;
+  const Ground slope{0, std::make_shared<const Mesh>(
+                            Mesh{{{-99, -99, 0}, {99, -99, 0}, {99, 99, 99}, {-99, 99, 99}}, {{0, 1, 2}, {0, 2, 3}}})};
+  LocateOptions options;
+  options.ground = &slope;
+  const Flight over = locate_flight(low, options).flight;
+  EXPECT_LT(distance_to_flight(over, {0, 20, 119.0 / 2 + 10}), 0.3);
+}
+
+/// The cubic of Bezier that has these ends and tangents, by de Casteljau's halving of its control points.
+Vec3 cubic_at(const Vec3& from, const Vec3& to, const Vec3& from_tangent, const Vec3& to_tangent, double t) {
+  std::vector<Vec3> points{from, from + from_tangent / 3, to - to_tangent / 3, to};
+  while (points.size() > 1) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) points[i] = (1 - t) * points[i] + t * points[i + 1];
+    points.pop_back();
+  }
+  return points[0];
+}
+
+// As ArduPilot's Copter takes the tangents: from the leg before, to the leg behind, along the chord between two
+// splines; none where it stops.
+TEST(LocateFlight, FliesSplines) {
+  const std::vector<Vec3> at = {{0, 0, 10}, {40, 0, 10}, {60, 30, 20}, {20, 60, 30}, {-30, 60, 30}, {-60, 0, 10}};
+  FlightPlan plan = in_scene(at);
+  plan.items[2].is_spline = plan.items[3].is_spline = true;
+  const auto expect_curve = [&](std::size_t item, const Vec3& first, const Vec3& last, double scale = 1) {
+    const Flight flight = locate_flight(plan, {}).flight;
+    for (int i = 0; i <= 200; ++i) {
+      const Vec3 p = cubic_at(at[item - 1], at[item], scale * first, scale * last, i / 200.0);
+      ASSERT_LT(distance_to_flight(flight, p), 0.05) << item << ": " << i;
+    }
+    EXPECT_EQ(flight.chord_error_m, 0.05);
+  };
+  expect_curve(2, at[1] - at[0], at[3] - at[1]);
+  expect_curve(3, at[3] - at[1], at[4] - at[3]);
+  plan.items[3].hold_s = 2;
+  expect_curve(3, at[3] - at[1], {0, 0, 0});
+  plan.items[1].hold_s = 2;
+  expect_curve(2, {0, 0, 0}, at[3] - at[1]);
+  plan.items[1].hold_s = 0;
+  plan.items[0].kind = plan.items[1].kind = PlanItemKind::loiter;  // stays
+  expect_curve(2, {0, 0, 0}, at[3] - at[1]);
+  plan.items.resize(3);
+  expect_curve(2, {0, 0, 0}, {0, 0, 0});
+  // Long tangents are shortened.
+  FlightPlan near = in_scene({{0, 0, 0}, {100, 0, 0}, {100, 5, 0}, {0, 5, 0}});
+  near.items[2].is_spline = true;
+  const double scale = 4 * 5 / (100.0 + 100.0);
+  const Flight flight = locate_flight(near, {}).flight;
+  for (int i = 0; i <= 100; ++i) {
+    const Vec3 p = cubic_at({100, 0, 0}, {100, 5, 0}, {scale * 100, 0, 0}, {-scale * 100, 0, 0}, i / 100.0);
+    ASSERT_LT(distance_to_flight(flight, p), 0.05) << i;
+  }
+}
+
+TEST(LocateFlight, KeepsWhatIsNotJudged) {
+  FlightPlan plan = in_scene({{0, 0, 10}, {40, 0, 10}});
+  plan.not_judged = {"a.plan: item 3: a loop"};
+  EXPECT_EQ(locate_flight(plan, {}).flight.not_judged, plan.not_judged);
+}
+
+// DJI's plans say how high the aircraft returns at least.
+TEST(LocateFlight, ReturnsAtTheHeightOfThePlan) {
+  const auto highest = [](const std::string& height) {
+    const std::string config =
+        "<wpml:finishAction>goHome</wpml:finishAction><wpml:takeOffRefPoint>48,11,560"
+        "</wpml:takeOffRefPoint>" +
+        height;
+    LocateOptions options = in_munich();
+    options.home_z_m = 500;
+    const LocatedPlan located = locate_flight(
+        parsed_plan(waylines(wayline(wayline_point(11.001, 48, 40) + wayline_point(11.002, 48, 50)), config)), options);
+    double z = 0;
+    for (const FlightPoint& point : located.flight.points) z = std::max(z, point.position.z());
+    EXPECT_EQ(has_note(located.notes, WarningCode::plan_assumed), height.empty());
+    return z;
+  };
+  EXPECT_EQ(highest(""), 550);
+  EXPECT_EQ(highest("<wpml:globalRTHHeight>100</wpml:globalRTHHeight>"), 600);
+  EXPECT_EQ(highest("<wpml:globalRTHHeight>20</wpml:globalRTHHeight>"), 550);
+}
+
 TEST(LocateFlight, HasBounds) {
   FlightPlan circles = parsed_plan(plan({simple(18, 3, "[10000, 0, 90000, 0, 48, 11, 50]")}));
   LocateOptions options = in_munich();

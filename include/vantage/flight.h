@@ -33,6 +33,8 @@ struct FlightPoint {
 struct Flight {
   std::vector<FlightPoint> points;
   double chord_error_m = 0;  ///< the legs lie at most so far from the curves that they stand for
+  /// What is flown besides the legs, a sentence each: FlightPlan::not_judged. No check passes such a flight.
+  std::vector<std::string> not_judged = {};
 
   /// One less than there are points, or none.
   std::size_t leg_count() const { return points.empty() ? 0 : points.size() - 1; }
@@ -90,7 +92,7 @@ enum class PlanItemKind {
   takeoff,      ///< the position may be missing: the home
   loiter,       ///< a circle about the position, if `turns` is not 0; else a stay
   land,         ///< the place where it lands; it comes there at the height before, and goes down
-  return_home,  ///< the position is missing: the home
+  return_home,  ///< the position is missing: the home; its height, if there is one, is the least on the way, above it
 };
 
 /// A step of a plan, jumps followed.
@@ -110,6 +112,10 @@ struct PlanItem {
   double acceptance_radius_m = 0;       ///< the item counts as reached so near; 0: not stated
   double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
   double turns = 0;                     ///< of a loiter; with `hold_s` above 0 it circles for that time instead
+  /// Of a waypoint that it comes to on an arc from the position before: the angle that the arc turns by, above 0
+  /// clockwise seen from above. 0: on a straight leg.
+  double arc_deg = 0;
+  bool is_spline = false;  ///< of a waypoint that it comes to on a spline of ArduPilot's Copter
   /// So far before the position the vehicle leaves the leg, and so far behind it it is on the next one, on an arc that
   /// touches both. 0: it goes to the position.
   double cut_m = 0;
@@ -129,6 +135,8 @@ struct FlightPlan {
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();
   std::vector<PlanItem> items;  ///< one or more
   std::vector<Warning> notes;   ///< what was left out, joined or taken for granted
+  /// What moves the vehicle, or may, and is not in `items`: a sentence each, with its place in the file.
+  std::vector<std::string> not_judged;
 };
 
 /// No larger file is read, and no more is unpacked of one.
@@ -146,11 +154,12 @@ struct ReadPlanOptions {
 /// Reads a plan of one of the formats above. The format is told by the content alone, whatever
 /// the name of the file.
 ///
-/// QGroundControl and waypoints: the commands of MAVLink NAV_WAYPOINT, SPLINE, LOITER_UNLIM, LOITER_TURNS, LOITER_TIME,
-/// LOITER_TO_ALT, RETURN_TO_LAUNCH, LAND, TAKEOFF, VTOL_TAKEOFF, VTOL_LAND, DELAY, DO_JUMP (followed), DO_CHANGE_SPEED,
-/// DO_SET_HOME, DO_SET_ROI and its kin, DO_MOUNT_CONTROL, DO_GIMBAL_MANAGER_PITCHYAW, CONDITION_YAW. Commands that move
-/// nothing are passed over; others are counted in a note. Surveys and corridor scans are read as the items or the
-/// transect points that they store; a structure scan, which stores none, is refused.
+/// QGroundControl and waypoints: the commands of MAVLink NAV_WAYPOINT, SPLINE, ARC, LOITER_UNLIM, LOITER_TURNS,
+/// LOITER_TIME, LOITER_TO_ALT, RETURN_TO_LAUNCH, LAND, TAKEOFF, VTOL_TAKEOFF, VTOL_LAND, DELAY, DO_ORBIT, DO_JUMP
+/// (followed), DO_CHANGE_SPEED, DO_SET_HOME, DO_SET_ROI and its kin, DO_MOUNT_CONTROL, DO_GIMBAL_MANAGER_PITCHYAW,
+/// CONDITION_YAW. Commands that move nothing are passed over. Others that move the vehicle, and unknown ones with a
+/// position, are in FlightPlan::not_judged; unknown ones without a position are counted in a note. Surveys and corridor
+/// scans are read as the items or the transect points that they store; a structure scan, which stores none, is refused.
 ///
 /// Heights: QGroundControl and waypoints as the frame of each item says; KML as altitudeMode says, and unknown where it
 /// says that they do not count; WPML as executeHeightMode or heightMode says; GPX above mean sea level, GeoJSON above

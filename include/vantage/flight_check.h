@@ -140,9 +140,11 @@ struct FlightCheck {
   std::vector<BrokenLimit> broken;   ///< of navigation
   NearestPass nearest;
   std::vector<std::string> failures;  ///< what is required and does not hold, a sentence each
-  std::vector<std::string> notes;     ///< what to know before relying on it, a sentence each
+  /// Flight::not_judged: what is flown besides. Then failures may be of legs that are not flown so.
+  std::vector<std::string> not_judged;
+  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each
 
-  bool passes() const { return failures.empty(); }
+  bool passes() const { return failures.empty() && not_judged.empty(); }
 };
 
 /// Judges a flight by what a mission asks: each of its targets (one for each volume, volume_count) must be seen whole
@@ -170,7 +172,8 @@ VANTAGE_API std::string json_text(const FlightCheck& check, const Georeference* 
 
 /// A table, a row for each stretch: target, state ("seen", "hidden", "out_of_range", "behind", "limit", "outside"; of a
 /// link, whose name stands for the target, "linked", "link_hidden", "link_out_of_range"; "broken"), what (object or
-/// limit), begin_m, end_m, begin_s, end_s, and the coordinates of both ends.
+/// limit), begin_m, end_m, begin_s, end_s, and the coordinates of both ends. Of the state "not_judged", what is the
+/// sentence, and the fields after it are empty.
 VANTAGE_API std::string csv_text(const FlightCheck& check);
 
 }  // namespace vantage

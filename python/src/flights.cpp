@@ -284,6 +284,7 @@ void bind_flights(nb::module_& module) {
       .def_prop_ro("broken", &broken_rows)
       .def_prop_ro("nearest", &nearest_row)
       .def_prop_ro("failures", [](const PyFlightCheck& c) { return c->failures; })
+      .def_prop_ro("not_judged", [](const PyFlightCheck& c) { return c->not_judged; })
       .def_prop_ro("notes", [](const PyFlightCheck& c) { return c->notes; })
       .def("json", &json_of)
       .def("csv", [](const PyFlightCheck& c) { return csv_text(*c.check); });

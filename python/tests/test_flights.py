@@ -68,6 +68,22 @@ def test_what_is_required(mission, found):
     assert not vt.check(high, [[-50, 5, 90]]).passes  # one point, from which it is too far
 
 
+def test_what_cannot_be_followed_is_not_judged(tmp_path):
+    """A plan with a command that moves the vehicle elsewhere passes nothing, and its name is told everywhere."""
+    squares = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]],
+                                   georeference=vt.Georeference(48.0, 11.0))
+    mission = vt.Mission.of(squares, SQUARE, max_range=90)
+    rows = ["QGC WPL 110", "0 1 0 16 0 0 0 0 48 11 500 1", "1 0 3 16 0 0 0 0 48 11 30 1",
+            "2 0 3 94 10 0 0 0 48.0001 11 30 1", "3 0 3 16 0 0 0 0 48.0001 11.0001 30 1"]
+    (tmp_path / "a.waypoints").write_text("\n".join(rows) + "\n")
+    check = vt.check(mission, tmp_path / "a.waypoints", home_z_m=0)
+    assert not check.passes and not check.failures
+    told, = check.not_judged
+    assert "item 2" in told and "94" in told
+    assert check.to_dict()["not_judged"] == [told] and check.to_dict()["passes"] is False
+    assert "not judged" in repr(check) and "NAV_PAYLOAD_PLACE" in check._repr_html_()
+
+
 def test_each_target_is_judged_by_itself():
     """Whatever `combine` says, also of a mission that was made one of several, and with meshes that are in memory."""
     squares = [SQUARE, [[-60, 0, 0], [-50, 0, 0], [-50, 10, 0], [-60, 10, 0]]]

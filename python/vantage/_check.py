@@ -182,6 +182,7 @@ class FlightCheck:
         broken: limits of navigation that are broken, a `BrokenLimit` each.
         nearest: where it comes nearest to the scene, but for its ground; None where there is nothing to come near to.
         failures: what is required and does not hold, a sentence each.
+        not_judged: what the plan holds that moves the vehicle and could not be followed, a sentence each: then nothing passes.
         notes: what to know before relying on it, a sentence each.
         length_m, duration_s: of the flight; the duration is NaN where a speed is missing.
         tube_m: all is said for every position so near to the flight; with `Flight.chord_error_m`.
@@ -204,6 +205,7 @@ class FlightCheck:
         self.nearest: NearestPass | None = None if near is None else NearestPass(
             near[0], near[1], np.array(near[2]), np.array(near[3]), near[4])
         self.failures: list[str] = core.failures
+        self.not_judged: list[str] = core.not_judged
         self.notes: list[str] = core.notes
         self.length_m: float = core.length_m
         self.duration_s: float = core.duration_s
@@ -213,8 +215,8 @@ class FlightCheck:
 
     @property
     def passes(self) -> bool:
-        """Whether all that is required holds."""
-        return not self.failures
+        """Whether all that is required holds, of all that the plan flies."""
+        return not self.failures and not self.not_judged
 
     def to_dict(self) -> dict[str, Any]:
         """What `vantage check --json` prints."""
@@ -271,7 +273,8 @@ class FlightCheck:
 
     def __repr__(self) -> str:
         seen = sum(bool(target.seen) for target in self.targets)
-        text = "passes" if self.passes else f"{len(self.failures)} failure{'' if len(self.failures) == 1 else 's'}"
+        text = "not judged as a whole" if self.not_judged else "passes" if self.passes else (
+            f"{len(self.failures)} failure{'' if len(self.failures) == 1 else 's'}")
         reached = "seen whole or flown through" if any(target.is_volume for target in self.targets) else "seen whole"
         return f"<vantage.FlightCheck: {self.length_m:,.1f} m, {seen} of {len(self.targets)} targets {reached}, {text}>"
 

@@ -162,7 +162,8 @@ def _check(check: FlightCheck) -> str:
     near = check.nearest
     ends = [("nearest", f"{near.distance_m:,.2f} m: {near.object or 'the scene'}")] if near is not None else []
     return table(repr(check)[len("<vantage.FlightCheck: "):-1],
-                 [*rows[:_MOST_ROWS], *more, *ends, *(("fails", failure) for failure in check.failures)])
+                 [*rows[:_MOST_ROWS], *more, *ends, *(("not judged", what) for what in check.not_judged),
+                  *(("fails", failure) for failure in check.failures)])
 
 
 @html.register(Tour)

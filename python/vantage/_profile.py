@@ -130,7 +130,8 @@ def plot(check: FlightCheck, path: Path | None = None, *, size: tuple[int, int] 
     _draw_heights(over, check)
     _draw_strips(under, check)
     duration = "" if np.isnan(check.duration_s) else f", {check.duration_s:,.0f} s"
-    told = "keeps what is asked" if check.passes else f"{len(check.failures)} of what is asked not kept"
+    told = "not judged as a whole" if check.not_judged else (
+        "keeps what is asked" if check.passes else f"{len(check.failures)} of what is asked not kept")
     over.set_title(f"{check.length_m:,.0f} m{duration}: {told}", loc="left", fontsize="medium")
     if check.mission.scene.attribution:  # the licence of the scene's data asks for it
         figure.text(0.995, 0.005, check.mission.scene.attribution, ha="right", va="bottom", fontsize=7, color="#777777")

@@ -63,7 +63,8 @@ std::string exit_code_table() {
          "  2      bad input, bad arguments, or a result that could not be written\n"
          "  3      a defect of vantage: please report it together with the input\n"
          "  4      prove, report or compute --prove neither proved nor refuted the volume;\n"
-         "         tour of a mission with 'tour.gap': the gap is larger, or fewer positions may do with --fewest\n"
+         "         tour of a mission with 'tour.gap': the gap is larger, or fewer positions may do with --fewest;\n"
+         "         check: the plan has commands that could not be judged\n"
          "  128+n  stopped by signal n. 130: Ctrl-C. 141: whoever read the output stopped reading\n"
          "  After 2, 3 and 128+n existing files are as they were. A second Ctrl-C ends the program at once.\n";
 }

@@ -38,8 +38,9 @@ constexpr const char* kCheckExamples =
     "  hides it elsewhere; where the links of the mission hold, and what is in their way; which limits of navigation\n"
     "  are broken, where and by how much; how near the flight comes to the scene, but for its ground. The exit code\n"
     "  is 1 where a target is not seen, or not for the dwell, a link is lost anywhere, a limit is broken, the\n"
-    "  clearance is not kept, or the camera would have to turn too fast. Dwell, clearance, speed and gimbal are those\n"
-    "  of the mission's 'tour', unless they are given here.\n"
+    "  clearance is not kept, or the camera would have to turn too fast. It is 4 where the plan has commands that\n"
+    "  move the vehicle and cannot be followed here: they are named. Dwell, clearance, speed and gimbal are those of\n"
+    "  the mission's 'tour', unless they are given here.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage check mission.yaml flight.plan\n"
@@ -122,6 +123,11 @@ void add_link(TextTable& table, const LinkCheck& link) {
   add_reasons(table, link.reasons);
 }
 
+const char* verdict(const FlightCheck& check) {
+  if (!check.not_judged.empty()) return "is NOT judged as a whole";
+  return check.passes() ? "keeps what is asked" : "does NOT keep what is asked";
+}
+
 std::string table_text(const FlightCheck& check, const std::string& plan) {
   TextTable table;
   table.heading(plan);
@@ -145,7 +151,8 @@ std::string table_text(const FlightCheck& check, const std::string& plan) {
               (check.nearest.object.empty() ? "the scene" : check.nearest.object) + ", at " +
                   fixed(check.nearest.at_m, 2) + " m along the flight, " + vector(check.nearest.position));
   }
-  table.heading(check.passes() ? "the flight keeps what is asked" : "the flight does NOT keep what is asked");
+  table.heading("the flight " + std::string(verdict(check)));
+  for (const std::string& what : check.not_judged) table.row("not judged", "", what);
   for (const std::string& failure : check.failures) table.row("fails", "", failure);
   return table.text();
 }
@@ -210,10 +217,10 @@ int run_check(const CheckArguments& options) {
     print(table_text(check, options.plan_file));
   }
   if (!options.picture_file.empty()) {
-    const std::string verdict = check.passes() ? "keeps what is asked" : "does not keep what is asked";
-    const FlightPicture picture{&mission, &located.flight, &check, {}, plan_name(options), verdict};
+    const FlightPicture picture{&mission, &located.flight, &check, {}, plan_name(options), verdict(check)};
     write_flight_picture(picture, options.picture_file, progress.callback());
   }
+  if (!check.not_judged.empty()) return kUndecided;
   return check.passes() ? kSuccess : kCheckFailed;
 }
 

@@ -20,7 +20,9 @@
 #include "common/atomic_file.h"
 #include "common/input.h"
 #include "common/output.h"
+#include "vantage/earth.h"
 #include "vantage/error.h"
+#include "vantage/flight.h"
 #include "vantage/fraction.h"
 #include "vantage/mission.h"
 #include "vantage/query.h"
@@ -36,7 +38,8 @@ constexpr const char* kQueryExamples =
     "  of the scene frame, z up; or lon, lat in degrees (WGS 84) and z, for a scene that says where on the earth it\n"
     "  lies. Without a header the first three columns are taken. z is the scene's: measured from the flat ground of a\n"
     "  map, or from the zero of its terrain. A column alt instead of z is metres above mean sea level, a column agl\n"
-    "  metres above the ground under the point.\n"
+    "  metres above the ground under the point. Titles may have units, alt_ft or \"Altitude (m)\", as check reads "
+    "them.\n"
     "\n"
     "ANSWERS\n"
     "  The table of the points, all of its columns in their order, and after them\n"
@@ -130,7 +133,10 @@ TableOptions table_options(const QueryArguments& options, bool has_targets) {
 
 void tell_of_columns(const PointTable& table) {
   if (table.is_ambiguous()) note("the points have x, y and lon, lat: x and y are used; --lonlat uses the others");
-  for (const std::string& name : table.unused_heights()) note("the points have z and " + name + ": z is used");
+  const std::string used = table.height_name().empty() ? "--z" : table.height_name();
+  for (const std::string& name : table.unused_heights()) {
+    note("the points have " + used + " and " + name + ": " + used + " is used");
+  }
   if (table.replaced().empty()) return;
   std::string names;
   for (const std::string& name : table.replaced()) names += (names.empty() ? "" : ", ") + name;
@@ -142,29 +148,48 @@ void tell_of_heights(const Scene& scene) {
   note("z of the points is metres above " + (level.empty() ? "the zero of the scene's file" : level));
 }
 
+/// The height of what the points' heights are measured from, above the zero of the scene's heights.
+double zero_of(const Mission& mission, const PointTable& table, const std::string& points) {
+  const std::optional<Georeference>& place = mission.scene().georeference;
+  const std::string level = place ? place->vertical : "";
+  const HeightDatum height = table.height();
+  if (height == HeightDatum::sea_level) {
+    if (const auto sea_level = sea_level_m(mission)) return *sea_level;
+  }
+  if (height == HeightDatum::home && mission.home) {
+    return place && !is_map(*place) ? height_m(*place, *mission.home) : mission.home->z();
+  }
+  constexpr const char* kEllipsoid = "ellipsoidal height";  // Georeference::vertical
+  if (height == HeightDatum::ellipsoid && level == kEllipsoid) return 0;
+  throw Error(
+      ErrorCode::heights_differ,
+      table.height_name() + " of the points is above " +
+          (height == HeightDatum::sea_level ? "mean sea level" : name_of(height)) +
+          (height == HeightDatum::home ? ", and the mission's tour has no home"
+                                       : ", and z of the scene above " + (level.empty() ? "an unknown level" : level)),
+      points,
+      height == HeightDatum::sea_level
+          ? "say with 'scene.sea_level' which z of the scene the mean sea level has, or give z or agl"
+          : "give z, alt or agl");
+}
+
 /// Throws Error(input) where the heights of the points cannot be those of the scene.
 PointFrame frame_of(const Mission& mission, const PointTable& table, const std::string& points) {
   const Scene& scene = mission.scene();
   PointFrame frame{scene.georeference, bounding_box(scene.mesh)};
-  if (table.height() == HeightColumn::alt) {
-    frame.sea_level_m = sea_level_m(mission);
-    if (!frame.sea_level_m) {
-      const std::string level = scene.georeference ? scene.georeference->vertical : "";
-      throw Error(ErrorCode::heights_differ,
-                  "alt of the points is above mean sea level, and z of the scene above " +
-                      (level.empty() ? "an unknown level" : level),
-                  points, "say with 'scene.sea_level' which z of the scene the mean sea level has, or give z or agl");
-    }
+  const HeightDatum height = table.height();
+  if (height != HeightDatum::scene_z && height != HeightDatum::ground) {
+    frame.zero_m = zero_of(mission, table, points);
   }
-  if (table.height() == HeightColumn::agl) {
+  if (height == HeightDatum::ground) {
     try {
       frame.ground.emplace(ground_of(mission));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::ground_missing) throw;
-      throw Error(ErrorCode::ground_missing,
-                  "agl of the points is above the ground, and the scene does not say what of "
-                  "it is ground",
-                  points, "give z or alt, or a scene with ground: a map, or what 'vantage scene' made of one");
+      throw Error(
+          ErrorCode::ground_missing,
+          table.height_name() + " of the points is above the ground, and the scene does not say what of it is ground",
+          points, "give z or alt, or a scene with ground: a map, or what 'vantage scene' made of one");
     }
   }
   return frame;
@@ -369,7 +394,7 @@ int run_query(const QueryArguments& options) {
   for (const Warning& warning : mission_warnings(mission)) {
     if (warning.code == WarningCode::scene_incomplete && !is_quiet) note(warning.text);
   }
-  if (table.is_lonlat() && table.height() == HeightColumn::z && !is_quiet) tell_of_heights(scene);
+  if (table.is_lonlat() && table.height() == HeightDatum::scene_z && !is_quiet) tell_of_heights(scene);
   if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
     note("the seen parts are in x, y, z of the scene frame: the scene does not say where on the earth it lies");
   }

@@ -30,31 +30,6 @@ bool is_word(const std::string& field) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c >= 0x80;
 }
 
-/// The columns of one of these names.
-std::vector<std::size_t> columns_of(const std::vector<std::string>& names, std::initializer_list<const char*> wanted) {
-  std::vector<std::size_t> columns;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string name = lower_case(names[i]);
-    if (std::any_of(wanted.begin(), wanted.end(), [&](const char* word) { return name == word; })) columns.push_back(i);
-  }
-  return columns;
-}
-
-std::optional<std::size_t> find_column(const std::vector<std::string>& names,
-                                       std::initializer_list<const char*> wanted) {
-  const std::vector<std::size_t> columns = columns_of(names, wanted);
-  return columns.empty() ? std::nullopt : std::optional(columns.front());
-}
-
-/// The plain cases at once; what is left is parse_number's.
-ParsedNumber number_in(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_whole = end == text.data() + text.size() && error == std::errc();
-  if (is_whole && std::isfinite(value)) return {value, NumberFault::none};
-  return parse_number(text);
-}
-
 void append_number(std::string& text, double value) {
   std::array<char, 32> digits;
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
@@ -94,20 +69,28 @@ void append_names(std::string& text, const std::vector<std::string>& names) {
   text += csv_field(joined);
 }
 
+/// What a height's title says it is measured from. "alt" alone is above mean sea level.
+HeightDatum meant_datum(const KnownColumn& known) {
+  return known.name == "alt" || known.name == "altitude" ? HeightDatum::sea_level : known.datum;
+}
+
 /// Bytes that are not UTF-8 are replaced rather than refused.
 const char* truth(bool value) { return value ? "true" : "false"; }
 
 /// A height with a unit is told in metres, which is what its column has.
-std::string advice_for(std::string_view text, NumberFault fault, std::size_t axis) {
+std::string advice_for(std::string_view text, NumberFault fault, TableColumn column) {
+  const bool is_height = column == TableColumn::height || column == TableColumn::z;
   const ParsedNumber metres = parse_length(text);
-  const bool is_length = axis == 2 && fault == NumberFault::not_a_number && metres.fault == NumberFault::none;
-  return is_length ? "write metres, without a unit: " + shortest(metres.value) : number_advice(text, fault);
+  const bool is_plain = parse_number(text).fault == NumberFault::none;
+  const bool is_length =
+      is_height && !is_plain && fault == NumberFault::not_a_number && metres.fault == NumberFault::none;
+  return is_length ? "write metres, without a unit: " + shortest(metres.value) : table_advice(text, column, fault);
 }
 
 }  // namespace
 
 PointTable::PointTable(const RowReader& reader, const Row& first, const TableOptions& options)
-    : reader_(reader), options_(options), is_lonlat_(options.lonlat) {
+    : reader_(reader), options_(options), is_lonlat_(options.lonlat), numbers_(reader.separator()) {
   reader_.split(first.text, fields_);
   const std::size_t looked_at = std::min<std::size_t>(fields_.size(), 3);
   has_header_ = std::any_of(fields_.begin(), fields_.begin() + static_cast<std::ptrdiff_t>(looked_at),
@@ -139,24 +122,42 @@ bool PointTable::is_answer(const std::string& column) const {
 }
 
 std::optional<std::string> PointTable::id(const Row& row) {
-  const std::optional<std::size_t> column = has_header_ ? find_column(names_, {"id"}) : std::nullopt;
-  if (!column) return std::nullopt;
+  const auto found =
+      std::find_if(names_.begin(), names_.end(), [](const std::string& name) { return lower_case(name) == "id"; });
+  if (!has_header_ || found == names_.end()) return std::nullopt;
+  const auto column = static_cast<std::size_t>(found - names_.begin());
   reader_.split(row.text, fields_);
-  return *column < fields_.size() ? fields_[*column].plain() : "";
+  return column < fields_.size() ? fields_[column].plain() : "";
+}
+
+std::vector<std::size_t> PointTable::columns_of(TableColumn column) const {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    if (known_[i] && known_[i]->column == column) columns.push_back(i);
+  }
+  return columns;
 }
 
 void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
-  for (const Field& field : fields) names_.push_back(field.plain());
-  const auto x = find_column(names_, {"x"}), y = find_column(names_, {"y"}),
-             lon = find_column(names_, {"lon", "longitude"}), lat = find_column(names_, {"lat", "latitude"});
-  is_lonlat_ = options_.lonlat || (lon && lat && !(x && y));
-  is_ambiguous_ = !options_.lonlat && lon && lat && x && y;
-  column_ = {is_lonlat_ ? lon : x, is_lonlat_ ? lat : y, std::nullopt};
-  check_only_one(is_lonlat_ ? columns_of(names_, {"lon", "longitude"}) : columns_of(names_, {"x"}), row);
-  check_only_one(is_lonlat_ ? columns_of(names_, {"lat", "latitude"}) : columns_of(names_, {"y"}), row);
+  for (const Field& field : fields) {
+    names_.push_back(field.plain());
+    known_.push_back(known_column(names_.back()));
+  }
+  const std::vector<std::size_t> x = columns_of(TableColumn::x), y = columns_of(TableColumn::y),
+                                 lon = columns_of(TableColumn::longitude), lat = columns_of(TableColumn::latitude);
+  const bool has_xy = !x.empty() && !y.empty(), has_lonlat = !lon.empty() && !lat.empty();
+  is_lonlat_ = options_.lonlat || (has_lonlat && !has_xy);
+  is_ambiguous_ = !options_.lonlat && has_lonlat && has_xy;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    const std::vector<std::size_t>& columns = axis == 0 ? (is_lonlat_ ? lon : x) : (is_lonlat_ ? lat : y);
+    check_only_one(columns, row);
+    if (!columns.empty()) column_[axis] = columns.front();
+  }
   take_height(row);
-  for (const auto& column : column_) {
-    if (column && !is_lonlat_) names_[*column] = lower_case(names_[*column]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!column_[axis]) continue;
+    factor_[static_cast<Eigen::Index>(axis)] = known_[*column_[axis]]->factor;
+    if (!is_lonlat_) names_[*column_[axis]] = lower_case(names_[*column_[axis]]);
   }
   const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z, alt or agl"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -177,32 +178,35 @@ void PointTable::check_only_one(const std::vector<std::size_t>& columns, const R
        row, "leave one of them out, or give another name to it");
 }
 
-/// z comes first, as before there were others. Of alt and agl only one can be meant.
+std::vector<std::string> PointTable::unused_heights() const {
+  std::vector<std::string> names;
+  for (const std::size_t column : unused_heights_) names.push_back(names_[column]);
+  return names;
+}
+
+/// z comes first, then heights that say what they are measured from. Of these only one can be meant.
 void PointTable::take_height(const Row& row) {
-  struct Known {
-    HeightColumn height;
-    std::vector<std::size_t> columns;
-  };
-  const std::array<Known, 3> all = {Known{HeightColumn::z, columns_of(names_, {"z"})},
-                                    {HeightColumn::alt, columns_of(names_, {"alt", "altitude"})},
-                                    {HeightColumn::agl, columns_of(names_, {"agl"})}};
-  std::vector<std::size_t> meant;
-  for (const auto& [height, columns] : all) {
-    if (columns.empty()) continue;
-    if (options_.z) {
-      fail(ErrorCode::conflicting_keys,
-           "the points have a column " + names_[columns.front()] + ", and --z gives another height", row,
-           "leave one of them out");
-    }
-    if (column_[2] && height_ == HeightColumn::z) {
-      for (const std::size_t column : columns) unused_heights_.push_back(names_[column]);
-      continue;
-    }
-    meant.insert(meant.end(), columns.begin(), columns.end());
-    column_[2] = meant.front();
-    height_ = height;
+  std::vector<std::size_t> meant = columns_of(TableColumn::z);
+  const bool has_z = !meant.empty();
+  for (const std::size_t column : columns_of(TableColumn::height)) {
+    const bool is_known = meant_datum(*known_[column]) != HeightDatum::unknown;
+    (is_known && !has_z ? meant : unused_heights_).push_back(column);
+  }
+  if (options_.z && !meant.empty()) {
+    fail(ErrorCode::conflicting_keys,
+         "the points have a column " + names_[meant.front()] + ", and --z gives another height", row,
+         "leave one of them out");
   }
   check_only_one(meant, row);
+  if (!meant.empty()) {
+    column_[2] = meant.front();
+    height_name_ = names_[meant.front()];
+    if (!has_z) height_ = meant_datum(*known_[meant.front()]);
+  } else if (!unused_heights_.empty() && !options_.z) {
+    fail(ErrorCode::height_unknown,
+         names_[unused_heights_.front()] + " of the points does not say what it is measured from", row,
+         "name it height_amsl above mean sea level, height_agl above ground, or z of the scene");
+  }
 }
 
 Vec3 PointTable::coordinates(const Row& row) {
@@ -227,16 +231,24 @@ Vec3 PointTable::coordinates(const Row& row) {
     }
     const std::string plain = fields_[column].is_quoted ? fields_[column].plain() : std::string();
     const std::string_view text = fields_[column].is_quoted ? std::string_view{plain} : fields_[column].text;
-    const ParsedNumber parsed = number_in(text);
+    const TableColumn meaning = meaning_of(axis);
+    const ParsedNumber parsed = numbers_.parse(text, meaning);
     if (parsed.fault != NumberFault::none) {
       fail(ErrorCode::not_a_number,
            name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
                in_quotes(text),
-           row, advice_for(text, parsed.fault, axis));
+           row, advice_for(text, parsed.fault, meaning));
     }
     point[static_cast<Eigen::Index>(axis)] = parsed.value;
   }
   return point;
+}
+
+/// What the numbers of a coordinate mean.
+TableColumn PointTable::meaning_of(std::size_t axis) const {
+  if (axis == 2) return TableColumn::height;
+  if (is_lonlat_) return axis == 0 ? TableColumn::longitude : TableColumn::latitude;
+  return axis == 0 ? TableColumn::x : TableColumn::y;
 }
 
 /// Of longitude and latitude; z is right but for heights above the ground.
@@ -244,9 +256,11 @@ Vec3 PointTable::placed(const Vec3& coordinates, const PointFrame& frame) const 
   const double longitude = coordinates.x(), latitude = coordinates.y(), height = coordinates.z();
   const auto in_plan = [&](const Eigen::Vector2d& at) { return Vec3(at.x(), at.y(), height); };
   switch (height_) {
-    case HeightColumn::alt:
-      return vantage::scene_point(*frame.place, longitude, latitude, height + frame.sea_level_m.value());
-    case HeightColumn::agl:
+    case HeightDatum::sea_level:
+    case HeightDatum::ellipsoid:
+    case HeightDatum::home:
+      return vantage::scene_point(*frame.place, longitude, latitude, height + frame.zero_m);
+    case HeightDatum::ground:
       return in_plan(
           scene_position(*frame.place, longitude, latitude, [&](const Eigen::Vector2d& at) -> std::optional<double> {
             const auto ground = frame.ground->at(at.x(), at.y());
@@ -257,7 +271,8 @@ Vec3 PointTable::placed(const Vec3& coordinates, const PointFrame& frame) const 
   }
 }
 
-Vec3 PointTable::scene_point(const Vec3& coordinates, const PointFrame& frame, const Row& row) {
+Vec3 PointTable::scene_point(const Vec3& stated, const PointFrame& frame, const Row& row) {
+  const Vec3 coordinates = stated.cwiseProduct(factor_);
   if (!is_lonlat_) {
     const Eigen::Vector2d at = coordinates.head<2>();
     return {at.x(), at.y(), scene_height(coordinates, at, frame, row)};
@@ -278,7 +293,7 @@ Vec3 PointTable::scene_point(const Vec3& coordinates, const PointFrame& frame, c
   const Eigen::Array2d at = point.head<2>(), low = frame.bounds.min.head<2>(), high = frame.bounds.max.head<2>();
   const bool is_outside = (at < low).any() || (at > high).any();
   if (is_outside && seems_swapped(*frame.place, frame.bounds, coordinates.x(), coordinates.y())) ++swapped_;
-  if (height_ == HeightColumn::agl) point.z() = scene_height(coordinates, point.head<2>(), frame, row);
+  if (height_ == HeightDatum::ground) point.z() = scene_height(coordinates, point.head<2>(), frame, row);
   return point;
 }
 
@@ -297,8 +312,8 @@ double z_of_height(double height, const Eigen::Vector2d& at, const PointFrame& f
 
 double PointTable::scene_height(const Vec3& coordinates, const Eigen::Vector2d& at, const PointFrame& frame,
                                 const Row& row) const {
-  if (height_ == HeightColumn::z) return coordinates.z();
-  if (height_ == HeightColumn::alt) return z_of_height(coordinates.z() + frame.sea_level_m.value(), at, frame);
+  if (height_ == HeightDatum::scene_z) return coordinates.z();
+  if (height_ != HeightDatum::ground) return z_of_height(coordinates.z() + frame.zero_m, at, frame);
   constexpr double kSameM = 1e-3;
   const auto ground = frame.ground->at(at.x(), at.y());
   if (!ground) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/row_reader.h"
+#include "common/table_columns.h"
 #include "vantage/error.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
@@ -24,23 +25,16 @@ struct TableOptions {
   std::optional<double> z;  ///< of all points; then the table has no such column
 };
 
-/// What the third coordinate of points is measured from.
-enum class HeightColumn {
-  z,    ///< the scene's zero
-  alt,  ///< mean sea level
-  agl,  ///< the ground at that place
-};
-
 /// What moves points of a table into the scene frame.
 struct PointFrame {
-  std::optional<Georeference> place;        ///< for longitudes and latitudes
-  Box bounds;                               ///< of the scene
-  std::optional<double> sea_level_m = {};   ///< scene z of it; for HeightColumn::alt
-  std::optional<GroundLevels> ground = {};  ///< for HeightColumn::agl
+  std::optional<Georeference> place;  ///< for longitudes and latitudes
+  Box bounds;                         ///< of the scene
+  double zero_m = 0;  ///< height of what heights are measured from, if that is neither z of the scene nor the ground
+  std::optional<GroundLevels> ground = {};  ///< for HeightDatum::ground
 };
 
-/// A table whose first row is read. Where that holds words it is a header; the columns named x, y and z are taken, or
-/// lon, lat and z, in any order and case. In the place of z may be alt or agl. Else the first three columns are taken.
+/// A table whose first row is read. Where that holds words it is a header, with titles as known_column has them: x, y
+/// and z are taken, or lon, lat and z, or in the place of z another height. Else the first three columns are taken.
 class PointTable {
  public:
   /// Throws Error(input), with the line, for a header that lacks a column or has one that contradicts the options.
@@ -49,9 +43,11 @@ class PointTable {
   /// Whether the first row holds no point.
   bool has_header() const { return has_header_; }
   bool is_lonlat() const { return is_lonlat_; }
-  HeightColumn height() const { return height_; }
+  /// What the third coordinate is measured from: scene_z, sea_level, ellipsoid, ground or home.
+  HeightDatum height() const { return height_; }
+  const std::string& height_name() const { return height_name_; }  ///< of its column
   /// Other columns of heights that the header has and that are not used.
-  const std::vector<std::string>& unused_heights() const { return unused_heights_; }
+  std::vector<std::string> unused_heights() const;
 
   bool has_fraction() const { return options_.fraction; }
 
@@ -64,9 +60,9 @@ class PointTable {
   /// Error(input), with the line.
   Vec3 coordinates(const Row& row);
 
-  /// The point of the scene frame. Throws Error(input), with the line, for what is not a place on the earth, or far
-  /// away, and for heights above a ground that is not there.
-  Vec3 scene_point(const Vec3& coordinates, const PointFrame& frame, const Row& row);
+  /// The point of the scene frame that has these coordinates. Throws Error(input), with the line, for what is not a
+  /// place on the earth, or far away, and for heights above a ground that is not there.
+  Vec3 scene_point(const Vec3& stated, const PointFrame& frame, const Row& row);
 
   /// How many of those lay outside of the scene, and inside with longitude and latitude the other way round.
   std::size_t swapped() const { return swapped_; }
@@ -83,13 +79,14 @@ class PointTable {
 
  private:
   void take_header(const std::vector<Field>& fields, const Row& row);
-  void take_columns(const std::vector<std::string>& names);
   bool is_answer(const std::string& column) const;
   void append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
                   const std::optional<double>& fraction, const std::string& target) const;
   void append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
                    const std::optional<double>& fraction, const std::string& target);
   std::optional<std::size_t> axis_of(std::size_t column) const;
+  TableColumn meaning_of(std::size_t axis) const;
+  std::vector<std::size_t> columns_of(TableColumn column) const;
   void take_height(const Row& row);
   void check_only_one(const std::vector<std::size_t>& columns, const Row& row) const;
   Vec3 placed(const Vec3& coordinates, const PointFrame& frame) const;
@@ -102,9 +99,14 @@ class PointTable {
   bool has_header_ = false, is_lonlat_ = false, is_ambiguous_ = false, is_first_ = true;
   std::vector<std::string> names_;                    // of the columns
   std::vector<bool> is_kept_;                         // of the columns
+  std::vector<std::optional<KnownColumn>> known_;     // of the columns, what their titles say
   std::array<std::optional<std::size_t>, 3> column_;  // of each coordinate
-  HeightColumn height_ = HeightColumn::z;
-  std::vector<std::string> replaced_, unused_heights_;
+  Vec3 factor_ = Vec3::Ones();                        // from the unit of each coordinate to metres or degrees
+  TableNumbers numbers_;
+  HeightDatum height_ = HeightDatum::scene_z;
+  std::string height_name_;
+  std::vector<std::string> replaced_;
+  std::vector<std::size_t> unused_heights_;
   std::size_t swapped_ = 0;
   std::vector<Field> fields_;  // of the row in hand
 };

@@ -38,6 +38,8 @@ class RowReader {
   const std::vector<Row>& next();
 
   const std::string& file() const { return file_; }
+  /// Between fields; ' ' stands for any run of blanks.
+  char separator() const { return separator_; }
 
   /// The fields of a row, into `fields`.
   void split(std::string_view row, std::vector<Field>& fields) const;

@@ -449,6 +449,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   check.nearest =
       nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
   check.failures = failures_of(check, options);
+  check.not_judged = flight.not_judged;
   for (const Warning& note : beyond_data_warnings(mission, places_of(check))) check.notes.push_back(note.text);
   return check;
 }

@@ -124,6 +124,7 @@ std::string json_text(const FlightCheck& check, const Georeference* georeference
   Json json;
   json["passes"] = check.passes();
   json["failures"] = check.failures;
+  json["not_judged"] = check.not_judged;
   json["notes"] = check.notes;
   json["length_m"] = check.length_m;
   json["duration_s"] = number_json(check.duration_s);
@@ -176,6 +177,7 @@ std::string csv_text(const FlightCheck& check) {
     }
   }
   for (const BrokenLimit& limit : check.broken) append_rows(table, "", "broken", limit.name, limit.spans);
+  for (const std::string& what : check.not_judged) table += ",not_judged," + field(what) + ",,,,,,,,,,\n";
   return table;
 }
 

@@ -75,6 +75,31 @@ inline std::string gpx(const std::string& content) {
          content + "</gpx>\n";
 }
 
+/// A text of UTF-8 in UTF-16.
+inline std::string in_utf16(const std::string& utf8, bool is_big, bool has_mark) {
+  std::string bytes;
+  const auto add = [&](unsigned unit) {
+    const char high = static_cast<char>(unit >> 8), low = static_cast<char>(unit & 0xFF);
+    bytes += is_big ? high : low;
+    bytes += is_big ? low : high;
+  };
+  if (has_mark) add(0xFEFF);
+  for (std::size_t i = 0; i < utf8.size();) {
+    const auto first = static_cast<unsigned char>(utf8[i]);
+    const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    unsigned code = length == 1 ? first : first & (0x7Fu >> length);
+    for (std::size_t k = 1; k < length; ++k) code = code << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3Fu);
+    i += length;
+    if (code < 0x10000) {
+      add(code);
+    } else {
+      add(0xD800 + ((code - 0x10000) >> 10));
+      add(0xDC00 + ((code - 0x10000) & 0x3FF));
+    }
+  }
+  return bytes;
+}
+
 /// What is read of such a text.
 inline FlightPlan parsed_plan(const std::string& text, const std::string& track = "") {
   ReadPlanOptions options;

@@ -37,6 +37,30 @@ std::vector<Eigen::Vector2d> circle_points(const Eigen::Vector2d& towards, doubl
   return points;
 }
 
+Eigen::Vector2d arc_centre(const Eigen::Vector2d& to, double angle_deg) {
+  // Straight to the right of the middle of the chord, so far that half the chord is seen under half the angle.
+  const Eigen::Vector2d right(to.y(), -to.x());
+  return to / 2 + right / (2 * std::tan(angle_deg * std::numbers::pi / 360));
+}
+
+std::vector<Vec3> spline_points(const Vec3& from, const Vec3& to, const Vec3& from_tangent, const Vec3& to_tangent,
+                                double error_m) {
+  const Vec3 second = -3 * from - 2 * from_tangent + 3 * to - to_tangent;
+  const Vec3 third = 2 * from + from_tangent - 2 * to + to_tangent;
+  const double bend = std::max((2 * second).norm(), (2 * second + 6 * third).norm());
+  constexpr double kTooMany = 1e6 + 1;  // more than a flight may have points
+  const double wanted = std::ceil(std::sqrt(bend / (8 * error_m)));
+  const auto chords = static_cast<std::size_t>(wanted < kTooMany ? std::max(wanted, 1.0) : kTooMany);
+  std::vector<Vec3> points;
+  points.reserve(chords);
+  for (std::size_t i = 1; i < chords; ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(chords);
+    points.push_back(from + t * (from_tangent + t * (second + t * third)));
+  }
+  points.push_back(to);
+  return points;
+}
+
 std::vector<Vec3> corner_points(const Vec3& before, const Vec3& corner, const Vec3& after, double cut_m,
                                 double error_m) {
   const Vec3 in = before - corner, out = after - corner;

@@ -48,7 +48,22 @@ class GeojsonTracks {
     const json& shape = geometry == object.end() ? object : *geometry;
     const auto type = shape.find("type");  // of null there is none
     if (!shape.is_object() || type == shape.end() || !type->is_string()) return;
-    const std::string kind = type->get<std::string>();
+    const json none = json::object();
+    const json& details = properties != object.end() && properties->is_object() ? *properties : none;
+    add_shape(shape, type->get<std::string>(), name, details, place);
+  }
+
+  void add_shape(const json& shape, const std::string& kind, const std::string& name, const json& details,
+                 const std::string& place) {
+    const auto parts = shape.find("geometries");
+    if (kind == "GeometryCollection" && parts != shape.end() && parts->is_array()) {
+      for (std::size_t i = 0; i < parts->size(); ++i) {
+        const json& part = (*parts)[i];
+        const auto type = part.find("type");
+        if (!part.is_object() || type == part.end() || !type->is_string()) continue;
+        add_shape(part, type->get<std::string>(), name, details, place + ", geometry " + std::to_string(i + 1));
+      }
+    }
     const auto coordinates = shape.find("coordinates");
     if (coordinates == shape.end() || !coordinates->is_array()) return;
     const std::size_t lines = lines_.size();
@@ -59,11 +74,16 @@ class GeojsonTracks {
       }
       join_at_antimeridian(lines_, lines);
     }
+    if (kind == "MultiPoint") {
+      for (const json& position : *coordinates) {
+        add_position(position, place, points_.track);
+        points_.numbers.push_back(0);
+      }
+    }
     if (kind != "Point") return;
     add_position(*coordinates, place, points_.track);
     points_.numbers.push_back(0);
-    if (properties == object.end() || !properties->is_object()) return;
-    for (const auto& [key, value] : properties->items()) {
+    for (const auto& [key, value] : details.items()) {
       PlanItem& item = points_.track.items.back();
       if (value.is_number()) set_detail(key, value.get<double>(), item, &points_.numbers.back());
       if (value.is_string()) set_detail(key, value.get_ref<const std::string&>(), item, &points_.numbers.back());

@@ -52,11 +52,16 @@ class GpxTracks {
     PlanTrack track;
     track.name = printable(xml_.child_text(line, "name"));
     track.place = line_of(xml_, line);
+    std::size_t segments = 0;
     xml_.walk(line, [&](XmlTree::Node node) {
       if (xml_.name(node) == point) add_point(node, track);
-      return xml_.name(node) == "trkseg";
+      const bool is_segment = xml_.name(node) == "trkseg";
+      segments += is_segment && xml_.child(node, point) != XmlTree::kNone ? 1 : 0;
+      return is_segment;
     });
-    if (!track.items.empty()) lines.push_back(std::move(track));
+    if (track.items.empty()) return;
+    if (segments > 1) track.segments = segments;
+    lines.push_back(std::move(track));
   }
 
   void add_point(XmlTree::Node point, PlanTrack& track) {

@@ -23,7 +23,8 @@ nlohmann::json parse_plan_json(const PlanSource& source) {
 
 FlightPlan read_json(const PlanSource& source) {
   const nlohmann::json root = parse_plan_json(source);
-  const bool is_geojson = root.contains("features") || root.contains("geometry") || root.contains("coordinates");
+  const bool is_geojson = root.contains("features") || root.contains("geometry") || root.contains("geometries") ||
+                          root.contains("coordinates");
   return is_geojson && !root.contains("mission") ? read_geojson(root, source) : read_qgroundcontrol(root, source);
 }
 

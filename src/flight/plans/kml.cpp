@@ -46,14 +46,20 @@ class KmlTracks {
 
  private:
   /// Whether to go into the element.
-  bool add(XmlTree::Node part, const std::string& name) {
+  bool add(XmlTree::Node part, const std::string& name, std::string_view outer_mode = {}) {
     const std::string_view kind = xml_.name(part);
     if (kind == "Polygon" || kind == "Model") return false;
+    if (kind == "MultiTrack" && outer_mode.empty()) {  // its tracks may leave the mode to it
+      const std::string_view mode = xml_.child_text(part, "altitudeMode");
+      if (!mode.empty()) xml_.walk(part, [&](XmlTree::Node inner) { return add(inner, name, mode); });
+      return mode.empty();
+    }
     if (kind != "LineString" && kind != "Track" && kind != "Point") return true;
     PlanTrack track;
     track.name = name;
     track.place = line_of(xml_, part);
-    const HeightDatum datum = datum_of_mode(xml_.child_text(part, "altitudeMode"));
+    const std::string_view own_mode = xml_.child_text(part, "altitudeMode");
+    const HeightDatum datum = datum_of_mode(own_mode.empty() ? outer_mode : own_mode);
     if (kind == "Track") {
       for (XmlTree::Node child = xml_.first_child(part); child != XmlTree::kNone; child = xml_.next(child)) {
         if (xml_.name(child) == "coord") add_position(xml_.text(child), ' ', datum, line_of(xml_, child), track);
@@ -62,6 +68,9 @@ class KmlTracks {
       add_list(xml_.child_text(part, "coordinates"), datum, track);
     }
     if (track.items.empty()) return false;
+    if (const XmlTree::Node offset = xml_.child(part, "altitudeOffset"); offset != XmlTree::kNone) {
+      for (PlanItem& item : track.items) item.position.height_m += number_of(xml_, offset, source_);
+    }
     if (kind == "Point") {
       points_.track.items.push_back(std::move(track.items.front()));
       points_.numbers.push_back(0);
@@ -90,8 +99,10 @@ class KmlTracks {
       const std::size_t begin = text.find_first_not_of(kBlanks);
       if (begin == std::string_view::npos) return;
       text.remove_prefix(begin);
-      const std::string_view tuple = text.substr(0, text.find_first_of(kBlanks));
+      std::string_view tuple = text.substr(0, text.find_first_of(kBlanks));
       text.remove_prefix(tuple.size());
+      if (tuple.front() == ',') tuple.remove_prefix(1);  // some writers separate positions so, too
+      if (tuple.empty()) continue;
       source_.progress.tick();
       add_position(tuple, ',', datum, track.place + ", position " + std::to_string(track.items.size() + 1), track);
     }

@@ -25,7 +25,8 @@ double Levels::sea_level_z(const std::string& where) const {
   throw Error(ErrorCode::height_unknown,
               "a height above sea level is needed, and heights of the scene are above " + level_, where,
               level_ == geo::kEllipsoidalHeight
-                  ? "say how high the mean sea level lies above the ellipsoid there (the geoid's undulation)"
+                  ? "say with --undulation (undulation_m in Python) how high the mean sea level lies above the "
+                    "ellipsoid there"
                   : "say which z of the scene the mean sea level has ('scene.sea_level' of a mission)");
 }
 
@@ -33,7 +34,8 @@ double Levels::ellipsoid_z(const std::string& where) const {
   if (ellipsoid_z_m_) return *ellipsoid_z_m_;
   throw Error(ErrorCode::height_unknown,
               "a height above the WGS 84 ellipsoid is needed, and heights of the scene are above " + level_, where,
-              std::string("say how high the mean sea level lies above the ellipsoid there (the geoid's undulation)") +
+              std::string("say with --undulation (undulation_m in Python) how high the mean sea level lies above the "
+                          "ellipsoid there") +
                   (sea_level_z_m_ ? "" : ", and which z of the scene it has ('scene.sea_level' of a mission)"));
 }
 

@@ -71,6 +71,12 @@ class Locator {
   double z_of(const PlanPosition& position, const Point& at, const std::string& where);
   Corner corner_of(std::size_t item);
   void add(Corner corner) { corners_.push_back(std::move(corner)); }
+  void add_waypoint(std::size_t index);
+  void add_arc(std::size_t index);
+  void add_spline(std::size_t index);
+  Vec3 spline_begin(std::size_t index, bool above_ground) const;
+  Vec3 spline_end(std::size_t index, const Corner& from, const Corner& to, bool above_ground);
+  void add_curve(const std::vector<Vec3>& points, bool above_ground, const Corner& to);
   void add_takeoff(std::size_t index);
   void add_loiter(std::size_t index);
   void add_landing(std::size_t index);
@@ -103,6 +109,7 @@ class Locator {
   std::optional<plans::GroundProfile> profile_;
   std::optional<double> home_z_;
   std::vector<Corner> corners_;
+  Vec3 spline_tangent_ = Vec3::Zero();  ///< at the end of the last spline
   LocatedPlan located_;
   std::size_t timed_circles_ = 0, level_returns_ = 0;
   bool has_curves_ = false, has_following_ = false;
@@ -249,8 +256,8 @@ double Locator::home_z(const std::string& where) {
            ? "a height above the home is given, and the scene does not know the level that the home's own height "
              "is measured from"
            : "a height above the home is given, and the height of the home is not known",
-       at ? "give the z of the home in the scene, or a scene with ground there"
-          : "say where the vehicle takes off: the home's position, or its z in the scene");
+       at ? "give the z of the home in the scene with --home-z (home_z_m in Python), or a scene with ground there"
+          : "say where the vehicle takes off with --home or --home-z (home or home_z_m in Python)");
 }
 
 double Locator::z_of(const PlanPosition& stated, const Point& at, const std::string& where) {
@@ -258,7 +265,8 @@ double Locator::z_of(const PlanPosition& stated, const Point& at, const std::str
   const bool is_missing = std::isnan(position.height_m);
   if (is_missing && options_.missing_height_m) position.height_m = *options_.missing_height_m;
   if (std::isnan(position.height_m)) {
-    fail(ErrorCode::height_unknown, where, "the plan gives no height here", "say with 'height' how high it is flown");
+    fail(ErrorCode::height_unknown, where, "the plan gives no height here",
+         "say how high it is flown with --height (height_m in Python)");
   }
   if (position.datum == HeightDatum::unknown && options_.unknown_heights) position.datum = *options_.unknown_heights;
   switch (position.datum) {
@@ -276,7 +284,7 @@ double Locator::z_of(const PlanPosition& stated, const Point& at, const std::str
       break;
   }
   fail(ErrorCode::height_unknown, where, "the plan does not say what its heights are measured from",
-       "say it with 'heights': sea level, the ellipsoid, the ground or the home");
+       "say it with --heights sea, ellipsoid, ground, home or scene (heights in Python)");
 }
 
 Corner Locator::corner_of(std::size_t index) {
@@ -294,7 +302,7 @@ Corner Locator::corner_of(std::size_t index) {
     at = *home;
   } else {
     fail(ErrorCode::missing_key, item.place, "the item is at the home, and the plan does not say where that is",
-         "say where the vehicle takes off");
+         "say where the vehicle takes off with --home (home in Python)");
   }
   corner.position << at, 0;
   if (item.kind != PlanItemKind::return_home && item.kind != PlanItemKind::land) {
@@ -307,6 +315,109 @@ Corner Locator::corner_of(std::size_t index) {
     }
   }
   return corner;
+}
+
+void Locator::add_waypoint(std::size_t index) {
+  const PlanItem& item = plan_.items[index];
+  if (corners_.empty() || (item.arc_deg == 0 && !item.is_spline)) return add(corner_of(index));
+  return item.is_spline ? add_spline(index) : add_arc(index);
+}
+
+/// With the corner's height above the ground, or in the map, as third coordinate.
+Vec3 with_height(const Corner& corner, bool above_ground) {
+  return {corner.position.x(), corner.position.y(), above_ground ? corner.above_ground_m.value() : corner.position.z()};
+}
+
+/// Points from the last corner on to `to`: their third coordinate is a height above the ground, or in the map.
+void Locator::add_curve(const std::vector<Vec3>& points, bool above_ground, const Corner& to) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Corner corner = to;
+    if (i + 1 < points.size()) {
+      corner.hold_s = 0;
+      corner.position = points[i];
+      if (above_ground) {
+        corner.above_ground_m = points[i].z();
+        corner.position.z() = ground_z(points[i].head<2>(), place(to.item)) + points[i].z();
+      }
+    }
+    add(corner);
+  }
+  has_curves_ = true;
+}
+
+/// A circle on the earth about the place where the arc begins; its height changes evenly.
+void Locator::add_arc(std::size_t index) {
+  const PlanItem& item = plan_.items[index];
+  const Corner from = corners_.back(), to = corner_of(index);
+  const bool above_ground = to.follows_ground && from.above_ground_m && to.above_ground_m;
+  const Point begin = from.position.head<2>();
+  std::optional<geo::LocalFrame> about;
+  if (frame_) about.emplace(frame_->to_lonlat(begin));
+  const Point end =
+      about ? about->to_local(frame_->to_lonlat(to.position.head<2>())) : Point(to.position.head<2>() - begin);
+  const Point centre = plans::arc_centre(end, item.arc_deg);
+  constexpr double kNoChordM = 1e-3;
+  if (end.norm() < kNoChordM) return add(to);  // as the autopilot does
+  const double turns = std::abs(item.arc_deg) / 360;
+  if (!(plans::chord_count(centre.norm(), turns, arc_error_m()) < static_cast<double>(kMostFlightPoints))) {
+    fail(ErrorCode::work_too_large, item.place, "the arc takes more than a million chords",
+         "allow a larger error of chords");
+  }
+  const double radius = item.arc_deg > 0 ? centre.norm() : -centre.norm();
+  const std::vector<Point> circle = plans::circle_points(-centre, radius, turns, arc_error_m());
+  const double first = with_height(from, above_ground).z(), last = with_height(to, above_ground).z();
+  std::vector<Vec3> points;
+  for (std::size_t i = 1; i < circle.size(); ++i) {
+    const Point p = centre + circle[i];
+    const Point at = about ? frame_->to_local(about->to_lonlat(p)) : Point(begin + p);
+    const double share = static_cast<double>(i) / static_cast<double>(circle.size() - 1);
+    points.emplace_back(at.x(), at.y(), first + share * (last - first));
+  }
+  add_curve(points, above_ground, to);
+}
+
+/// The spline of ArduPilot's Copter (its classes SplineCurve and AC_WPNav tell it): a cubic curve whose tangents at its
+/// ends follow from the waypoints before and behind, shortened where they are long for its length.
+void Locator::add_spline(std::size_t index) {
+  const Corner from = corners_.back(), to = corner_of(index);
+  const bool above_ground = to.follows_ground && from.above_ground_m && to.above_ground_m;
+  const Vec3 begin = with_height(from, above_ground), end = with_height(to, above_ground);
+  Vec3 first = spline_begin(index, above_ground), last = spline_end(index, from, to, above_ground);
+  spline_tangent_ = last;
+  constexpr double kMostOfLength = 4;
+  const double most = kMostOfLength * (end - begin).norm(), length = first.norm() + last.norm();
+  if (most == 0) return add(to);
+  if (length > most) {
+    first *= most / length;
+    last *= most / length;
+  }
+  add_curve(plans::spline_points(begin, end, first, last, arc_error_m()), above_ground, to);
+}
+
+/// How the vehicle comes from the item before: not at all where it stops there.
+Vec3 Locator::spline_begin(std::size_t index, bool above_ground) const {
+  const PlanItem& before = plan_.items[index - 1];
+  const bool stops = before.kind != PlanItemKind::waypoint || before.hold_s > 0 || corners_.size() < 2;
+  if (stops) return Vec3::Zero();
+  if (before.is_spline) return spline_tangent_;
+  const Corner &from = corners_[corners_.size() - 2], &to = corners_.back();
+  if (above_ground && !from.above_ground_m) return Vec3::Zero();
+  return with_height(to, above_ground) - with_height(from, above_ground);
+}
+
+/// How it leaves: along the leg to the next item, or before another spline parallel to the line from the item before to
+/// the next one.
+Vec3 Locator::spline_end(std::size_t index, const Corner& from, const Corner& to, bool above_ground) {
+  if (to.hold_s > 0 || index + 1 == plan_.items.size()) return Vec3::Zero();
+  const PlanItem& after = plan_.items[index + 1];
+  if (after.kind == PlanItemKind::takeoff || after.kind == PlanItemKind::return_home) return Vec3::Zero();
+  Corner next = corner_of(index + 1);
+  if (after.kind == PlanItemKind::land) {
+    next.position.z() = to.position.z();
+    next.above_ground_m = to.above_ground_m;
+  }
+  if (next.above_ground_m.has_value() != above_ground) return Vec3::Zero();
+  return with_height(next, above_ground) - with_height(after.is_spline ? from : to, above_ground);
 }
 
 /// A multirotor climbs above the home, and then goes to the place of the item; a fixed wing climbs on the way to it.
@@ -335,7 +446,7 @@ double Locator::loiter_radius(const PlanItem& item) const {
   if (item.loiter_radius_m != 0) return item.loiter_radius_m;
   if (options_.loiter_radius_m && *options_.loiter_radius_m != 0) return *options_.loiter_radius_m;
   fail(ErrorCode::missing_key, item.place, "the plan leaves the radius of the circle to the vehicle",
-       "say how large the circles of the vehicle are");
+       "say how large the circles of the vehicle are with --loiter-radius (loiter_radius_m in Python)");
 }
 
 /// For a time: as often as that takes. The time is then in the legs.
@@ -394,8 +505,9 @@ void Locator::add_landing(std::size_t index) {
 void Locator::add_return(std::size_t index) {
   Corner corner = corner_of(index);
   double z = corners_.empty() ? home_z(place(index)) : corners_.back().position.z();
-  if (options_.return_height_m) {
-    const double least = home_z(place(index)) + *options_.return_height_m;
+  const double stated = plan_.items[index].position.height_m;
+  if (options_.return_height_m || std::isfinite(stated)) {
+    const double least = home_z(place(index)) + options_.return_height_m.value_or(stated);
     if (z < least && !corners_.empty()) {
       Corner climb = corner;
       climb.position = corners_.back().position;
@@ -557,7 +669,7 @@ LocatedPlan Locator::locate() {
   for (std::size_t i = 0; i < plan_.items.size(); ++i) {
     switch (plan_.items[i].kind) {
       case PlanItemKind::waypoint:
-        add(corner_of(i));
+        add_waypoint(i);
         break;
       case PlanItemKind::takeoff:
         add_takeoff(i);
@@ -588,6 +700,7 @@ LocatedPlan Locator::locate() {
   }
   located_.flight.chord_error_m =
       (has_curves_ ? options_.chord_error_m : 2 * bent_m_) + (has_following_ ? options_.ground_error_m : 0);
+  located_.flight.not_judged = plan_.not_judged;
   const auto home = home_position();
   if (home && known_home_z()) located_.home = scene_of({home->x(), home->y(), *known_home_z()});
   using internal::core::count_text;

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "common/input.h"
 #include "core/text.h"
 
 namespace vantage::internal::flight::plans {
@@ -15,15 +18,54 @@ namespace {
 
 constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
-/// Commands that move no vehicle: conditions, modes, cameras, servos, fences, parachutes, engines, markers.
-bool moves_nothing(int command) {
-  constexpr std::array kCommands = {91,   112,  114,  176,  180,  181,  182,  183,  184,  187,  189,   190,
-                                    194,  200,  202,  203,  204,  206,  207,  208,  209,  211,  212,   214,
-                                    215,  218,  220,  221,  222,  223,  224,  240,  241,  247,  530,   531,
-                                    532,  533,  534,  2000, 2001, 2003, 2500, 2501, 2502, 2503, 2510,  2511,
-                                    2520, 3000, 4000, 4001, 5000, 5001, 5002, 5003, 5004, 5100, 42600, 42700};
-  return std::find(kCommands.begin(), kCommands.end(), command) != kCommands.end();
+/// Commands that move no vehicle: conditions, cameras, servos, fences, engines, markers, gates between waypoints.
+bool moves_nothing(const MissionItem& item) {
+  constexpr int kGuidedEnable = 92, kParachute = 208;
+  if (item.command == kGuidedEnable && item.parameters[0] == 0) return true;                         // off
+  if (item.command == kParachute && item.parameters[0] >= 0 && item.parameters[0] < 2) return true;  // no release
+  constexpr std::array kCommands = {
+      112,  114,  180,  181,  182,  183,  184,  187,   188,   189,   194,   196,   198,   200,  202,  203,  204,
+      206,  207,  209,  211,  212,  214,  215,  218,   220,   221,   222,   223,   240,   241,  247,  530,  531,
+      532,  533,  534,  600,  2000, 2001, 2003, 2500,  2501,  2502,  2503,  2510,  2511,  2520, 3000, 4000, 4501,
+      5000, 5001, 5002, 5003, 5004, 5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
+  return std::find(kCommands.begin(), kCommands.end(), item.command) != kCommands.end();
 }
+
+/// Commands that move the vehicle where the plan does not say, or in a way that is not followed here, also without a
+/// position; and their names.
+struct Mover {
+  int command;
+  const char* name;
+};
+constexpr Mover kMovers[] = {{23, "NAV_LAND_LOCAL"},
+                             {24, "NAV_TAKEOFF_LOCAL"},
+                             {25, "NAV_FOLLOW"},
+                             {30, "NAV_CONTINUE_AND_CHANGE_ALT"},
+                             {32, "DO_FOLLOW"},
+                             {33, "DO_FOLLOW_REPOSITION"},
+                             {35, "DO_FIGURE_EIGHT"},
+                             {81, "NAV_PATHPLANNING"},
+                             {83, "NAV_ALTITUDE_WAIT"},
+                             {92, "NAV_GUIDED_ENABLE"},
+                             {94, "NAV_PAYLOAD_PLACE"},
+                             {113, "CONDITION_CHANGE_ALT"},
+                             {176, "DO_SET_MODE"},
+                             {185, "DO_FLIGHTTERMINATION"},
+                             {186, "DO_CHANGE_ALTITUDE"},
+                             {190, "DO_RALLY_LAND"},
+                             {191, "DO_GO_AROUND"},
+                             {192, "DO_REPOSITION"},
+                             {193, "DO_PAUSE_CONTINUE"},
+                             {208, "DO_PARACHUTE"},
+                             {210, "DO_INVERTED_FLIGHT"},
+                             {213, "NAV_SET_YAW_SPEED"},
+                             {224, "DO_SET_MISSION_CURRENT"},
+                             {252, "OVERRIDE_GOTO"},
+                             {262, "DO_SET_STANDARD_MODE"},
+                             {601, "DO_JUMP_TAG"},
+                             {4001, "GUIDED_SUBMODE_CIRCLE"},
+                             {42702, "NAV_SCRIPT_TIME"},
+                             {42703, "NAV_ATTITUDE_TIME"}};
 
 bool is_given(double latitude, double longitude) {
   if (std::isnan(latitude) || std::isnan(longitude)) return false;
@@ -33,8 +75,12 @@ bool is_given(double latitude, double longitude) {
 /// Runs one item after the other.
 class Runner {
  public:
-  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, FlightPlan& plan)
-      : mission_(mission), source_(source), plan_(plan), jumps_left_(mission.size(), -1) {
+  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, bool zero_keeps_height, FlightPlan& plan)
+      : mission_(mission),
+        source_(source),
+        zero_keeps_height_(zero_keeps_height),
+        plan_(plan),
+        jumps_left_(mission.size(), -1) {
     for (std::size_t i = 0; i < mission.size(); ++i) {
       if (mission[i].id >= 0) index_of_.emplace(mission[i].id, i);
     }
@@ -48,8 +94,13 @@ class Runner {
   void loiter(const MissionItem& item, double radius_m, double turns, double hold_s);
   void land(const MissionItem& item);
   void turn_camera(const MissionItem& item);
+  void come_to(const MissionItem& item);
+  bool come_on_arc(const MissionItem& item);
+  void leave_out(const MissionItem& item);
+  void not_judged(const MissionItem& item, const std::string& why);
   std::optional<std::size_t> jump(std::size_t at);
   PlanItem& add(PlanItemKind kind, const MissionItem& item);
+  void keep_height(const PlanItem& before, const MissionItem& item, PlanItem& added);
   void add_notes();
   void note(WarningCode code, const std::string& text) { plan_.notes.push_back({code, source_.name + ": " + text}); }
   [[noreturn]] static void fail(ErrorCode code, const MissionItem& item, const std::string& problem,
@@ -59,6 +110,7 @@ class Runner {
 
   const std::vector<MissionItem>& mission_;
   const PlanSource& source_;
+  bool zero_keeps_height_;
   FlightPlan& plan_;
   std::unordered_map<long long, std::size_t> index_of_;
   std::vector<long long> jumps_left_;  // of each DO_JUMP; -1: not come to yet
@@ -70,7 +122,9 @@ class Runner {
   std::optional<PlanPosition> look_at_;
   // For notes.
   std::map<std::string, std::size_t> unknown_;
-  std::size_t splines_ = 0, airspeeds_ = 0, unlimited_ = 0, climbs_ = 0, endless_jumps_ = 0, not_flown_ = 0;
+  std::set<std::string> told_not_judged_;
+  std::size_t splines_ = 0, old_arcs_ = 0, airspeeds_ = 0, unlimited_ = 0, climbs_ = 0, endless_jumps_ = 0,
+              kept_heights_ = 0, not_flown_ = 0;
 };
 
 void Runner::run() {
@@ -88,9 +142,7 @@ void Runner::run() {
       at = jump(at).value_or(at + 1);
       continue;
     }
-    if (!move(item) && !set(item) && !moves_nothing(item.command)) {
-      ++unknown_["of command " + std::to_string(item.command)];
-    }
+    if (!move(item) && !set(item) && !moves_nothing(item)) leave_out(item);
     ++at;
     if (is_over_) not_flown_ = mission_.size() - at;
   }
@@ -111,6 +163,8 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
       }
       added.position.horizontal = before->position.horizontal;
     }
+    const bool may_keep = kind == PlanItemKind::waypoint || kind == PlanItemKind::loiter;
+    if (zero_keeps_height_ && may_keep && added.position.height_m == 0 && before) keep_height(*before, item, added);
     added.follows_ground = added.position.datum == HeightDatum::ground && before &&
                            before->position.datum == HeightDatum::ground && item.frame != kGlobal;
   }
@@ -123,18 +177,48 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
   return added;
 }
 
+/// ArduPilot's Copter takes a height of 0 as that of where it comes from, in whatever frame.
+void Runner::keep_height(const PlanItem& before, const MissionItem& item, PlanItem& added) {
+  if (before.kind == PlanItemKind::land || std::isnan(before.position.height_m)) return;
+  const bool is_level = before.position.datum == added.position.datum ||
+                        (before.position.datum != HeightDatum::ground && added.position.datum != HeightDatum::ground);
+  if (!is_level) not_judged(item, "its height of 0 keeps the height before, which is measured from another ground");
+  added.position.height_m = before.position.height_m;
+  added.position.datum = before.position.datum;
+  ++kept_heights_;
+}
+
+/// A waypoint, straight or on a spline.
+void Runner::come_to(const MissionItem& item) {
+  const auto& p = item.parameters;
+  const auto or_zero = [&](std::size_t i) { return std::isnan(p[i]) ? 0 : p[i]; };
+  const bool is_spline = item.command == kNavSpline;
+  const bool is_behind_arc = !plan_.items.empty() && plan_.items.back().arc_deg != 0;
+  if (is_spline && is_behind_arc) not_judged(item, "it is a spline behind an arc");
+  PlanItem& added = add(PlanItemKind::waypoint, item);
+  added.hold_s = std::max(or_zero(0), 0.0);
+  added.is_spline = is_spline;
+  splines_ += is_spline ? 1 : 0;
+  added.acceptance_radius_m = is_spline ? 0 : or_zero(1);
+  // 0 is north in the standard, and "not given" to those who write the files.
+  if (or_zero(3) != 0) added.yaw_deg = p[3];
+}
+
 bool Runner::move(const MissionItem& item) {
   const auto& p = item.parameters;
   const auto or_zero = [&](std::size_t i) { return std::isnan(p[i]) ? 0 : p[i]; };
   switch (item.command) {
     case kNavSpline:
-    case kNavWaypoint: {
-      splines_ += item.command == kNavSpline ? 1 : 0;
-      PlanItem& added = add(PlanItemKind::waypoint, item);
-      added.hold_s = std::max(or_zero(0), 0.0);
-      added.acceptance_radius_m = item.command == kNavSpline ? 0 : or_zero(1);
-      // 0 is north in the standard, and "not given" to those who write the files.
-      if (or_zero(3) != 0) added.yaw_deg = p[3];
+    case kNavWaypoint:
+      come_to(item);
+      return true;
+    case kNavArc:
+      return come_on_arc(item);
+    case kDoOrbit: {  // of param4 radians
+      const double turns = std::abs(or_zero(3)) / (2 * std::numbers::pi);
+      unlimited_ += turns == 0 ? 1 : 0;
+      loiter(item, or_zero(0), turns == 0 ? 1 : turns, 0);
+      if (p[1] > 0) plan_.items.back().speed_m_s = p[1];
       return true;
     }
     case kNavLoiterUnlimited:
@@ -165,6 +249,7 @@ bool Runner::move(const MissionItem& item) {
       return true;
     case kNavDelay:
       if (!plan_.items.empty() && or_zero(0) > 0) plan_.items.back().hold_s += p[0];
+      if (!plan_.items.empty() && plan_.items.back().is_spline) not_judged(item, "it is a delay behind a spline");
       return true;
     default:
       return false;
@@ -177,10 +262,59 @@ void Runner::loiter(const MissionItem& item, double radius_m, double turns, doub
   PlanItem& added = add(PlanItemKind::loiter, item);
   const bool can_stay =
       plan_.vehicle == PlanVehicle::multirotor || (plan_.vehicle == PlanVehicle::unknown && radius_m == 0);
-  const bool is_circle = item.command == kNavLoiterTurns || !can_stay;
+  const bool is_circle = item.command == kNavLoiterTurns || item.command == kDoOrbit || !can_stay;
   added.loiter_radius_m = is_circle ? radius_m : 0;
   added.turns = is_circle ? turns : 0;
   added.hold_s = hold_s;
+}
+
+/// The angle, above 0 clockwise, is the first parameter, as in the standard; in early files of ArduPilot the second.
+bool Runner::come_on_arc(const MissionItem& item) {
+  const double first = std::isnan(item.parameters[0]) ? 0 : item.parameters[0];
+  const double second = std::isnan(item.parameters[1]) ? 0 : item.parameters[1];
+  const PlanItem* const before = plan_.items.empty() ? nullptr : &plan_.items.back();
+  const bool is_behind_waypoint = before && before->kind == PlanItemKind::waypoint && !before->is_spline;
+  PlanItem& added = add(PlanItemKind::waypoint, item);
+  added.arc_deg = first != 0 ? first : second;
+  old_arcs_ += first == 0 && second != 0 ? 1 : 0;
+  if (added.arc_deg == 0) return true;  // a straight leg
+  constexpr double kMostTurnDeg = 360 * 100;
+  if (first != 0 && second != 0) {
+    not_judged(item, "it is an arc, and its first two parameters both may be the angle");
+  } else if (!is_behind_waypoint) {
+    not_judged(item, "it is an arc, and no waypoint is before it that says where the arc begins");
+  } else if (!(std::abs(added.arc_deg) <= kMostTurnDeg) || std::remainder(added.arc_deg, 360) == 0) {
+    not_judged(item, "it is an arc, and " + shortest(added.arc_deg) + " degrees do not say which");
+  } else {
+    return true;
+  }
+  added.arc_deg = 0;
+  return true;
+}
+
+/// What is not known: it may move the vehicle if it is one of navigation or has a position.
+void Runner::leave_out(const MissionItem& item) {
+  const auto* const mover = std::find_if(std::begin(kMovers), std::end(kMovers),
+                                         [&](const Mover& one) { return one.command == item.command; });
+  const std::string number = "command " + std::to_string(item.command);
+  constexpr int kLastOfNavigation = 95;  // MAV_CMD_NAV_LAST
+  if (mover != std::end(kMovers)) {
+    not_judged(item, number + ", " + mover->name + ", moves the vehicle in a way that is not followed here");
+  } else if (item.command <= kLastOfNavigation || is_given(item.parameters[4], item.parameters[5])) {
+    not_judged(item, number + " is not known here, and may move the vehicle");
+  } else {
+    ++unknown_["of " + number];
+  }
+}
+
+/// Once for each item, however often jumps come to it.
+void Runner::not_judged(const MissionItem& item, const std::string& why) {
+  if (!told_not_judged_.insert(item.place).second) return;
+  constexpr std::size_t kMostNamed = 20;
+  const std::size_t more = told_not_judged_.size() > kMostNamed ? told_not_judged_.size() - kMostNamed : 0;
+  if (more > 1) plan_.not_judged.pop_back();
+  plan_.not_judged.push_back(more > 0 ? source_.name + ": and " + core::count_text(more, "item", "items") + " more"
+                                      : item.place + ": " + why);
 }
 
 /// At the height before, and then straight down, or for a fixed wing on a slope.
@@ -202,6 +336,9 @@ bool Runner::set(const MissionItem& item) {
       if (p[0] != 1) {  // 1: where it is
         const PlanPosition home = position_of(item);
         if (home.horizontal.allFinite()) plan_.home = home;
+      }
+      if (!plan_.items.empty()) {
+        not_judged(item, "it sets another home in flight, and heights and the return are measured from that");
       }
       return true;
     case kConditionYaw:
@@ -268,11 +405,7 @@ std::optional<std::size_t> Runner::jump(std::size_t at) {
 
 void Runner::add_notes() {
   if (!unknown_.empty()) {
-    const bool may_move = std::any_of(unknown_.begin(), unknown_.end(), [](const auto& entry) {
-      return std::stoi(entry.first.substr(entry.first.rfind(' '))) < 100;
-    });
-    note(WarningCode::plan_left_out, "items of commands that are not known here were left out: " + counted(unknown_) +
-                                         (may_move ? "; they may move the vehicle" : ""));
+    note(WarningCode::plan_left_out, "items of commands that are not known here were left out: " + counted(unknown_));
   }
   if (not_flown_ > 0) {
     note(WarningCode::plan_left_out,
@@ -281,8 +414,10 @@ void Runner::add_notes() {
   const auto assume = [this](std::size_t count, const char* one, const char* many, const char* what) {
     if (count > 0) note(WarningCode::plan_assumed, core::count_text(count, one, many) + what);
   };
-  assume(splines_, "spline waypoint", "spline waypoints",
-         ": the legs are taken as straight, and the vehicle flies curves of its own");
+  assume(splines_, "spline waypoint is", "spline waypoints are", " taken as the curves of ArduPilot's Copter");
+  assume(old_arcs_, "arc has", "arcs have", " the angle in the second parameter instead of the first");
+  assume(kept_heights_, "item has", "items have",
+         " the height 0, which keeps the height before, as in ArduPilot's Copter");
   assume(airspeeds_, "speed is", "speeds are", " through the air, and taken as over ground");
   assume(unlimited_, "loiter has", "loiters have", " no end: one circle is taken, or a point, and then what follows");
   assume(climbs_, "climb in circles is", "climbs in circles are", " taken as one circle at the height that it ends at");
@@ -326,8 +461,9 @@ PlanPosition position_of(const MissionItem& item) {
   return position;
 }
 
-void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, FlightPlan& plan) {
-  Runner(mission, source, plan).run();
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, bool zero_keeps_height,
+                 FlightPlan& plan) {
+  Runner(mission, source, zero_keeps_height, plan).run();
 }
 
 }  // namespace vantage::internal::flight::plans

@@ -21,6 +21,8 @@ enum MissionCommand : int {
   kNavLand = 21,
   kNavTakeoff = 22,
   kNavLoiterToAltitude = 31,
+  kDoOrbit = 34,
+  kNavArc = 36,
   kNavRoi = 80,
   kNavSpline = 82,
   kNavVtolTakeoff = 84,
@@ -62,8 +64,10 @@ struct MissionItem {
 };
 
 /// Runs the mission from its first item to its last, jumps followed, into `plan`, whose vehicle and home are set.
-/// Throws Error(input) with the item's place.
-void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, FlightPlan& plan);
+/// `zero_keeps_height`: a height of 0 means that of the item before, as ArduPilot's Copter has it. Throws Error(input)
+/// with the item's place.
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, bool zero_keeps_height,
+                 FlightPlan& plan);
 
 /// Where an item is, if its frame is one of the earth. Throws Error(input) for one that is not.
 PlanPosition position_of(const MissionItem& item);

@@ -65,40 +65,56 @@ std::string counted(const std::map<std::string, std::size_t>& counts) {
   return text;
 }
 
-void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* many, const PlanSource& source,
-                 FlightPlan& plan) {
+namespace {
+
+void note_joined(std::size_t count, const char* one, const char* many, const std::string& names,
+                 const PlanSource& source, FlightPlan& plan) {
+  if (count < 2) return;
+  plan.notes.push_back({WarningCode::plan_joined, source.name + " has " + core::count_text(count, one, many) +
+                                                      ", flown one after the other" + names});
+}
+
+std::string names_of(const std::vector<PlanTrack>& tracks) {
   std::string names;
   constexpr std::size_t kMostNamed = 10;
   for (std::size_t i = 0; i < tracks.size() && i < kMostNamed; ++i) {
     const PlanTrack& track = tracks[i];
     names.append(names.empty() ? "" : ", ").append(track.name.empty() ? std::to_string(i + 1) : in_quotes(track.name));
   }
-  if (tracks.size() > kMostNamed) names += ", ...";
-  if (!source.track.empty()) {
-    std::size_t found = 0;
-    while (found < tracks.size() && tracks[found].name != source.track) ++found;
-    if (found == tracks.size()) {
-      const ParsedNumber number = parse_number(source.track);
-      const double count = static_cast<double>(tracks.size());
-      const bool is_index = number.fault == NumberFault::none && number.value >= 1 && number.value <= count &&
-                            number.value == std::floor(number.value);
-      if (is_index) found = static_cast<std::size_t>(number.value) - 1;
-    }
-    if (found >= tracks.size()) {
-      source.fail(ErrorCode::unknown_choice, "", "there is no " + std::string(one) + " " + in_quotes(source.track),
-                  tracks.empty() ? "the file has none" : "choose among " + names + ", or a number from 1");
-    }
-    plan.items = std::move(tracks[found].items);
-    return;
+  return tracks.size() > kMostNamed ? names + ", ..." : names;
+}
+
+/// All of that name, or else the one of that number.
+std::vector<PlanTrack> chosen(std::vector<PlanTrack> tracks, const char* one, const PlanSource& source) {
+  std::vector<PlanTrack> named;
+  for (PlanTrack& track : tracks) {
+    if (track.name == source.track) named.push_back(std::move(track));
   }
+  if (!named.empty()) return named;
+  const ParsedNumber number = parse_number(source.track);
+  const bool is_index = number.fault == NumberFault::none && number.value >= 1 &&
+                        number.value <= static_cast<double>(tracks.size()) && number.value == std::floor(number.value);
+  if (!is_index) {
+    source.fail(ErrorCode::unknown_choice, "", "there is no " + std::string(one) + " " + in_quotes(source.track),
+                tracks.empty() ? "the file has none" : "choose among " + names_of(tracks) + ", or a number from 1");
+  }
+  named.push_back(std::move(tracks[static_cast<std::size_t>(number.value) - 1]));
+  return named;
+}
+
+}  // namespace
+
+void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* many, const PlanSource& source,
+                 FlightPlan& plan) {
+  if (!source.track.empty()) tracks = chosen(std::move(tracks), one, source);
+  std::size_t segments = 0;
   for (PlanTrack& track : tracks) {
     plan.items.insert(plan.items.end(), std::make_move_iterator(track.items.begin()),
                       std::make_move_iterator(track.items.end()));
+    segments += track.segments;
   }
-  if (tracks.size() > 1) {
-    plan.notes.push_back({WarningCode::plan_joined, source.name + " has " + core::count_text(tracks.size(), one, many) +
-                                                        ", flown one after the other: " + names});
-  }
+  note_joined(tracks.size(), one, many, ": " + names_of(tracks), source, plan);
+  if (segments > tracks.size()) note_joined(segments, "segment", "segments", "", source, plan);
 }
 
 void join_at_antimeridian(std::vector<PlanTrack>& tracks, std::size_t first) {

@@ -16,8 +16,9 @@ namespace vantage::internal::flight::plans {
 
 struct PlanSource {
   std::string_view text;
-  std::string name;   ///< of the file, for messages
-  std::string track;  ///< ReadPlanOptions::track
+  std::string name;        ///< of the file, for messages
+  std::string track;       ///< ReadPlanOptions::track
+  bool was_utf16 = false;  ///< `text` is UTF-8, whatever encoding XML declares
   core::ProgressReporter progress;
 
   /// "a.plan: item 3".
@@ -41,14 +42,15 @@ struct PlanTrack {
   std::string name;   ///< may be empty
   std::string place;  ///< within the file: "line 12"
   std::vector<PlanItem> items;
+  std::size_t segments = 1;  ///< that were apart in the file
 };
 
 /// A new item of a track, in `place` of the file. `total` counts those of all tracks. Throws Error(value_out_of_range)
 /// where there are too many: before they take more memory than the file would let one expect.
 PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& place, const PlanSource& source);
 
-/// The track that was asked for, or all of them, one after the other, with a note. Throws Error(input) where there is
-/// none of that name, or none with items.
+/// The track that was asked for (those of that name, where several have it), or all of them, one after the other, with
+/// a note. Throws Error(input) where there is none of that name, or none with items.
 void take_tracks(std::vector<PlanTrack> tracks, const char* one, const char* many, const PlanSource& source,
                  FlightPlan& plan);
 

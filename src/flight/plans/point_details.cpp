@@ -1,6 +1,7 @@
 #include "flight/plans/point_details.h"
 
 #include <cmath>
+#include <set>
 
 #include "common/input.h"
 #include "core/text.h"
@@ -83,7 +84,11 @@ void take_details(DetailPoints points, std::vector<PlanTrack>& lines, const Plan
     lines.push_back(std::move(points.track));
     return;
   }
-  std::size_t lost = 0;
+  std::size_t lost = 0, beside = 0;
+  std::set<std::pair<double, double>> places;
+  for (const PlanTrack& line : lines) {
+    for (const PlanItem& item : line.items) places.emplace(item.position.horizontal.x(), item.position.horizontal.y());
+  }
   std::vector<bool> is_told(lines.front().items.size(), false);
   for (std::size_t i = 0; i < points.track.items.size(); ++i) {
     const PlanItem& point = points.track.items[i];
@@ -93,6 +98,7 @@ void take_details(DetailPoints points, std::vector<PlanTrack>& lines, const Plan
                       is_same_place(point.position, items[number - 1].position);
     if (!fits) {
       lost += point.hold_s > 0 ? 1 : 0;
+      beside += point.hold_s == 0 && !places.contains({point.position.horizontal.x(), point.position.horizontal.y()});
       continue;
     }
     PlanItem& item = items[number - 1];
@@ -107,6 +113,10 @@ void take_details(DetailPoints points, std::vector<PlanTrack>& lines, const Plan
     item.speed_m_s = point.speed_m_s;
     item.yaw_deg = point.yaw_deg;
     item.gimbal_pitch_deg = point.gimbal_pitch_deg;
+  }
+  if (beside > 0) {
+    plan.notes.push_back({WarningCode::plan_left_out, source.name + ": the line is flown, and not to " +
+                                                          core::count_text(beside, "point", "points") + " beside it"});
   }
   if (lost == 0) return;
   plan.notes.push_back(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/input.h"
+#include "core/text.h"
 #include "flight/plans/json_text.h"
 #include "flight/plans/mission_items.h"
 
@@ -60,6 +61,7 @@ class GroundStationPlan {
     if (mission == root.end() || !mission->is_object()) {
       source_.fail(ErrorCode::plan_empty, "mission", "the plan has no mission", "save it anew with the ground station");
     }
+    read_versions(root, *mission);
     read_vehicle(*mission);
     const auto items = mission->find("items");
     if (items == mission->end() || !items->is_array()) {
@@ -69,12 +71,42 @@ class GroundStationPlan {
     for (std::size_t i = 0; i < items->size(); ++i) {
       add((*items)[i], source_.place("item " + std::to_string(i + 1)));
     }
-    run_mission(items_, source_, plan_);
+    constexpr double kArduPilot = 3;  // MAV_AUTOPILOT
+    const bool is_copter = plan_.vehicle == PlanVehicle::multirotor || plan_.vehicle == PlanVehicle::unknown;
+    const bool is_ardupilot = member_or_nan(*mission, "firmwareType", source_.place("mission")) == kArduPilot;
+    run_mission(items_, source_, is_ardupilot && is_copter, plan_);
+    look_for_rally_points(root);
     check_plan(plan_, source_);
     return std::move(plan_);
   }
 
  private:
+  void read_versions(const json& root, const json& mission) {
+    const auto read = [&](const json& object, const char* what, double known) {
+      const double version = member_or_nan(object, "version", source_.place(what));
+      if (std::isnan(version) || version == known) return;
+      plan_.notes.push_back({WarningCode::plan_assumed, source_.name + ": the version of the " + what + " is " +
+                                                            shortest(version) + ", and it is read as one of version " +
+                                                            shortest(known)});
+    };
+    read(root, "plan", 1);
+    read(mission, "mission", 2);
+  }
+
+  /// Autopilots return to the nearest of these instead of the home, if their settings say so.
+  void look_for_rally_points(const json& root) {
+    const auto rally = root.find("rallyPoints");
+    if (rally == root.end() || !rally->is_object()) return;
+    const auto points = rally->find("points");
+    const bool has_points = points != rally->end() && points->is_array() && !points->empty();
+    const auto returns = std::find_if(plan_.items.begin(), plan_.items.end(),
+                                      [](const PlanItem& item) { return item.kind == PlanItemKind::return_home; });
+    if (!has_points || returns == plan_.items.end()) return;
+    plan_.not_judged.push_back(returns->place + ": the plan has " +
+                               core::count_text(points->size(), "rally point", "rally points") +
+                               ", and the vehicle may return to one of them instead of the home");
+  }
+
   void read_vehicle(const json& mission) {
     const std::string where = source_.place("mission");
     const double type = member_or_nan(mission, "vehicleType", where);  // MAV_TYPE
@@ -136,11 +168,30 @@ class GroundStationPlan {
     added.id = id_of(item, where);
     // 3: above terrain, from which the ground station computes the height above sea level; null where it has no
     // terrain.
-    constexpr double kAboveTerrain = 3;
-    if (member_or_nan(item, "AltitudeMode", where) == kAboveTerrain) {
-      if (std::isnan(added.parameters[6])) added.parameters[6] = member_or_nan(item, "AMSLAltAboveTerrain", where);
-      added.above_ground_m = member_or_nan(item, "Altitude", where);
+    constexpr double kRelative = 1, kAbsolute = 2, kAboveTerrain = 3, kTerrainFrame = 4;
+    const auto mode = item.find("AltitudeMode");
+    const double kind =
+        mode == item.end() || mode->is_string() ? kNoNumber : member_or_nan(item, "AltitudeMode", where);
+    const double stated = member_or_nan(item, "Altitude", where);
+    if (kind == kAboveTerrain || (mode != item.end() && *mode == "CalcAboveTerrain")) {
+      const double above_sea = member_or_nan(item, "AMSLAltAboveTerrain", where);
+      if (std::isnan(added.parameters[6])) added.parameters[6] = above_sea;
+      check_same_height(added, "AMSLAltAboveTerrain", above_sea);
+      added.above_ground_m = stated;
+    } else if (kind == kRelative || kind == kAbsolute || kind == kTerrainFrame) {
+      check_same_height(added, "Altitude", stated);
     }
+  }
+
+  /// The vehicle is given params[6], and the ground station shows the other one. Which is meant, nobody knows.
+  static void check_same_height(const MissionItem& item, const char* key, double stated_m) {
+    constexpr double kSameM = 0.1;
+    if (std::isnan(stated_m) || std::isnan(item.parameters[6])) return;
+    if (std::abs(item.parameters[6] - stated_m) <= kSameM) return;
+    PlanSource::fail_at(ErrorCode::conflicting_keys, item.place,
+                        "it has two heights: params[6] is " + shortest(item.parameters[6]) + ", and " + in_quotes(key) +
+                            " " + shortest(stated_m),
+                        "open the plan in the ground station, set the height anew, and save it");
   }
 
   void add_complex(const json& item, const std::string& where) {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -62,6 +63,51 @@ std::string_view root_element(std::string_view text) {
   return {};
 }
 
+bool is_utf16(std::string_view text) {
+  constexpr std::string_view kBegins[] = {"\xFF\xFE", "\xFE\xFF", std::string_view("<\0", 2),
+                                          std::string_view("\0<", 2)};
+  return std::find(std::begin(kBegins), std::end(kBegins), text.substr(0, 2)) != std::end(kBegins);
+}
+
+/// Half a pair of surrogates becomes U+FFFD.
+std::string utf8_of_utf16(std::string_view text) {
+  const bool is_big = text[0] == '\xFE' || text[0] == '\0';
+  const auto unit = [&](std::size_t i) {
+    const auto first = static_cast<unsigned char>(text[i]), second = static_cast<unsigned char>(text[i + 1]);
+    return static_cast<unsigned>(is_big ? first << 8 | second : second << 8 | first);
+  };
+  std::string utf8;
+  utf8.reserve(text.size());
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    unsigned code = unit(i);
+    const bool is_pair = code >= 0xD800 && code < 0xDC00 && i + 3 < text.size() && unit(i + 2) >> 10 == 0xDC00 >> 10;
+    if (is_pair) {
+      code = 0x10000 + ((code - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
+      i += 2;
+    } else if (code >= 0xD800 && code < 0xE000) {
+      code = 0xFFFD;
+    }
+    const auto add = [&](unsigned byte) { utf8 += static_cast<char>(byte); };
+    const auto add_rest = [&](unsigned shift) { add(0x80 | (code >> shift & 0x3F)); };
+    if (code < 0x80) {
+      add(code);
+    } else if (code < 0x800) {
+      add(0xC0 | code >> 6);
+      add_rest(0);
+    } else if (code < 0x10000) {
+      add(0xE0 | code >> 12);
+      add_rest(6);
+      add_rest(0);
+    } else {
+      add(0xF0 | code >> 18);
+      add_rest(12);
+      add_rest(6);
+      add_rest(0);
+    }
+  }
+  return utf8;
+}
+
 FlightPlan parse_text(const plans::PlanSource& source) {
   const std::string_view text = plans::without_blanks(source.text);
   if (text.empty()) source.fail(ErrorCode::file_empty, "", "the plan is empty", kPlanAdvice);
@@ -102,6 +148,12 @@ FlightPlan parse_bytes(std::string_view bytes, const std::string& name, const Re
     if (internal::io::is_zip(made)) {
       source.fail(ErrorCode::plan_syntax, "", "the file is a zip archive in a zip archive", "unpack it");
     }
+  }
+  std::string recoded;
+  if (is_utf16(source.text)) {
+    recoded = utf8_of_utf16(source.text);
+    source.text = recoded;
+    source.was_utf16 = true;
   }
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   if (source.text.substr(0, kMark.size()) == kMark) source.text.remove_prefix(kMark.size());

@@ -35,9 +35,9 @@ class Waylines {
     take_tracks(std::move(tracks_), "wayline", "waylines", source_, plan_);
     if (config != XmlTree::kNone && !plan_.items.empty()) add_ends(config);
     if (curves_ > 0) {
-      plan_.notes.push_back({WarningCode::plan_assumed,
-                             source_.name + ": " + core::count_text(curves_, "waypoint is", "waypoints are") +
-                                 " flown through in a curve of the aircraft's own: the legs are taken as straight"});
+      plan_.not_judged.push_back(
+          first_curve_ + ": it is flown through in a curve of the aircraft's own, which the plan does not hold" +
+          (curves_ > 1 ? "; likewise " + core::count_text(curves_ - 1, "waypoint", "waypoints") + " more" : ""));
     }
     check_plan(plan_, source_);
     return std::move(plan_);
@@ -104,10 +104,17 @@ class Waylines {
     const double folder_speed = number(folder, "autoFlightSpeed");
     const std::string_view folder_turn = xml_.child_text(folder, "globalWaypointTurnMode");
     double speed = kNoValue;  // of the leg to come: that of the waypoint before
+    double last_index = kNoValue;
     camera_ = {};
     for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
       source_.progress.tick();
       if (xml_.name(node) != "Placemark" || xml_.child(node, "Point") == XmlTree::kNone) continue;
+      const double index = number(node, "index");
+      if (index < last_index) {
+        source_.fail(ErrorCode::value_unsupported, line_of(xml_, node),
+                     "the waypoints are not in the order of their 'index'", "write them in the order of the flight");
+      }
+      if (!std::isnan(index)) last_index = index;
       PlanItem& item = new_item(track, total_,
                                 line_of(xml_, node) + ", waypoint " + std::to_string(track.items.size() + 1), source_);
       read_position(node, heights, item);
@@ -146,7 +153,7 @@ class Waylines {
       item.cut_m = distance > 0 ? distance : 0;
     }
     const bool is_curve = mode.find("ContinuityCurvature") != std::string_view::npos;  // not "Discontinuity..."
-    if (is_curve && xml_.child_text(placemark, "useStraightLine") != "1") ++curves_;
+    if (is_curve && xml_.child_text(placemark, "useStraightLine") != "1" && ++curves_ == 1) first_curve_ = item.place;
   }
 
   /// What an action has set stays so.
@@ -209,6 +216,7 @@ class Waylines {
     if (finish == "goHome") {
       last.kind = PlanItemKind::return_home;
       last.position = {};
+      last.position.height_m = number(config, "globalRTHHeight");
       last.follows_ground = false;
       plan_.items.push_back(last);
     } else if (finish == "autoLand") {
@@ -238,6 +246,7 @@ class Waylines {
   FlightPlan plan_;
   std::vector<PlanTrack> tracks_;
   Camera camera_;
+  std::string first_curve_;
   std::size_t curves_ = 0, total_ = 0;
 };
 

@@ -53,8 +53,9 @@ class WaylineWriter {
       throw Error(code, problem, writer_.place(), fix);
     };
     if (!writer_.flight().aircraft) {
-      fail(ErrorCode::missing_key, "a plan of DJI names its aircraft",
-           "give the numbers of its type in DJI's documents, such as 77 and 0 for the Mavic 3E");
+      fail(
+          ErrorCode::missing_key, "a plan of DJI names its aircraft",
+          "give with --aircraft (aircraft in Python) the numbers of its type in DJI's documents: 77,0 is the Mavic 3E");
     }
     const auto is_at_first = [this](const OutPoint& point) { return point.position == points_.front().position; };
     if (std::all_of(points_.begin(), points_.end(), is_at_first)) {
@@ -79,7 +80,7 @@ class WaylineWriter {
       }
       if ((point.action.photo || point.action.video) && !aircraft().payload) {
         fail(ErrorCode::missing_key, "photos and videos need the type of the camera",
-             "give the number of the payload in DJI's documents, such as 66 for the Mavic 3E's camera");
+             "give its number in DJI's documents as the third of --aircraft: 77,0,66 is the Mavic 3E");
       }
     }
   }

@@ -12,7 +12,7 @@ namespace vantage::internal::flight::plans {
 class XmlBuilder {
  public:
   XmlBuilder(const PlanSource& source, XmlTree& tree)
-      : source_(source), tree_(tree), parser_(XML_ParserCreate(nullptr)) {
+      : source_(source), tree_(tree), parser_(XML_ParserCreate(source.was_utf16 ? "UTF-8" : nullptr)) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), on_start, on_end);

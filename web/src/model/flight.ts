@@ -154,7 +154,10 @@ export function flightFrom(told: unknown, name: string, home: Point | null = nul
     links: check.find("links")?.list((link) => ({
       name: link.get("name").text(), linked: spansFrom(link.get("linked"), unit, departure),
     })) ?? [],
-    failures: check.get("failures").list((one) => one.text()),
+    failures: [
+      ...(check.find("not_judged")?.list((one) => `not judged: ${one.text()}`) ?? []),
+      ...check.get("failures").list((one) => one.text()),
+    ],
     tube_m: check.get("tube_radius_m").number(),
   };
 }
