@@ -115,6 +115,9 @@ struct CityOptions {
 };
 
 /// A number of BuildingDefaults or OccluderDefaults by its name: for command lines, missions and the table in
+  /// A file that says itself that it is not complete is read as far as it goes; a note and the ledger say so. Overpass
+  /// writes a <remark> of an error into an answer that it could not finish. False: Error(input), scene_incomplete.
+  bool partial = false;
 /// docs/scene.md.
 struct CitySetting {
   const char* name;

@@ -164,6 +164,9 @@ class SceneParser {
 
   void parse_frame() {
     const YamlNode* const node = take("frame", {Kind::map}, "maps");
+    if (const YamlNode* partial = take("partial", {Kind::map}, "maps")) {
+      city.partial = truth(*partial, "scene.partial");
+    }
     if (!node) return;
     check_keys(*node, "scene.frame", reader_.file());
     const auto needed = [&](const char* key) -> const YamlNode& {
@@ -192,6 +195,13 @@ class SceneParser {
   const std::filesystem::path& folder_;
   SceneSection section_;
 };
+  bool truth(const YamlNode& node, const std::string& what) const {
+    const std::string word = reader_.text(node, what);
+    if (word == "true" || word == "false") return word == "true";
+    reader_.fail(ErrorCode::unknown_choice, node, what + " must be true or false, not " + in_quotes(word),
+                 "write true or false");
+  }
+
 
 }  // namespace
 

@@ -88,6 +88,22 @@ inline constexpr std::array kSceneKeys = {
                  "posts](terrain.md#between-the-posts)",
          .without = "0.5; for a raster 0.25"},
         Kind::number,
+    Own{{.path = "z_unit",
+         .says =
+             "for a raster and for `terrain`, what its heights are in, whatever the file says: `m`, `ft` or `us-ft`",
+         .without = "what the file says, else metres; a raster whose eastings are in feet must say it"},
+        Kind::word},
+    Own{{.path = "void",
+         .says = "for a raster and for `terrain`, the height of [posts that have none](terrain.md#voids)",
+         .without = "of the rim of a void, or of its neighbours"},
+        Kind::number,
+        Unit::metres},
+    Own{{.path = "partial",
+         .says = "for a map, `true`: an answer of Overpass that says that it is [not complete](scene.md#maps) is read "
+                 "as far "
+                 "as it goes",
+         .without = "such an answer is refused"},
+        Kind::flag},
         Unit::metres},
     Own{{.path = "without",
          .says = "for a map, what is left out: a list of `walls`, `towers`, `bridges`, `trees`",

@@ -36,6 +36,16 @@ std::vector<std::string> notes_on(const internal::osm::Extract& extract) {
   return notes;
 }
 
+/// What a file that says itself that it is not complete leaves out has no place: the ledger and a note say so.
+void tell_of_remark(const std::string& remark, const std::filesystem::path& file, City& city) {
+  if (remark.empty()) return;
+  LedgerEntry entry;
+  entry.what = "what the file lacks";
+  entry.reason = "it says that it is not complete: " + remark;
+  city.report.notes.push_back(file.filename().string() + " says that it is not complete: " + remark);
+  city.scene.ledger.push_back(std::move(entry));
+}
+
 internal::geo::LonLat frame_origin(const CityOptions& options, const internal::osm::Extract& extract) {
   if (!options.frame) return internal::city::frame_origin(options.region, extract);
   return {options.frame->origin_deg[1], options.frame->origin_deg[0]};
@@ -68,6 +78,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
       options.frame ? internal::city::with_margin(region, options.frame->reach_m) : internal::city::with_margin(region);
   const internal::osm::Extract extract = internal::osm::read_extract(file, {read, internal::city::wanted}, progress);
   if (!options.frame) internal::city::check_overlap(options.region, extract, file);
+  if (!options.partial) internal::city::check_complete(extract, file);
   const internal::geo::LocalFrame frame(frame_origin(options, extract));
   result.report.notes = notes_on(extract);
   result.report.read_seconds = stopwatch.lap();
@@ -91,6 +102,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   result.scene = internal::city::assemble(site, solids, ground.mesh());
   result.scene.source = file;
   result.scene.georeference = result.report.georeference;
+  tell_of_remark(extract.remark, file, result);
   if (options.frame) result.scene.whole = internal::city::bounds_of_whole(*options.frame);
   for (internal::city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
   for (CityRecord& record : site.skipped) result.report.records.push_back(std::move(record));
