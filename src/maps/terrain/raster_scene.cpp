@@ -238,7 +238,9 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   result.report.highest_m = static_cast<double>(*highest);
   Scene& scene = result.scene;
   if (options.max_error_m > 0) {
-    const TriangulatedTerrain surface(simplified(grid, posts, options.max_error_m, file, progress));
+    // Half of the error on either side, and then up by as much: all of it lies above the posts.
+    const TriangulatedTerrain surface =
+        raised_over(TriangulatedTerrain(simplified(grid, posts, options.max_error_m / 2, file, progress)), {posts});
     result.report.largest_error_m = largest_error(surface, posts);
     scene.mesh = surface.mesh();
   } else {
