@@ -54,8 +54,10 @@ LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
       loaded.scene = std::move(tiles.scene);
       loaded.tileset = std::move(tiles.report);
       if (source.terrain.empty()) break;
+      TerrainOptions options = source.terrain_options;
+      options.missing = source.tileset.missing;
       internal::app::map_provider("rasters", source.terrain.string())
-          .add_terrain(loaded.scene, source.terrain, source.terrain_options, progress);
+          .add_terrain(loaded.scene, source.terrain, options, progress);
       loaded.tileset->triangles = loaded.scene.mesh.triangles.size();
       loaded.tileset->objects = loaded.scene.objects.size();
       break;

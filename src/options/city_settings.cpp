@@ -94,6 +94,26 @@ void set_city_option(CityOptions& options, const std::string& name, double value
               "the defaults are: " + known + "and of a kind levels.house, wall.fence, tower.mast, way.footway");
 }
 
+const char* name_of(HeightUnit unit) {
+  switch (unit) {
+    case HeightUnit::metre:
+      return "m";
+    case HeightUnit::foot:
+      return "ft";
+    case HeightUnit::us_survey_foot:
+      return "us-ft";
+  }
+  return "unknown";
+}
+
+HeightUnit height_unit(const std::string& name, const std::string& where) {
+  for (const HeightUnit unit : {HeightUnit::metre, HeightUnit::foot, HeightUnit::us_survey_foot}) {
+    if (name == name_of(unit)) return unit;
+  }
+  throw Error(ErrorCode::unknown_choice, "'" + name + "' is not a unit of heights", where,
+              "write m (metres), ft (feet) or us-ft (US survey feet)");
+}
+
 void leave_out(Occluders& occluders, const std::string& kind, const std::string& where) {
   if (kind == "walls") {
     occluders.walls = false;

@@ -46,9 +46,9 @@ inline constexpr std::array kSceneKeys = {
         Unit::metres},
     Own{{.path = "lod", .says = "for CityJSON, the level of detail", .without = "the highest"}, Kind::text},
     Own{{.path = "crs",
-         .says = "for a mesh or a tileset, the coordinate reference system of its coordinates, such as `EPSG:28992`; "
-                 "or `none`: they "
-                 "are metres of no known place, whatever the file says",
+         .says =
+             "for a mesh, a raster or a tileset, the coordinate reference system of its coordinates, such as "
+             "`EPSG:28992`, whatever the file says; or, not for a raster, `none`: they are metres of no known place",
          .without = "what the file says"},
         Kind::text},
     Own{{.path = "origin",
@@ -83,11 +83,11 @@ inline constexpr std::array kSceneKeys = {
          .without = "for a map a plane at z = 0"},
         Kind::path},
     Own{{.path = "error",
-         .says = "for a map or a tileset with terrain, or a raster: how far the triangles may differ from it, "
-                 "vertically, [at its "
-                 "posts](terrain.md#between-the-posts)",
+         .says = "for a map or a tileset with terrain, or a raster: how far the triangles may lie above it, [at its "
+                 "posts](terrain.md#terrain-as-triangles)",
          .without = "0.5; for a raster 0.25"},
         Kind::number,
+        Unit::metres},
     Own{{.path = "z_unit",
          .says =
              "for a raster and for `terrain`, what its heights are in, whatever the file says: `m`, `ft` or `us-ft`",
@@ -104,7 +104,6 @@ inline constexpr std::array kSceneKeys = {
                  "as it goes",
          .without = "such an answer is refused"},
         Kind::flag},
-        Unit::metres},
     Own{{.path = "without",
          .says = "for a map, what is left out: a list of `walls`, `towers`, `bridges`, `trees`",
          .without = "nothing"},

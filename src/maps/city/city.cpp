@@ -63,7 +63,8 @@ internal::city::Ground ground_under(const internal::city::Site& site, const City
   const Vec2 margin = Vec2::Constant(options.ground_margin_m);
   const Vec2 min = site.min - margin, max = site.max + margin;
   if (options.terrain.empty()) return Ground::plane(min, max);
-  return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m, notes, progress);
+  return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
+                           {"", options.terrain_heights, options.missing}, notes, progress);
 }
 
 }  // namespace
@@ -77,8 +78,8 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   const auto read =
       options.frame ? internal::city::with_margin(region, options.frame->reach_m) : internal::city::with_margin(region);
   const internal::osm::Extract extract = internal::osm::read_extract(file, {read, internal::city::wanted}, progress);
-  if (!options.frame) internal::city::check_overlap(options.region, extract, file);
   if (!options.partial) internal::city::check_complete(extract, file);
+  if (!options.frame) internal::city::check_overlap(options.region, extract, file);
   const internal::geo::LocalFrame frame(frame_origin(options, extract));
   result.report.notes = notes_on(extract);
   result.report.read_seconds = stopwatch.lap();
@@ -99,10 +100,10 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   const internal::geo::LonLat origin = frame.origin();
   result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326",
                                 kOpenStreetMapCredit};
-  result.scene = internal::city::assemble(site, solids, ground.mesh());
+  result.scene = internal::city::assemble(site, solids, ground, options.missing);
   result.scene.source = file;
-  result.scene.georeference = result.report.georeference;
   tell_of_remark(extract.remark, file, result);
+  result.scene.georeference = result.report.georeference;
   if (options.frame) result.scene.whole = internal::city::bounds_of_whole(*options.frame);
   for (internal::city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
   for (CityRecord& record : site.skipped) result.report.records.push_back(std::move(record));
