@@ -158,7 +158,7 @@ if(VANTAGE_WITH_MAPS)
   vantage_part(maps
     MODULES maps
     LINK EXPAT::EXPAT BZip2::BZip2 ZLIB::ZLIB Threads::Threads PkgConfig::VANTAGE_CLIPPER ${CMAKE_DL_LIBS}
-    BUILD vantage::osmium vantage::cdt)
+    BUILD vantage::osmium vantage::cdt nlohmann_json::nlohmann_json)
   vantage_library(vantage_maps maps PARTS maps REQUIRES vantage)
 endif()
 if(VANTAGE_WITH_PICTURE)

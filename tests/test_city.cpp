@@ -8,7 +8,10 @@
 #include <string>
 
 #include "core/solid_check.h"
+#include "geo/local_frame.h"
+#include "support/internals.h"
 #include "support/map_text.h"
+#include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -358,6 +361,59 @@ TEST_F(CityTest, RefusesAMapWithoutBuildings) {
   MapText map;
   map.line({{0, 0}, {100, 0}}, {{"highway", "residential"}});
   expect_refused(map, {}, ErrorCode::map_empty);
+}
+
+TEST_F(CityTest, AFileThatSaysThatItIsNotCompleteIsRefused) {
+  MapText map;
+  map.box(-10, -10, 10, 10, {{"building", "yes"}, {"height", "12"}});
+  std::string text = map.text();
+  text.insert(text.rfind("</osm>"), "<remark> runtime error: Query timed out after 26 seconds. </remark>");
+  write_bytes(folder_ / "city.osm", text);
+  CityOptions options;
+  testing::expect_error([&] { build_city(folder_ / "city.osm", options); }, ErrorCode::scene_incomplete, "city.osm");
+  testing::expect_code([&] { plan_tiles(folder_ / "city.osm", options, 100, 10); }, ErrorCode::scene_incomplete);
+  testing::expect_code([&] { read_areas(folder_ / "city.osm"); }, ErrorCode::scene_incomplete);
+  options.partial = true;
+  const City city = build_city(folder_ / "city.osm", options);
+  EXPECT_EQ(city.report.records.size(), 1u);
+  ASSERT_EQ(city.scene.ledger.size(), 1u);
+  EXPECT_FALSE(city.scene.ledger[0].box);
+  EXPECT_FALSE(city.scene.ledger[0].stand_in);
+  testing::expect_wording(city.scene.ledger[0].what + ": " + city.scene.ledger[0].reason);
+  testing::expect_wording(city.report.notes);
+}
+
+TEST_F(CityTest, VoidsOfTheTerrainAreInTheLedger) {
+  MapText map({9, 45.15});
+  map.box(-10, -10, 10, 10, {{"building", "yes"}, {"height", "12"}});
+  const geo::CoordinateSystem utm("EPSG:32632", "test");
+  const Eigen::Vector2d middle = utm.from_lonlat({9, 45.15});
+  testing::TestRaster raster = testing::make_raster(300, 300, [](int column, int row) {
+    const bool is_void = column >= 200 && column < 210 && row >= 145 && row < 155;
+    return is_void ? -9999 : column == 199 && row == 150 ? 530 : 500;
+  });
+  raster.transform = {middle.x() - 150, 1, 0, middle.y() + 150, 0, -1};
+  CityOptions options;
+  options.terrain = testing::write_raster(folder_.path(), "dem", raster);
+  const City city = build(map, options);
+  ASSERT_EQ(city.scene.ledger.size(), 1u);
+  const LedgerEntry& entry = city.scene.ledger[0];
+  ASSERT_TRUE(entry.stand_in && entry.box);
+  EXPECT_EQ(city.scene.objects[*entry.stand_in], (SceneObject{"ground", "", ObjectKind::ground}));
+  EXPECT_NEAR(entry.box->min.x(), 50, 1);
+  EXPECT_NEAR(entry.box->max.x(), 60, 1);
+  // What is at least 30 m above the ground there is so above the rim, what is at most 50 m above it above its lowest.
+  const GroundLevels levels(ground_of(city.scene).value());
+  const auto range = levels.at(55, 0).value();
+  EXPECT_NEAR(range.highest_m, 530, 0.01);
+  EXPECT_NEAR(range.lowest_m, 500, 0.01);
+  EXPECT_NEAR(levels.at(30, 0).value().highest_m, 500, 0.5);
+
+  options.missing = MissingPolicy::warn;
+  const City warned = build(map, options);
+  ASSERT_EQ(warned.scene.ledger.size(), 1u);
+  EXPECT_FALSE(warned.scene.ledger[0].stand_in);
+  EXPECT_LT(GroundLevels(ground_of(warned.scene).value()).at(55, 0).value().highest_m, 520);
 }
 
 TEST_F(CityTest, StandsOnTerrain) {

@@ -155,7 +155,8 @@ TEST(HeightGrid, FillsVoids) {
     const float value = std::strtof(declared, nullptr);
     for (int row = 2; row < 7; ++row) raster.at(4, row) = value;
     raster.nodata = declared;
-    const HeightGrid grid = read_height_grid(write_raster(folder.path(), "declared", raster));
+    const HeightGrid grid =
+        read_height_grid(write_raster(folder.path(), "declared", raster), {}, {}, {.missing = MissingPolicy::warn});
     EXPECT_EQ(grid.voids, 5u) << declared;
     // Of the middle one's neighbours two, along the column, are 10 at a distance of 3; two along the row 20 at 1, and
     // four along the diagonals 20 at the root of 2.
@@ -202,7 +203,8 @@ TEST(HeightGrid, FillsVoidsAsTheDefinitionSays) {
     TestRaster raster =
         make_raster(columns, rows, [&](int, int) { return random.chance(0.4) ? kNan : random.uniform(0, 100); });
     raster.values[0] = 1;
-    const HeightGrid grid = read_height_grid(write_raster(folder.path(), "random", raster));
+    const HeightGrid grid =
+        read_height_grid(write_raster(folder.path(), "random", raster), {}, {}, {.missing = MissingPolicy::warn});
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
         const float value = raster.at(column, row);

@@ -137,7 +137,10 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
       "scene: {osm: city.osm.pbf, center: [48.1, 11.5], radius: 600, terrain: dem.tif, error: 0.25,\n"
       "        without: [trees, walls], defaults: {level: 3.25, levels.house: 3, wall.fence: 2, way.path: 1.5}}\n",
       "scene: {osm: 'a \"b\".osm', bbox: [11.1, 48, 11.2, 48.1]}\n",
-      "scene: {raster: dsm.tif, center: [48.1, 11.5], radius: 100, error: 0.125, origin: [48.1, 11.5]}\n"};
+      "scene: {raster: dsm.tif, center: [48.1, 11.5], radius: 100, error: 0.125, origin: [48.1, 11.5]}\n",
+      "scene: {raster: dsm.tif, crs: 'EPSG:2263', z_unit: us-ft, void: -0.5}\n",
+      "scene: {osm: city.json, partial: true, terrain: dem.tif, z_unit: ft, void: 3}\n",
+      "scene: {tiles: tileset.json, terrain: dem.tif, z_unit: m, void: 3}\n"};
   const std::string targets[] = {
       "target: {name: \"the 'plaza': north\", vertices: [[0.1, 1e-9, 1], [1e6, 0, 1], [0, 10, 1]], offset: 0.25, "
       "front: "
@@ -169,6 +172,14 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
         testing::expect_same_limits(again.sensor, read.sensor);
         EXPECT_EQ(again.navigation_meshes.size(), read.navigation_meshes.size());
         EXPECT_EQ(again.scene.city.defaults.levels_of, read.scene.city.defaults.levels_of);
+        EXPECT_EQ(again.scene.city.partial, read.scene.city.partial);
+        EXPECT_EQ(again.scene.raster.crs, read.scene.raster.crs);
+        for (const auto& [now, before] : {std::pair{again.scene.raster.heights, read.scene.raster.heights},
+                                          {again.scene.city.terrain_heights, read.scene.city.terrain_heights},
+                                          {again.scene.terrain_options.heights, read.scene.terrain_options.heights}}) {
+          EXPECT_EQ(now.unit, before.unit);
+          EXPECT_EQ(now.void_m, before.void_m);
+        }
         EXPECT_EQ(again.spheres.resolution, read.spheres.resolution);
       }
     }
@@ -263,6 +274,10 @@ TEST(MissionErrors, WrongTypes) {
   expect_refusal(with_scene("mesh: ~"), ErrorCode::wrong_type, ":2:3");
   expect_refusal(with_scene("mesh: \"a\\0b\""), ErrorCode::value_syntax, ":2:9");
   expect_refusal(with_scene("mesh: a\n  up: x"), ErrorCode::unknown_choice, ":3:7");
+  expect_refusal(with_scene("raster: a.tif\n  z_unit: inch"), ErrorCode::unknown_choice, ":3:11");
+  expect_refusal(with_scene("osm: a.osm\n  void: 3"), ErrorCode::not_applicable, ":3:9");
+  expect_refusal(with_scene("mesh: a\n  partial: true"), ErrorCode::not_applicable, ":3:12");
+  expect_refusal(with_scene("osm: a.osm\n  partial: maybe"), ErrorCode::unknown_choice, ":3:12");
   expect_refusal(with_scene("mesh: a\n  up: [y]"), ErrorCode::wrong_type, ":3:7");
   expect_refusal(with_scene("mesh: a\n  scale: big"), ErrorCode::not_a_number, ":3:10");
   expect_refusal(with_scene("mesh: a\n  scale: 0"), ErrorCode::value_out_of_range, ":3:10");

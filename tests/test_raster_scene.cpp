@@ -12,6 +12,7 @@
 #include "maps/terrain/triangulate.h"
 #include "support/internals.h"
 #include "support/objects.h"
+#include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -106,10 +107,189 @@ TEST(RasterScene, StaysWithinTheErrorUpToTheOutermostPosts) {
         const auto height = surface.height(post.head<2>());
         ASSERT_TRUE(height) << post.transpose();
         worst_m = std::max(worst_m, std::abs(*height - post.z()));
+        ASSERT_GE(*height, post.z() - 1e-8) << post.transpose();  // what it leaves out hides nothing less
       }
       EXPECT_NEAR(worst_m, few.report.largest_error_m, 1e-9);
     }
   }
+}
+
+/// A plain at 400 m, in posts of a metre.
+TestRaster plain(int columns, int rows) {
+  TestRaster raster = make_raster(columns, rows, [](int, int) { return 400; });
+  raster.transform = {500000, 1, 0, 5000000, 0, -1};
+  return raster;
+}
+
+void make_void(TestRaster& raster, int column, int row, int columns, int rows) {
+  for (int y = row; y < row + rows; ++y) {
+    for (int x = column; x < column + columns; ++x) raster.at(x, y) = -9999;
+  }
+}
+
+/// The lowest and the highest surface in the middle of a raster of 80 x 80 posts of a metre, every post kept.
+GroundLevels::Range middle_of(const RasterScene& result) {
+  return GroundLevels(ground_of(result.scene).value()).at(0, 0).value();
+}
+
+RasterScene every_post_of(const std::filesystem::path& file, const HeightOptions& heights = {},
+                          MissingPolicy missing = MissingPolicy::block) {
+  RasterOptions options;
+  options.max_error_m = 0;
+  options.heights = heights;
+  options.missing = missing;
+  return scene_from_raster(file, options);
+}
+
+TEST(RasterScene, NarrowVoidsAreAsHighAsTheHighestPostAtTheirRim) {
+  const testing::TemporaryDirectory folder;
+  TestRaster raster = plain(80, 80);
+  make_void(raster, 30, 30, 20, 20);
+  raster.at(29, 33) = 430;  // a mast beside it
+  raster.at(50, 50) = 390;  // and, across its corner, a pit
+  const auto file = write_raster(folder.path(), "dsm", raster);
+  const RasterScene result = every_post_of(file);
+  EXPECT_EQ(result.report.voids, 400u);
+  EXPECT_NEAR(middle_of(result).highest_m, 430, 1e-6);
+  EXPECT_NEAR(middle_of(result).lowest_m, 390, 1e-6);
+  EXPECT_EQ(names_of(result.scene.objects), (std::vector<std::string>{"surface", "surface beneath voids"}));
+  ASSERT_EQ(result.scene.ledger.size(), 1u);
+  const LedgerEntry& entry = result.scene.ledger[0];
+  EXPECT_EQ(entry.object.kind, ObjectKind::surface);
+  EXPECT_EQ(entry.stand_in, 0u);
+  EXPECT_TRUE(entry.may_be_larger);
+  ASSERT_TRUE(entry.box);
+  EXPECT_NEAR(entry.box->min.x(), -10, 0.1);
+  EXPECT_NEAR(entry.box->max.y(), 10, 0.1);
+  testing::expect_wording(entry.what + "; " + entry.reason + "; " + entry.instead);
+
+  // Simplified it hides as much; heights above the ground are measured from both.
+  const RasterScene simple = scene_from_raster(file, {});
+  EXPECT_GE(middle_of(simple).highest_m, 430);
+  EXPECT_LE(middle_of(simple).lowest_m, 390);
+
+  // As it was: the mean of the nearest values.
+  const RasterScene warned = every_post_of(file, {}, MissingPolicy::warn);
+  EXPECT_NEAR(middle_of(warned).highest_m, 400, 2);
+  EXPECT_EQ(middle_of(warned).highest_m, middle_of(warned).lowest_m);
+  ASSERT_EQ(warned.scene.ledger.size(), 1u);
+  EXPECT_FALSE(warned.scene.ledger[0].stand_in);
+  testing::expect_wording(warned.scene.ledger[0].reason);
+}
+
+TEST(RasterScene, AGivenHeightOfVoidsNeverOpensANarrowOne) {
+  const testing::TemporaryDirectory folder;
+  TestRaster raster = plain(80, 80);
+  make_void(raster, 38, 20, 6, 40);  // a wall of which nothing is left: the rim does not tell of it
+  const auto file = write_raster(folder.path(), "wall", raster);
+  EXPECT_NEAR(middle_of(every_post_of(file)).highest_m, 400, 1e-6);
+  const auto high = middle_of(every_post_of(file, {.void_m = 430}));
+  EXPECT_NEAR(high.highest_m, 430, 1e-6);
+  EXPECT_NEAR(high.lowest_m, 400, 1e-6);
+  const auto low = middle_of(every_post_of(file, {.void_m = 0}));
+  EXPECT_NEAR(low.highest_m, 400, 1e-6);
+  EXPECT_NEAR(low.lowest_m, 0, 1e-6);
+}
+
+TEST(RasterScene, WideVoidsAreFilledFromTheirNeighboursOrAsGiven) {
+  const testing::TemporaryDirectory folder;
+  TestRaster raster = plain(80, 80);
+  make_void(raster, 29, 29, 21, 21);
+  raster.at(28, 33) = 430;
+  const auto file = write_raster(folder.path(), "dsm", raster);
+  const RasterScene filled = every_post_of(file);
+  EXPECT_NEAR(middle_of(filled).highest_m, 400, 2);
+  EXPECT_EQ(middle_of(filled).highest_m, middle_of(filled).lowest_m);
+  ASSERT_EQ(filled.scene.ledger.size(), 1u);
+  EXPECT_EQ(filled.scene.ledger[0].stand_in, 0u);
+  testing::expect_wording(filled.scene.ledger[0].instead);
+  const RasterScene given = every_post_of(file, {.void_m = -3});
+  EXPECT_NEAR(middle_of(given).highest_m, -3, 1e-6);
+  EXPECT_FALSE(given.scene.ledger.at(0).may_be_larger);
+  testing::expect_wording(given.scene.ledger[0].instead);
+  testing::expect_code([&] { every_post_of(file, {.void_m = 20'000}); }, ErrorCode::value_out_of_range, "dsm.tif");
+}
+
+TEST(RasterScene, ALongVoidTakesTheRimThatIsNear) {
+  const testing::TemporaryDirectory folder;
+  TestRaster raster = plain(400, 9);
+  make_void(raster, 3, 4, 394, 1);
+  raster.at(200, 3) = 430;
+  const RasterScene result = every_post_of(write_raster(folder.path(), "canal", raster));
+  const GroundLevels levels(ground_of(result.scene).value());
+  EXPECT_NEAR(levels.at(0, 0).value().highest_m, 430, 0.1);
+  EXPECT_NEAR(levels.at(-19, 0).value().highest_m, 430, 0.1);
+  EXPECT_NEAR(levels.at(-50, 0).value().highest_m, 400, 0.1);
+  EXPECT_NEAR(levels.at(50, 0).value().highest_m, 400, 0.1);
+}
+
+/// Whatever is void, block hides what the rim does, and nothing but voids differs from what the file says.
+TEST(RasterScene, RandomVoidsAreHeldByTheirRims) {
+  const testing::TemporaryDirectory folder;
+  testing::Random random(48);
+  for (int run = 0; run < 20; ++run) {
+    TestRaster raster = make_raster(40, 40, [&](int, int) { return random.integer(0, 50); });
+    raster.transform = {500000, 1, 0, 5000000, 0, -1};
+    for (int i = 0; i < 6; ++i) {
+      const int columns = random.integer(1, 12), rows = random.integer(1, 12);
+      make_void(raster, random.integer(0, 40 - columns), random.integer(0, 40 - rows), columns, rows);
+    }
+    const terrain::HeightGrid grid = terrain::read_height_grid(write_raster(folder.path(), "dsm", raster));
+    const terrain::HeightGrid mean =
+        terrain::read_height_grid(write_raster(folder.path(), "dsm", raster), {}, {}, {.missing = MissingPolicy::warn});
+    std::size_t posts = 0;
+    for (const terrain::VoidRegion& region : grid.void_regions) posts += region.posts;
+    EXPECT_EQ(posts, grid.voids);
+    for (int row = 0; row < 40; ++row) {
+      for (int column = 0; column < 40; ++column) {
+        const auto at = static_cast<std::size_t>(row * 40 + column);
+        if (raster.at(column, row) != -9999) {
+          EXPECT_EQ(grid.at(column, row), raster.at(column, row));
+          continue;
+        }
+        EXPECT_GE(grid.at(column, row), mean.at(column, row));
+        EXPECT_LE(grid.lowest_m.empty() ? grid.at(column, row) : grid.lowest_m[at], mean.at(column, row));
+      }
+    }
+  }
+}
+
+TEST(RasterScene, EastingsInFeetNeedAUnitOfHeight) {
+  const testing::TemporaryDirectory folder;
+  TestRaster raster = make_raster(20, 20, [](int, int) { return 400; });
+  raster.srs = "EPSG:2263";  // New York, US survey feet
+  raster.transform = {980000, 3, 0, 200000, 0, -3};
+  const auto file = write_raster(folder.path(), "feet", raster);
+  testing::expect_error([&] { scene_from_raster(file); }, ErrorCode::height_unknown, "feet.tif");
+  const auto height_of = [&](const std::filesystem::path& of, HeightOptions heights) {
+    RasterOptions options;
+    options.heights = heights;
+    return scene_from_raster(of, options).report.highest_m;
+  };
+  EXPECT_NEAR(height_of(file, {.unit = HeightUnit::us_survey_foot}), 400 * 1200.0 / 3937, 1e-4);
+  EXPECT_NEAR(height_of(file, {.unit = HeightUnit::foot}), 400 * 0.3048, 1e-4);
+  EXPECT_EQ(height_of(file, {.unit = HeightUnit::metre}), 400);
+  raster.srs = "EPSG:2263+6360";  // heights likewise
+  EXPECT_NEAR(height_of(write_raster(folder.path(), "compound", raster), {}), 400 * 1200.0 / 3937, 1e-4);
+  raster.srs = "EPSG:2263";
+  raster.unit = "m";
+  EXPECT_EQ(height_of(write_raster(folder.path(), "stated", raster), {}), 400);
+}
+
+TEST(RasterScene, ARasterWithoutASystemCanBeGivenOne) {
+  const testing::TemporaryDirectory folder;
+  TestRaster raster = make_raster(20, 20, block);
+  const RasterScene known = scene_from_raster(write_raster(folder.path(), "known", raster));
+  raster.srs.clear();
+  const auto file = write_raster(folder.path(), "bare", raster);
+  testing::expect_error([&] { scene_from_raster(file); }, ErrorCode::crs_missing, "bare.tif");
+  RasterOptions options;
+  options.crs = "EPSG:32632";
+  const RasterScene given = scene_from_raster(file, options);
+  EXPECT_EQ(given.scene.mesh.vertices, known.scene.mesh.vertices);
+  EXPECT_EQ(given.scene.georeference->source_crs, "EPSG:32632");
+  options.crs = "EPSG:0";
+  testing::expect_code([&] { scene_from_raster(file, options); }, ErrorCode::crs_unknown, "bare.tif");
 }
 
 TEST(RasterScene, TakesPartsOfARaster) {
@@ -206,7 +386,10 @@ TEST(RasterScene, SurfaceOfDelft) {
           std::hypot(static_cast<double>(result.report.columns - 1), static_cast<double>(result.report.rows - 1)) *
           spacing;
       EXPECT_NEAR((box.max - box.min).head<2>().norm(), size, 0.15 * size);  // turned against the grid
-      EXPECT_NEAR(flat_area(result.scene.mesh),
+      Mesh surface = result.scene.mesh;                                      // without what lies beneath voids
+      surface.triangles.resize(static_cast<std::size_t>(
+          std::count(result.scene.object_of.begin(), result.scene.object_of.end(), std::uint32_t{0})));
+      EXPECT_NEAR(flat_area(surface),
                   static_cast<double>(result.report.columns - 1) * static_cast<double>(result.report.rows - 1) *
                       spacing * spacing,
                   0.001 * size * size);

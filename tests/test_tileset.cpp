@@ -507,6 +507,11 @@ TEST(Tileset, NamesWhatIsWrong) {
 TEST(Tileset, IsAKindOfScene) {
   EXPECT_EQ(source_kind("a/Tileset.JSON"), SceneSource::Kind::tileset);
   EXPECT_EQ(source_kind("a/town.json"), SceneSource::Kind::mesh);
+  const testing::TemporaryDirectory folder;
+  testing::write_bytes(folder / "map.json", R"({"version": 0.6, "generator": "Overpass API", "elements": []})");
+  EXPECT_EQ(source_kind(folder / "map.json"), SceneSource::Kind::map);
+  testing::write_bytes(folder / "city.json", R"({"type": "CityJSON", "version": "2.0", "metadata": {"elements": 3}})");
+  EXPECT_EQ(source_kind(folder / "city.json"), SceneSource::Kind::mesh);
   Tileset tiles(tileset_json(tile_json(0, "a.glb")));
   tiles.add("a.glb", box_glb({{}}));
   SceneSource source;

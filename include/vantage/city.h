@@ -14,6 +14,7 @@
 
 #include "vantage/export.h"
 #include "vantage/georeference.h"
+#include "vantage/ground.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 
@@ -124,14 +125,19 @@ struct CityOptions {
   /// the region, the ground is that of the whole map, and Scene::whole is set. A region may then hold nothing.
   std::optional<CityFrame> frame;
   std::filesystem::path terrain;  ///< GeoTIFF, .hgt or .hgt.zip; empty: a plane at z = 0
-  /// The triangulated ground differs from the raster by no more than this, vertically, at its posts. Between them it is
-  /// not known: a cell of four posts is taken for two triangles, folded along its higher diagonal (docs/terrain.md).
+  /// No post of the raster lies above the triangulated ground, and none farther below it than this, vertically. Between
+  /// posts it is not known: a cell of four is taken for two triangles, folded along its higher diagonal
+  /// (docs/terrain.md).
   double terrain_error_m = 0.5;
+  HeightOptions terrain_heights = {};
   double ground_margin_m = 50;  ///< how far the ground goes on round what is built
   BuildingDefaults defaults;
   Occluders occluders;
   OccluderDefaults occluder_defaults;
   MissingPolicy missing = MissingPolicy::block;  ///< what cannot be built as it is drawn: Scene::ledger
+  /// A file that says itself that it is not complete is read as far as it goes; a note and the ledger say so. Overpass
+  /// writes a <remark> of an error into an answer that it could not finish. False: Error(input), scene_incomplete.
+  bool partial = false;
 };
 
 /// A number of BuildingDefaults or OccluderDefaults by its name: for command lines, missions and the table in
@@ -202,7 +208,9 @@ VANTAGE_API std::map<std::pair<Fate, std::string>, std::pair<std::size_t, std::s
     const CityReport& report);
 
 struct City {
-  Scene scene;  ///< one object per solid: that of its record; the ground is the last one, of ObjectKind::ground
+  /// One object per solid: that of its record; then the ground, of ObjectKind::ground. Another one of that kind follows
+  /// where terrain has voids in which the ground may lie lower.
+  Scene scene;
   CityReport report;
 };
 

@@ -59,13 +59,36 @@ class VANTAGE_API GroundLevels {
 
 // ---- Rasters of heights as the ground of a scene: docs/terrain.md
 
+enum class HeightUnit {
+  metre,
+  foot,           ///< 0.3048 m
+  us_survey_foot  ///< 1200/3937 m
+};
+
+/// "m", "ft", "us-ft".
+VANTAGE_API const char* name_of(HeightUnit unit);
+/// The other way round. Throws Error(input) for another word, with `where`.
+VANTAGE_API HeightUnit height_unit(const std::string& name, const std::string& where);
+
+/// What is given of a raster's heights, where its file does not say it.
+struct HeightOptions {
+  /// What the heights are in, whatever the file says. Empty: as the file says, else metres. A file whose eastings are
+  /// in feet and that does not say what its heights are in is refused.
+  std::optional<HeightUnit> unit = std::nullopt;
+  /// The height of posts that have none, metres. A void of at most 20 m is never filled lower than its rim with it.
+  /// Empty: docs/terrain.md, "Voids".
+  std::optional<double> void_m = std::nullopt;
+};
+
 struct TerrainOptions {
-  double max_error_m = 0.5;  ///< of the triangles, vertically, at the posts of the raster: see CityOptions
+  double max_error_m = 0.5;  ///< of the triangles above the posts of the raster: see CityOptions
   double margin_m = 50;      ///< how far the ground goes on round the scene
   double reach_m = 0;        ///< it covers at least a square about the origin, so far to each side
   /// z of the mean sea level in the scene: in a tileset on the earth how high the geoid lies above the ellipsoid (its
   /// undulation). Empty: as Georeference::vertical says, where that names a level at the sea.
   std::optional<double> sea_level_z_m = std::nullopt;
+  HeightOptions heights = {};
+  MissingPolicy missing = MissingPolicy::block;  ///< how posts without a height are filled: docs/terrain.md
 };
 
 /// Adds a raster of heights (GeoTIFF, SRTM .hgt, ASCII grid; also in a .zip) to a scene that has a place on the earth,
@@ -92,22 +115,24 @@ struct RasterRegion {
 
 struct RasterOptions {
   RasterRegion region;
-  /// The scene differs from the heights in the file by no more than this, vertically, at every post. 0 keeps every
-  /// post: two triangles for each square of four.
+  /// No post of the file lies above the scene, and none farther below it than this, vertically. 0 keeps every post: two
+  /// triangles for each square of four.
   double max_error_m = 0.25;
   std::optional<std::array<double, 2>> origin_deg;  ///< of the scene frame: latitude, longitude; else the middle
-  MissingPolicy missing = MissingPolicy::block;     ///< how posts without a height are filled: docs/terrain.md
+  std::string crs = {};                             ///< as SceneReadOptions::crs; empty: what the file says
+  HeightOptions heights = {};
+  MissingPolicy missing = MissingPolicy::block;  ///< how posts without a height are filled: docs/terrain.md
 };
 
 struct RasterReport {
   std::size_t columns = 0, rows = 0;  ///< posts in the region
-  std::size_t voids = 0;              ///< of these, posts without a value, filled from their neighbours
+  std::size_t voids = 0;              ///< of these, posts without a value: Scene::ledger
   double largest_error_m = 0;         ///< vertical, measured at every post
   double lowest_m = 0, highest_m = 0;
 };
 
 struct RasterScene {
-  Scene scene;  ///< one object, of ObjectKind::surface
+  Scene scene;  ///< one object, of ObjectKind::surface; a second one where the surface in voids may lie lower
   RasterReport report;
 };
 
@@ -117,8 +142,8 @@ struct RasterScene {
 ///
 /// It has one height at every place. Under bridges, eaves and crowns of trees it is solid; walls are as steep as one
 /// step of the raster; and what the true surface does between two posts is not known: the triangles take it for flat.
-/// A sight line that passes within one post's distance of an edge may be judged either way. With an error above 0, so
-/// may one that passes within that error above or below the surface.
+/// A sight line that passes within one post's distance of an edge may be judged either way. With an error above 0 the
+/// surface hides that much more than the posts do, and never less.
 ///
 /// Throws Error(input) naming the file for all that makes a raster unusable (docs/terrain.md: among others no
 /// coordinate reference system, a region that it does not cover, no value in it), for options out of range, and where

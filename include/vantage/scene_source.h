@@ -45,7 +45,8 @@ VANTAGE_API void set_missing(SceneSource& source, MissingPolicy policy);
 VANTAGE_API const std::filesystem::path& terrain_of(const SceneSource& source);
 
 /// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .hgt.zip, .vrt and .img
-/// are rasters; tileset.json and web addresses are tilesets; all else are meshes. Case does not count. VRT and IMG are
+/// are rasters; tileset.json and web addresses are tilesets; all else are meshes, but for JSON that begins as an answer
+/// of Overpass does: a map. Case does not count. VRT and IMG are
 /// no formats that scene_from_raster reads: they are told so that it says what to do.
 VANTAGE_API SceneSource::Kind source_kind(const std::filesystem::path& file);
 

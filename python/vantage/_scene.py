@@ -85,7 +85,7 @@ class Scene(Triangles):
     @classmethod
     def from_mesh(cls, path: Path, *, up: str | None = None, scale: float | None = None, lod: str | None = None,
                   crs: str | None = None, origin: Vector | None = None, sea_level: float | None = None,
-                  progress: Progress = None) -> Scene:
+                  missing: str | None = None, progress: Progress = None) -> Scene:
         """Reads OBJ, PLY, STL, glTF, GLB or CityJSON, also compressed with gzip.
 
         Args:
@@ -96,28 +96,33 @@ class Scene(Triangles):
             crs: the coordinate reference system of the file's x and y: "EPSG:28992".
             origin: (latitude, longitude) of the scene's origin.
             sea_level: z of the mean sea level, for files of zones with heights above it.
+            missing: what holds the place of what cannot be built as the file has it: see `from_osm`.
             progress: called with stage and fraction; False stops.
 
         Raises:
             Error: the file cannot be read, or is no mesh.
         """
         return cls._load({"mesh": path, "up": up, "scale": scale, "lod": lod, "crs": crs, "origin": origin,
-                          "sea_level": sea_level}, progress)
+                          "sea_level": sea_level, "missing": missing}, progress)
 
     @classmethod
     def from_osm(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
                  bbox: Vector | None = None, terrain: Path | None = None, error: float | None = None,
+                 z_unit: str | None = None, void: float | None = None, partial: bool | None = None,
                  without: Sequence[str] | None = None, defaults: Mapping[str, float] | None = None,
                  frame: Mapping[str, Any] | None = None, sea_level: float | None = None, missing: str | None = None,
                  progress: Progress = None) -> Scene:
-        """Builds the scene of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf).
+        """Builds the scene of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf, JSON of Overpass).
 
         Args:
             path: the file.
             center: (latitude, longitude) of the part that is built, with `radius` in metres.
             bbox: (west, south, east, north) in degrees, instead of these. Default: all of the file.
             terrain: a raster of the ground's heights. Default: a plane at z = 0.
-            error: how far the ground's triangles may be from that raster, metres.
+            error: how far the ground's triangles may be above that raster, metres.
+            z_unit: what its heights are in: "m", "ft" or "us-ft". Default: what it says.
+            void: height of its posts that have none, metres. Default: of their rim, or of their neighbours.
+            partial: whether to read a file that says that it is not complete. Default: such a file is refused.
             without: what is left out: "walls", "towers", "bridges", "trees", and of stand-ins "woods", "stadiums", "masts",
                 "turbines", "cranes", "tanks", "monuments", "others".
             defaults: what is assumed where the map says nothing: {"level": 3.2}.
@@ -131,31 +136,39 @@ class Scene(Triangles):
             Error: the file cannot be read, or holds nothing to build there.
         """
         return cls._load({"osm": path, "center": center, "radius": radius, "bbox": bbox, "terrain": terrain,
-                          "error": error, "without": without, "defaults": defaults, "frame": frame,
+                          "error": error, "z_unit": z_unit, "void": void, "partial": partial, "without": without,
+                          "defaults": defaults, "frame": frame,
                           "sea_level": sea_level, "missing": missing}, progress)
 
     @classmethod
     def from_raster(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
-                    bbox: Vector | None = None, error: float | None = None, origin: Vector | None = None,
-                    sea_level: float | None = None, progress: Progress = None) -> Scene:
+                    bbox: Vector | None = None, error: float | None = None, crs: str | None = None,
+                    z_unit: str | None = None, void: float | None = None, origin: Vector | None = None,
+                    sea_level: float | None = None, missing: str | None = None, progress: Progress = None) -> Scene:
         """Makes the surface of a raster of heights a scene: GeoTIFF, .hgt and what else GDAL reads.
 
         Args:
             path: the file.
             center: (latitude, longitude) of the part that is used, with `radius` in metres; or
             bbox: (west, south, east, north) in degrees. Default: all of it.
-            error: how far the triangles may be from the heights, metres. Default: 0.25.
+            error: how far the triangles may be above the heights, metres. Default: 0.25.
+            crs: its coordinate reference system: "EPSG:28992". Default: what the file says.
+            z_unit: what its heights are in: "m", "ft" or "us-ft". Default: what the file says.
+            void: height of posts that have none, metres. Default: of their rim, or of their neighbours.
             origin: (latitude, longitude) of the scene's origin.
             sea_level: z of the mean sea level.
+            missing: what holds the place of posts without a height: see `from_osm`.
             progress: called with stage and fraction; False stops.
         """
         return cls._load({"raster": path, "center": center, "radius": radius, "bbox": bbox, "error": error,
-                          "origin": origin, "sea_level": sea_level}, progress)
+                          "crs": crs, "z_unit": z_unit, "void": void, "origin": origin, "sea_level": sea_level,
+                          "missing": missing}, progress)
 
     @classmethod
     def from_tiles(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
                    detail: float | None = None, ground: float | None = None, terrain: Path | None = None,
-                   error: float | None = None, crs: str | None = None, sea_level: float | None = None,
+                   error: float | None = None, z_unit: str | None = None, void: float | None = None,
+                   crs: str | None = None, sea_level: float | None = None, missing: str | None = None,
                    progress: Progress = None) -> Scene:
         """Reads a tileset of 3D Tiles: docs/tilesets.md.
 
@@ -165,16 +178,20 @@ class Scene(Triangles):
             detail: the largest geometric error of a tile that is not refined, metres. Default: 1.
             ground: z of a plane that is the ground. Default: none but what the tileset has.
             terrain: instead, a raster of the ground's heights. Of heights above the sea level, `sea_level` says where that is.
-            error: how far the ground's triangles may be from that raster, metres. Default: 0.5.
+            error: how far the ground's triangles may be above that raster, metres. Default: 0.5.
+            z_unit: what its heights are in: "m", "ft" or "us-ft". Default: what it says.
+            void: height of its posts that have none, metres. Default: of their rim, or of their neighbours.
             crs: the coordinate reference system of a tileset in projected metres: "EPSG:3946".
             sea_level: z of the mean sea level, metres: on the earth how high the geoid lies above the ellipsoid there.
+            missing: what holds the place of tiles that are missing: see `from_osm`.
             progress: called with stage and fraction; False stops.
 
         Raises:
-            Error: the tileset cannot be read, or has nothing there. Files that are missing are holes: see `report`.
+            Error: the tileset cannot be read, or has nothing there. Files that are missing are in the `ledger`.
         """
         return cls._load({"tiles": path, "center": center, "radius": radius, "detail": detail, "ground": ground,
-                          "terrain": terrain, "error": error, "crs": crs, "sea_level": sea_level}, progress)
+                          "terrain": terrain, "error": error, "z_unit": z_unit, "void": void, "crs": crs,
+                          "sea_level": sea_level, "missing": missing}, progress)
 
     @classmethod
     def from_bytes(cls, data: bytes | bytearray | memoryview, format: str, **options: Any) -> Scene:

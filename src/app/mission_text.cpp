@@ -116,6 +116,8 @@ class Writer {
         add_region({source.raster.region.center_deg, source.raster.region.radius_m, source.raster.region.bbox_deg},
                    section);
         section.add("error", source.raster.max_error_m);
+        if (!source.raster.crs.empty()) section.add("crs", quoted(source.raster.crs));
+        add_heights(source.raster.heights, section);
         if (source.raster.origin_deg) section.add("origin", list_of(*source.raster.origin_deg));
         break;
       case SceneSource::Kind::tileset:
@@ -128,6 +130,7 @@ class Writer {
         if (source.terrain.empty()) break;
         section.add("terrain", path(source.terrain));
         section.add("error", source.terrain_options.max_error_m);
+        add_heights(source.terrain_options.heights, section);
         break;
     }
     if (missing_of(source) != MissingPolicy::block) section.add("missing", name_of(missing_of(source)));
@@ -144,9 +147,16 @@ class Writer {
     if (region.bbox_deg) section.add("bbox", list_of(*region.bbox_deg));
   }
 
+  static void add_heights(const HeightOptions& heights, Section& section) {
+    if (heights.unit) section.add("z_unit", name_of(*heights.unit));
+    if (heights.void_m) section.add("void", *heights.void_m);
+  }
+
   void add_city(const CityOptions& city, Section& section) const {
     if (!city.terrain.empty()) section.add("terrain", path(city.terrain));
     section.add("error", city.terrain_error_m);
+    add_heights(city.terrain_heights, section);
+    if (city.partial) section.add("partial", "true");
     std::string without;
     for (const OccluderSwitch& one : occluder_switches()) {
       if (!(city.occluders.*one.on)) without += (without.empty() ? "" : ", ") + std::string(one.name);

@@ -84,8 +84,8 @@ class SceneParser {
     if (const YamlNode* scale = take("scale", {Kind::mesh}, "meshes"))
       mesh.scale = reader_.positive_length(*scale, "scene.scale");
     if (const YamlNode* lod = take("lod", {Kind::mesh}, "CityJSON files")) mesh.lod = reader_.text(*lod, "scene.lod");
-    if (const YamlNode* crs = take("crs", {Kind::mesh, Kind::tileset}, "meshes and tilesets")) {
-      mesh.crs = section_.source.tileset.crs = reader_.text(*crs, "scene.crs");
+    if (const YamlNode* crs = take("crs", {Kind::mesh, Kind::raster, Kind::tileset}, "meshes, rasters and tilesets")) {
+      mesh.crs = section_.source.raster.crs = section_.source.tileset.crs = reader_.text(*crs, "scene.crs");
     }
     if (const YamlNode* origin = take("origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters")) {
       mesh.origin_deg = section_.source.raster.origin_deg = parse_lat_lon(*origin, reader_, "scene.origin");
@@ -142,6 +142,20 @@ class SceneParser {
           reader_.positive_length(*error, "scene.error");
     }
     source.terrain_options.reach_m = source.tileset.radius_m.value_or(0);
+    HeightOptions heights;
+    if (const YamlNode* unit = take_of_heights("z_unit")) {
+      heights.unit = height_unit(reader_.text(*unit, "scene.z_unit"), place_in(reader_.file(), unit->place));
+    }
+    if (const YamlNode* filled = take_of_heights("void")) heights.void_m = reader_.length(*filled, "scene.void");
+    source.city.terrain_heights = source.raster.heights = source.terrain_options.heights = heights;
+  }
+
+  /// The value of a key that only rasters know, be they the scene or its ground.
+  const YamlNode* take_of_heights(const char* key) const {
+    const YamlNode* const entry = take(key, {Kind::map, Kind::raster, Kind::tileset}, "terrain and rasters");
+    if (!entry || section_.source.kind == Kind::raster || !terrain_of(section_.source).empty()) return entry;
+    reader_.fail(ErrorCode::not_applicable, *entry, std::string("scene.") + key + " is for terrain, and there is none",
+                 "leave it out, or give 'terrain: FILE'");
   }
 
   void parse_city() {
@@ -150,6 +164,9 @@ class SceneParser {
       for (const YamlNode& kind : reader_.list(*without, "scene.without", "write a list: [trees, walls]")) {
         leave_out(city.occluders, reader_.text(kind, "scene.without"), place_in(reader_.file(), kind.place));
       }
+    }
+    if (const YamlNode* partial = take("partial", {Kind::map}, "maps")) {
+      city.partial = truth(*partial, "scene.partial");
     }
     const YamlNode* const defaults = take("defaults", {Kind::map}, "maps");
     if (!defaults) return;
@@ -189,6 +206,13 @@ class SceneParser {
     frame.origin_deg = parse_lat_lon(needed("origin"), reader_, "scene.frame.origin");
     frame.ground_m = four_numbers(needed("ground"), "scene.frame.ground", "write metres: [west, south, east, north]");
     frame.reach_m = reader_.number(needed("reach"), "scene.frame.reach");
+  }
+
+  bool truth(const YamlNode& node, const std::string& what) const {
+    const std::string word = reader_.text(node, what);
+    if (word == "true" || word == "false") return word == "true";
+    reader_.fail(ErrorCode::unknown_choice, node, what + " must be true or false, not " + in_quotes(word),
+                 "write true or false");
   }
 
   std::array<double, 4> four_numbers(const YamlNode& node, const std::string& what, const char* form) const {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "app/ledger.h"
@@ -17,6 +19,17 @@ namespace {
 
 bool ends_with_any(const std::string& name, std::initializer_list<std::string_view> endings) {
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+/// Whether a JSON file begins as an answer of Overpass does, whose objects are "elements".
+bool is_json_of_map(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;  // a pipe would wait for ever
+  std::string begin(4096, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  return begin.find("\"elements\"") != std::string::npos && begin.find("\"CityJSON\"") == std::string::npos;
 }
 
 /// As its kind is loaded.
@@ -42,8 +55,10 @@ LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
       loaded.scene = std::move(tiles.scene);
       loaded.tileset = std::move(tiles.report);
       if (source.terrain.empty()) break;
+      TerrainOptions options = source.terrain_options;
+      options.missing = source.tileset.missing;
       internal::app::map_provider("rasters", source.terrain.string())
-          .add_terrain(loaded.scene, source.terrain, source.terrain_options, progress);
+          .add_terrain(loaded.scene, source.terrain, options, progress);
       loaded.tileset->triangles = loaded.scene.mesh.triangles.size();
       loaded.tileset->objects = loaded.scene.objects.size();
       break;
@@ -65,7 +80,8 @@ SceneSource::Kind source_kind(const std::filesystem::path& file) {
   if (ends_with_any(name, {".tif", ".tiff", ".hgt", ".hgt.zip", ".asc", ".vrt", ".img"})) {
     return SceneSource::Kind::raster;
   }
-  return name == "tileset.json" ? SceneSource::Kind::tileset : SceneSource::Kind::mesh;
+  if (name == "tileset.json") return SceneSource::Kind::tileset;
+  return name.ends_with(".json") && is_json_of_map(file) ? SceneSource::Kind::map : SceneSource::Kind::mesh;
 }
 
 MissingPolicy missing_of(const SceneSource& source) {

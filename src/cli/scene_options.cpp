@@ -97,7 +97,12 @@ SceneSource source_of(const SceneOptions& options) {
   source.mesh.up = options.up == "y" ? UpAxis::y : UpAxis::z;
   source.mesh.scale = positive_length_option("--scale", options.scale);
   source.mesh.lod = options.lod;
-  source.mesh.crs = options.crs;
+  source.mesh.crs = source.raster.crs = options.crs;
+  HeightOptions heights;
+  if (!options.z_unit.empty()) heights.unit = height_unit(options.z_unit, "command line, --z-unit");
+  if (!options.void_height.empty()) heights.void_m = length_option("--void", options.void_height);
+  source.raster.heights = source.city.terrain_heights = source.terrain_options.heights = heights;
+  source.city.partial = options.partial;
   if (!options.origin.empty()) {
     source.mesh.origin_deg = source.raster.origin_deg = numbers<2>(options.origin, "--origin", "latitude,longitude");
   }
@@ -128,7 +133,11 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   only_for(options.up == "y", "--up", {Kind::mesh}, "meshes");
   only_for(options.scale != "1", "--scale", {Kind::mesh}, "meshes");
   only_for(!options.lod.empty(), "--lod", {Kind::mesh}, "CityJSON files");
-  only_for(!options.crs.empty(), "--crs", {Kind::mesh, Kind::tileset}, "meshes and tilesets");
+  only_for(!options.crs.empty(), "--crs", {Kind::mesh, Kind::raster, Kind::tileset}, "meshes, rasters and tilesets");
+  const bool is_terrain = !options.terrain.empty();
+  only_for(!options.z_unit.empty() && !is_terrain, "--z-unit", {Kind::raster}, "rasters and terrain");
+  only_for(!options.void_height.empty() && !is_terrain, "--void", {Kind::raster}, "rasters and terrain");
+  only_for(options.partial, "--partial", {Kind::map}, "maps");
   only_for(!options.origin.empty(), "--origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters");
   only_for(!options.window.empty(), "--window", {Kind::raster}, "rasters");
 }
@@ -159,10 +168,15 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
           "high the geoid lies above the ellipsoid there")
       ->option_text("Z");
   command
-      .add_option(
-          "--error", options.error,
-          "Largest vertical difference of the ground from the raster at its posts (0.5; of a raster alone 0.25)")
+      .add_option("--error", options.error,
+                  "How far the ground may lie above the raster at its posts (0.5; of a raster alone 0.25)")
       ->option_text("METRES");
+  command
+      .add_option("--z-unit", options.z_unit, "What the heights of a raster or terrain are in (default: as it says)")
+      ->option_text("m|ft|us-ft");
+  command.add_option("--void", options.void_height, "Height of the posts of a raster or terrain that have none")
+      ->option_text("METRES");
+  command.add_flag("--partial", options.partial, "Read a map that says that it is not complete as far as it goes");
   command.add_option("--set", options.settings, "A value to use where the map has no tag, see docs/scene.md")
       ->allow_extra_args(false)
       ->option_text("NAME=VALUE");
@@ -180,8 +194,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--ground", options.ground, "Height of a plane that is the ground of a tileset (default: none)")
       ->option_text("Z");
   command.add_option("--lod", options.lod, "Level of detail of CityJSON (default: the highest)")->option_text("LOD");
-  command
-      .add_option("--crs", options.crs, "Reference system of the coordinates of a mesh or tileset, such as EPSG:28992")
+  command.add_option("--crs", options.crs, "Reference system of the coordinates, such as EPSG:28992; not of maps")
       ->option_text("CRS");
   command.add_option("--origin", options.origin, "Origin of the scene frame (default: the middle)")
       ->option_text("LAT,LON");

@@ -14,9 +14,10 @@ namespace vantage::cli {
 struct SceneOptions {
   std::string input;
   std::string center, bbox, window, origin;
-  std::string radius, terrain, error, detail, ground, sea_level;
+  std::string radius, terrain, error, detail, ground, sea_level, z_unit, void_height;
   std::string up = "z", scale = "1", lod, crs, missing = "block";
   std::vector<std::string> settings, without;
+  bool partial = false;
 };
 
 /// All but the input, which commands name in their own way.

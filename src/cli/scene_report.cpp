@@ -51,7 +51,7 @@ void add_city(TextTable& table, const CityReport& report) {
 
 void add_raster(TextTable& table, const RasterReport& report) {
   table.row("posts", count(report.columns * report.rows), count(report.columns) + " x " + count(report.rows));
-  table.row("voids", count(report.voids), "posts without a height, filled from their neighbours");
+  table.row("voids", count(report.voids), "posts without a height");
   table.row("heights", fixed(report.lowest_m, 2) + " to " + fixed(report.highest_m, 2), "metres");
   table.row("error", fixed(report.largest_error_m, 3), "metres, vertical, at most, measured at every post");
 }

@@ -84,14 +84,14 @@ struct CoordinateSystem::Data {
   Context context;
   Object to_wgs84;
   std::string code, name, vertical_name, where;
-  std::optional<double> vertical_unit_m;
+  Units units;
   bool geographic = false;
   std::array<double, 4> area_deg{};  // west, south, east, north
   std::string area_name;             // empty when PROJ knows no area
 
   Object create(const std::string& text) const;
   Object horizontal_part(Object system);
-  void read_vertical_axis(const PJ* system, int axis);
+  std::optional<double> axis_unit_m(const PJ* system, int axis) const;
   void name_after(const PJ* system, const std::string& text);
   void read_area(const PJ* system);
   Eigen::Vector2d transform(const Eigen::Vector2d& from, PJ_DIRECTION direction) const;
@@ -109,16 +109,17 @@ Object CoordinateSystem::Data::create(const std::string& text) const {
               where, "give an EPSG code, as in EPSG:4326, or a WKT or PROJ text");
 }
 
-void CoordinateSystem::Data::read_vertical_axis(const PJ* system, int axis) {
+/// Metres in one unit of an axis, negative where it points down; nothing without such an axis.
+std::optional<double> CoordinateSystem::Data::axis_unit_m(const PJ* system, int axis) const {
   const Object axes(proj().proj_crs_get_coordinate_system(context.get(), system));
-  if (!axes || proj().proj_cs_get_axis_count(context.get(), axes.get()) <= axis) return;
+  if (!axes || proj().proj_cs_get_axis_count(context.get(), axes.get()) <= axis) return std::nullopt;
   const char* direction = nullptr;
   double unit_m = 1;
   if (!proj().proj_cs_get_axis_info(context.get(), axes.get(), axis, nullptr, nullptr, &direction, &unit_m, nullptr,
                                     nullptr, nullptr)) {
-    return;
+    return std::nullopt;
   }
-  vertical_unit_m = direction && std::string_view(direction) == "down" ? -unit_m : unit_m;
+  return direction && std::string_view(direction) == "down" ? -unit_m : unit_m;
 }
 
 /// Notes the vertical axis, if there is one, and takes it off (where it is a system of its own).
@@ -130,12 +131,12 @@ Object CoordinateSystem::Data::horizontal_part(Object system) {
     }
     if (vertical) {
       vertical_name = proj().proj_get_name(vertical.get());
-      read_vertical_axis(vertical.get(), 0);
+      units.vertical_m = axis_unit_m(vertical.get(), 0);
     }
     return Object(proj().proj_crs_get_sub_crs(context.get(), system.get(), 0));
   }
-  read_vertical_axis(system.get(), 2);
-  if (vertical_unit_m) vertical_name = "ellipsoidal height";
+  units.vertical_m = axis_unit_m(system.get(), 2);
+  if (units.vertical_m) vertical_name = "ellipsoidal height";
   return system;
 }
 
@@ -212,6 +213,9 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
                 data_->name + " is neither a geographic nor a projected coordinate reference system", where,
                 "give one with longitude and latitude, or with eastings and northings");
   }
+  if (!data_->geographic) {
+    data_->units.horizontal_m = data_->axis_unit_m(plain ? plain.get() : system.get(), 0).value_or(1);
+  }
   const Object wgs84(proj().proj_create(context, "EPSG:4326"));
   Object operation;
   if (wgs84) {
@@ -240,7 +244,7 @@ bool CoordinateSystem::is_geographic() const { return data_->geographic; }
 const std::string& CoordinateSystem::name() const { return data_->name; }
 const std::string& CoordinateSystem::code() const { return data_->code; }
 const std::string& CoordinateSystem::vertical_name() const { return data_->vertical_name; }
-std::optional<double> CoordinateSystem::vertical_unit_m() const { return data_->vertical_unit_m; }
+const CoordinateSystem::Units& CoordinateSystem::units() const { return data_->units; }
 std::optional<std::string> CoordinateSystem::area_without(LonLat position) const {
   if (data_->area_name.empty()) return std::nullopt;
   const auto& [west, south, east, north] = data_->area_deg;

@@ -94,8 +94,13 @@ class CoordinateSystem {
   /// "NAP height" of a compound system, "ellipsoidal height" of a geographic or projected one with three axes; else
   /// empty.
   VANTAGE_INTERNAL_API const std::string& vertical_name() const;
-  /// Metres in one unit of the third axis, negative when it is a depth; nothing without such an axis.
-  VANTAGE_INTERNAL_API std::optional<double> vertical_unit_m() const;
+  /// Metres in one unit.
+  struct Units {
+    double horizontal_m = 1;                          ///< of the eastings; 1 where coordinates are angles
+    std::optional<double> vertical_m = std::nullopt;  ///< of the third axis, negative when it is a depth
+  };
+  VANTAGE_INTERNAL_API const Units& units() const;
+  std::optional<double> vertical_unit_m() const { return units().vertical_m; }
   /// The area that the system is made for, in the authority's words, when the position lies outside it; nothing inside,
   /// or where no area is known.
   std::optional<std::string> area_without(LonLat position) const;

@@ -112,6 +112,26 @@ std::span<const OccluderSwitch> occluder_switches() {
   return kSwitches;
 }
 
+const char* name_of(HeightUnit unit) {
+  switch (unit) {
+    case HeightUnit::metre:
+      return "m";
+    case HeightUnit::foot:
+      return "ft";
+    case HeightUnit::us_survey_foot:
+      return "us-ft";
+  }
+  return "unknown";
+}
+
+HeightUnit height_unit(const std::string& name, const std::string& where) {
+  for (const HeightUnit unit : {HeightUnit::metre, HeightUnit::foot, HeightUnit::us_survey_foot}) {
+    if (name == name_of(unit)) return unit;
+  }
+  throw Error(ErrorCode::unknown_choice, "'" + name + "' is not a unit of heights", where,
+              "write m (metres), ft (feet) or us-ft (US survey feet)");
+}
+
 void leave_out(Occluders& occluders, const std::string& kind, const std::string& where) {
   std::string names;
   for (const OccluderSwitch& one : occluder_switches()) {

@@ -46,9 +46,9 @@ inline constexpr std::array kSceneKeys = {
         Unit::metres},
     Own{{.path = "lod", .says = "for CityJSON, the level of detail", .without = "the highest"}, Kind::text},
     Own{{.path = "crs",
-         .says = "for a mesh or a tileset, the coordinate reference system of its coordinates, such as `EPSG:28992`; "
-                 "or `none`: they "
-                 "are metres of no known place, whatever the file says",
+         .says =
+             "for a mesh, a raster or a tileset, the coordinate reference system of its coordinates, such as "
+             "`EPSG:28992`, whatever the file says; or, not for a raster, `none`: they are metres of no known place",
          .without = "what the file says"},
         Kind::text},
     Own{{.path = "origin",
@@ -83,12 +83,27 @@ inline constexpr std::array kSceneKeys = {
          .without = "for a map a plane at z = 0"},
         Kind::path},
     Own{{.path = "error",
-         .says = "for a map or a tileset with terrain, or a raster: how far the triangles may differ from it, "
-                 "vertically, [at its "
-                 "posts](terrain.md#between-the-posts)",
+         .says = "for a map or a tileset with terrain, or a raster: how far the triangles may lie above it, [at its "
+                 "posts](terrain.md#terrain-as-triangles)",
          .without = "0.5; for a raster 0.25"},
         Kind::number,
         Unit::metres},
+    Own{{.path = "z_unit",
+         .says =
+             "for a raster and for `terrain`, what its heights are in, whatever the file says: `m`, `ft` or `us-ft`",
+         .without = "what the file says, else metres; a raster whose eastings are in feet must say it"},
+        Kind::word},
+    Own{{.path = "void",
+         .says = "for a raster and for `terrain`, the height of [posts that have none](terrain.md#voids)",
+         .without = "of the rim of a void, or of its neighbours"},
+        Kind::number,
+        Unit::metres},
+    Own{{.path = "partial",
+         .says = "for a map, `true`: an answer of Overpass that says that it is [not complete](scene.md#maps) is read "
+                 "as far "
+                 "as it goes",
+         .without = "such an answer is refused"},
+        Kind::flag},
     Own{{.path = "without",
          .says = "for a map, what is left out: a list of `walls`, `towers`, `bridges`, `trees`, and of "
                  "[stand-ins](scene.md#the-ledger) `woods`, `stadiums`, `masts`, `turbines`, `cranes`, `tanks`, "

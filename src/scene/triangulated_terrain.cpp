@@ -138,24 +138,27 @@ void TriangulatedTerrain::index_vertices() {
              });
 }
 
-std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at) const { return height(at, kLevel); }
+std::optional<TriangulatedTerrain::Found> TriangulatedTerrain::find(const Eigen::Vector2d& at) const {
+  return find(at, kLevel);
+}
 
-std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at, const Incline& above) const {
+std::optional<TriangulatedTerrain::Found> TriangulatedTerrain::find(const Eigen::Vector2d& at,
+                                                                    const Incline& above) const {
   const Eigen::Vector2d hair = (max_ - min_) * 1e-12;
   // Written so that not-a-number is outside too.
   if (!((at - min_ + hair).minCoeff() >= 0 && (max_ - at + hair).minCoeff() >= 0)) return std::nullopt;
   const std::uint32_t c = cell(cell_column(at.x()), cell_row(at.y()));
-  std::optional<double> height;
+  std::optional<Found> found;
   double inside = -kOutside;
   for (std::uint32_t i = triangles_.first[c]; i < triangles_.first[c + 1]; ++i) {
     const Facet facet(mesh_, mesh_.triangles[triangles_.items[i]], above);
     const Eigen::Vector3d weights = facet.weights(at);
     if (weights.minCoeff() < inside) continue;
     inside = weights.minCoeff();
-    height = facet.height(weights);
+    found = {triangles_.items[i], facet.height(weights)};
     if (inside >= 0) break;
   }
-  return height;
+  return found;
 }
 
 /// Takes in the heights along a segment: at the ends of its part in each triangle.
@@ -203,10 +206,10 @@ std::optional<TriangulatedTerrain::Range> TriangulatedTerrain::range(const std::
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   Eigen::Vector2d low = ring.front(), high = ring.front();
   for (const Eigen::Vector2d& corner : ring) {
-    const std::optional<double> here = height(corner, above);
+    const std::optional<Found> here = find(corner, above);
     if (!here) return std::nullopt;  // the surface is convex: when all corners lie in it, the polygon does
-    range.lowest = std::min(range.lowest, *here);
-    range.highest = std::max(range.highest, *here);
+    range.lowest = std::min(range.lowest, here->height);
+    range.highest = std::max(range.highest, here->height);
     low = low.cwiseMin(corner);
     high = high.cwiseMax(corner);
   }

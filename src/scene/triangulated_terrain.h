@@ -27,8 +27,17 @@ class TriangulatedTerrain {
   VANTAGE_INTERNAL_API explicit TriangulatedTerrain(Mesh mesh);
 
   const Mesh& mesh() const { return mesh_; }
+  /// A triangle over a place, and its height there.
+  struct Found {
+    std::uint32_t triangle;
+    double height;
+  };
   /// Nothing outside; the border belongs to it. Cost: constant, about a microsecond.
-  VANTAGE_INTERNAL_API std::optional<double> height(const Eigen::Vector2d& at) const;
+  VANTAGE_INTERNAL_API std::optional<Found> find(const Eigen::Vector2d& at) const;
+  std::optional<double> height(const Eigen::Vector2d& at) const {
+    const std::optional<Found> found = find(at);
+    return found ? std::optional(found->height) : std::nullopt;
+  }
   /// The lowest and the highest height, measured from `above`, over a polygon (its boundary and inside), exactly but
   /// for rounding: they are reached at a corner, at a vertex of the terrain inside, or where a side crosses an edge of
   /// the terrain. Nothing where the polygon sticks out of the surface, or has no corner. `ring`: open, either turn; may
@@ -47,7 +56,7 @@ class TriangulatedTerrain {
     std::vector<std::uint32_t> items;
   };
 
-  std::optional<double> height(const Eigen::Vector2d& at, const Incline& above) const;
+  std::optional<Found> find(const Eigen::Vector2d& at, const Incline& above) const;  ///< its height above the plane
   int cell_column(double x) const;
   int cell_row(double y) const;
   std::uint32_t cell(int column, int row) const;

@@ -160,6 +160,7 @@ std::vector<MapArea> read_areas(const std::filesystem::path& file, const AreaFil
   const auto wanted = [&filter](const osm::Tags& tags) { return is_wanted(tags, filter); };
   const osm::Extract extract =
       osm::read_extract(file, {internal::city::checked_region(filter.region), wanted}, progress);
+  internal::city::check_complete(extract, file);
   internal::city::check_overlap(filter.region, extract, file);
   std::vector<MapArea> areas;
   for (const osm::Area& source : extract.areas) {

@@ -1,25 +1,11 @@
 #include "maps/city/assembly.h"
 
-#include <string>
+#include "maps/terrain/raster_ground.h"
 
 namespace vantage::internal::city {
-namespace {
-
-void append(Scene& scene, const Mesh& mesh, const SceneObject& named) {
-  if (mesh.empty()) return;
-  const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
-  const auto object = static_cast<std::uint32_t>(scene.objects.size());
-  scene.mesh.vertices.insert(scene.mesh.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-  for (const Triangle& t : mesh.triangles) scene.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  scene.object_of.resize(scene.mesh.triangles.size(), object);
-  scene.objects.push_back(named);
-}
-
-}  // namespace
-
-Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& ground) {
+Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Ground& ground, MissingPolicy missing) {
   Scene scene;
-  std::size_t vertices = ground.vertices.size(), triangles = ground.triangles.size();
+  std::size_t vertices = ground.mesh().vertices.size(), triangles = ground.mesh().triangles.size();
   for (const Mesh& solid : solids) {
     vertices += solid.vertices.size();
     triangles += solid.triangles.size();
@@ -28,9 +14,9 @@ Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& gr
   scene.mesh.triangles.reserve(triangles);
   scene.object_of.reserve(triangles);
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    append(scene, solids[i], site.items[i].record.object);
+    terrain::append_object(scene, solids[i], site.items[i].record.object);
   }
-  append(scene, ground, {"ground", "", ObjectKind::ground});
+  ground.add_to(scene, missing);
   return scene;
 }
 

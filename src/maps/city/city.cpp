@@ -38,6 +38,16 @@ std::vector<std::string> notes_on(const internal::osm::Extract& extract) {
   return notes;
 }
 
+/// What a file that says itself that it is not complete leaves out has no place: the ledger and a note say so.
+void tell_of_remark(const std::string& remark, const std::filesystem::path& file, City& city) {
+  if (remark.empty()) return;
+  LedgerEntry entry;
+  entry.what = "what the file lacks";
+  entry.reason = "it says that it is not complete: " + remark;
+  city.report.notes.push_back(file.filename().string() + " says that it is not complete: " + remark);
+  city.scene.ledger.push_back(std::move(entry));
+}
+
 internal::geo::LonLat frame_origin(const CityOptions& options, const internal::osm::Extract& extract) {
   if (!options.frame) return internal::city::frame_origin(options.region, extract);
   return {options.frame->origin_deg[1], options.frame->origin_deg[0]};
@@ -55,7 +65,8 @@ internal::city::Ground ground_under(const internal::city::Site& site, const City
   const Vec2 margin = Vec2::Constant(options.ground_margin_m);
   const Vec2 min = site.min - margin, max = site.max + margin;
   if (options.terrain.empty()) return Ground::plane(min, max);
-  return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m, notes, progress);
+  return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
+                           {"", options.terrain_heights, options.missing}, notes, progress);
 }
 
 /// The ledger's entry of an item that is object `index` of the scene.
@@ -126,6 +137,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   const auto read =
       options.frame ? internal::city::with_margin(region, options.frame->reach_m) : internal::city::with_margin(region);
   const internal::osm::Extract extract = internal::osm::read_extract(file, {read, internal::city::wanted}, progress);
+  if (!options.partial) internal::city::check_complete(extract, file);
   if (!options.frame) internal::city::check_overlap(options.region, extract, file);
   const internal::geo::LocalFrame frame(frame_origin(options, extract));
   result.report.notes = notes_on(extract);
@@ -150,10 +162,12 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   const internal::geo::LonLat origin = frame.origin();
   result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326",
                                 kOpenStreetMapCredit};
-  result.scene = internal::city::assemble(site, solids, ground.mesh());
-  result.scene.ledger = ledger_of(site, solids);
+  result.scene = internal::city::assemble(site, solids, ground, options.missing);
+  const std::vector<LedgerEntry> ledger = ledger_of(site, solids);
+  result.scene.ledger.insert(result.scene.ledger.begin(), ledger.begin(), ledger.end());
   result.scene.overhead = curtains_under(site.overhead, ground);
   result.scene.source = file;
+  tell_of_remark(extract.remark, file, result);
   result.scene.georeference = result.report.georeference;
   if (options.frame) result.scene.whole = internal::city::bounds_of_whole(*options.frame);
   for (internal::city::Item& item : site.items) result.report.records.push_back(std::move(item.record));

@@ -17,12 +17,15 @@ Ground Ground::plane(const Vec2& min, const Vec2& max) {
 }
 
 Ground Ground::from_file(const std::filesystem::path& file, const geo::LocalFrame& frame, const Vec2& min,
-                         const Vec2& max, double max_error_m, std::vector<std::string>& notes,
-                         const Progress& progress) {
-  terrain::RasterGround raster = terrain::ground_from_raster(file, frame, min, max, max_error_m, {}, notes, progress);
+                         const Vec2& max, double max_error_m, const terrain::HeightReading& reading,
+                         std::vector<std::string>& notes, const Progress& progress) {
+  terrain::RasterGround raster =
+      terrain::ground_from_raster(file, frame, min, max, max_error_m, reading, {}, notes, progress);
   Ground ground;
   ground.surface_ = std::move(raster.surface);
   ground.vertical_ = std::move(raster.vertical);
+  ground.beneath_ = std::move(raster.beneath);
+  ground.voids_ = std::move(raster.ledger);
   return ground;
 }
 
@@ -51,5 +54,11 @@ double Ground::height(const Vec2& at) const {
 const Mesh& Ground::mesh() const { return surface_ ? surface_->mesh() : plane_; }
 
 const std::string& Ground::vertical() const { return vertical_; }
+
+void Ground::add_to(Scene& scene, MissingPolicy missing) const {
+  const auto object = static_cast<std::uint32_t>(scene.objects.size());
+  terrain::append_object(scene, mesh(), {"ground", "", ObjectKind::ground});
+  terrain::add_voids(scene, object, missing, voids_, beneath_);
+}
 
 }  // namespace vantage::internal::city

@@ -197,6 +197,13 @@ void check_overlap(const CityRegion& region, const osm::Extract& extract, const 
   }
 }
 
+void check_complete(const osm::Extract& extract, const std::filesystem::path& file) {
+  if (extract.remark.empty()) return;
+  throw Error(ErrorCode::scene_incomplete, "the map says that it is not complete: " + extract.remark, file.string(),
+              "ask for it again: with a longer time limit, or in smaller parts; or read what is there of it: "
+              "scene.partial: true (--partial)");
+}
+
 void Outside::add(std::size_t more, double nearest) {
   if (more == 0) return;
   nearest_m = objects == 0 ? nearest : std::min(nearest_m, nearest);

@@ -23,6 +23,9 @@ std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region,
 /// Throws Error(input) where the region lies outside the file (its bounds; latitude and longitude the wrong way round).
 void check_overlap(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file);
 
+/// Throws Error(input) where the file says itself that it is not complete.
+void check_complete(const osm::Extract& extract, const std::filesystem::path& file);
+
 /// What was read and does not belong to the region.
 struct Outside {
   std::size_t objects = 0;

@@ -67,6 +67,7 @@ TilePlan plan_tiles(const std::filesystem::path& file, const CityOptions& option
                     const Progress& progress) {
   check_tiling(options, size_m, margin_m);
   const internal::osm::Extract extract = internal::osm::read_extract(file, {{}, internal::city::wanted}, progress);
+  if (!options.partial) internal::city::check_complete(extract, file);
   const internal::geo::LocalFrame frame(internal::city::frame_origin({}, extract));
   const internal::osm::RegionFilter everything({});
   const internal::city::Site site = internal::city::make_site(extract, everything, frame, options);

@@ -51,6 +51,7 @@ class ExtractBuilder {
     extract_.ways = objects_.ways_in_file;
     extract_.relations = objects_.relations_in_file;
     extract_.superseded = objects_.superseded;
+    extract_.remark = objects_.remark;
     extract_.sorted = objects_.sorted;
     extract_.outside = selection_.outside();
     extract_.nearest_outside_m = selection_.nearest_outside_m();
@@ -164,8 +165,10 @@ Extract read_extract(const std::filesystem::path& file, const ReadOptions& optio
   core::ProgressReporter reporter(progress, file);
   const MapObjects objects = load_objects(map, options.wanted, reporter);
   if (objects.nodes + objects.ways_in_file + objects.relations_in_file == 0) {
-    throw Error(ErrorCode::map_empty, "the map is empty: there is no node, way or relation in it", file.string(),
-                "download or export the map again");
+    throw Error(ErrorCode::map_empty,
+                std::string("the map is empty: there is no node, way or relation in it") +
+                    (objects.remark.empty() ? "" : "; it says: " + objects.remark),
+                file.string(), "download or export the map again");
   }
   reporter.begin("assemble areas");
   return ExtractBuilder(objects, region, options).build(reporter);

@@ -130,15 +130,16 @@ struct Extract {
   double nearest_outside_m = 0;  ///< of these the nearest one's distance from the region's centre; 0 when none
   bool sorted = true;            ///< by type and id; else it was sorted in memory
   std::size_t superseded = 0;    ///< older versions, and copies, of objects that the file holds more than once
+  std::string remark;            ///< on an error that ended the file early, in its words; empty: it says nothing
 };
 
-/// Reads .osm, .osm.gz, .osm.bz2 and .osm.pbf, told by content, whatever the name. A closed way is an area when it is
-/// tagged building, building:part, area=yes, area:*, or with a key of areas (leisure, landuse, natural, amenity, place,
-/// man_made, ...: see means_area) whose value is not linear (natural=tree_row), and not area=no. Other closed ways are
-/// lines (a wall round a garden), those with both meanings are in both lists. Members of a multipolygon are areas of
-/// their own where they say what it does not (Kind::repeated_outline). Deleted objects (visible=false) and history
-/// files: only current versions; of copies with equal versions the last counts. Memory: 24 bytes for each node of the
-/// file, 16 for each way, and what is wanted. Cost: the file is read twice, once for its relations alone.
+/// Reads .osm, .osm.gz, .osm.bz2, .osm.pbf and JSON of Overpass, told by content, whatever the name. A closed way is an
+/// area when it is tagged building, building:part, area=yes, area:*, or with a key of areas (leisure, landuse, natural,
+/// amenity, place, man_made, ...: see means_area) whose value is not linear (natural=tree_row), and not area=no. Other
+/// closed ways are lines (a wall round a garden), those with both meanings are in both lists. Members of a multipolygon
+/// are areas of their own where they say what it does not (Kind::repeated_outline). Deleted objects (visible=false) and
+/// history files: only current versions; of copies with equal versions the last counts. Memory: 24 bytes for each node
+/// of the file, 16 for each way, and what is wanted. Cost: the file is read twice, once for its relations alone.
 ///
 /// Throws Error(input) naming the file for: no such file, a folder or pipe, not an OSM file (what it looks like),
 /// truncated or garbled (where, in XML the line), an empty one; a region that has no extent or is not on the earth.

@@ -8,22 +8,20 @@
 #include <cerrno>
 #include <cstring>
 #include <new>
-#include <osmium/io/reader.hpp>
-#include <osmium/io/xml_input.hpp>
 #include <string_view>
 #include <system_error>
 
 #include "core/system_limits.h"
 #include "maps/osm/pbf_file.h"
 #include "maps/osm/refused_input.h"
-#include "maps/osm/xml_input.h"
+#include "maps/osm/text_input.h"
+#include "maps/osm/text_objects.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::osm {
 namespace {
 
 constexpr std::string_view kAgain = "download or export the map again";
-constexpr std::string_view kFormats = "give an .osm, .osm.gz, .osm.bz2 or .osm.pbf file";
 
 [[noreturn]] void fail(ErrorCode code, const std::string& where, std::string problem, std::string_view fix) {
   throw Error(code, std::move(problem), where, std::string(fix));
@@ -59,19 +57,13 @@ bool is_pbf(std::string_view bytes) {
   return bytes.size() >= 15 && bytes.substr(4, 11) == "\x0a\x09OSMHeader";
 }
 
-/// Why reading stopped, from what libosmium threw. Its own sentences name the format, but not always what is wrong.
+/// Why reading stopped, from what was thrown.
 [[noreturn]] void explain(const MapFile& file) {
   const std::string where = file.path.string();
   try {
     throw;
   } catch (const Error&) {
     throw;
-  } catch (const osmium::xml_error& error) {
-    const std::string place = error.line > 0 ? where + ", line " + std::to_string(error.line) : where;
-    const bool cut_off = error.error_code == XML_ERROR_NO_ELEMENTS || error.error_code == XML_ERROR_UNCLOSED_TOKEN ||
-                         error.error_code == XML_ERROR_UNCLOSED_CDATA_SECTION;
-    fail(ErrorCode::map_syntax, place, cut_off ? "the file ends too early" : "the XML is broken: " + error.error_string,
-         kAgain);
   } catch (const RefusedInput& refused) {
     fail(refused.code, refused.place.empty() ? where : where + ", " + refused.place, refused.what(), refused.fix);
   } catch (const std::bad_alloc&) {
@@ -90,31 +82,23 @@ bool is_pbf(std::string_view bytes) {
 
 MapFile open_map_file(const std::filesystem::path& path) {
   const std::string bytes = first_bytes(path);
-  if (bytes.starts_with("\x1f\x8b") || bytes.starts_with("BZh")) return {path, MapFormat::xml};
+  if (bytes.starts_with("\x1f\x8b") || bytes.starts_with("BZh")) return {path, MapFormat::text};
   if (is_pbf(bytes)) return {path, MapFormat::pbf};
   const std::string_view root = root_element(bytes);
-  if (root == "osm") return {path, MapFormat::xml};
-  std::string_view fix = kFormats;
+  if (root == "osm" || is_json_object(bytes)) return {path, MapFormat::text};
+  std::string_view fix = kMapFormats;
   if (root == "osmChange") fix = "apply it to a map first (osmium apply-changes)";
   fail(ErrorCode::map_format_unknown, path.string(),
        "the file is not an OpenStreetMap file: it looks like " + guess_content(bytes, root), fix);
 }
 
-void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, const core::ProgressReporter& progress,
-                  const std::function<void(const osmium::memory::Buffer&)>& handle) {
+std::string read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds,
+                         const core::ProgressReporter& progress,
+                         const std::function<void(const osmium::memory::Buffer&)>& handle) {
   try {
-    if (file.format == MapFormat::pbf) {
-      read_pbf(file.path, kinds, progress, handle);
-      return;
-    }
-    // An absolute path: libosmium takes "-" for the standard input and "http:..." for an address.
-    const osmium::io::File source(std::filesystem::absolute(file.path).string(), bounded_xml_format());
-    osmium::io::Reader reader(source, kinds);
-    while (const osmium::memory::Buffer buffer = reader.read()) {
-      handle(buffer);
-      progress.report(reader.offset(), reader.file_size());
-    }
-    reader.close();
+    if (file.format == MapFormat::text) return read_text(file.path, kinds, progress, handle);
+    read_pbf(file.path, kinds, progress, handle);
+    return {};
   } catch (...) {
     explain(file);
   }

@@ -53,8 +53,13 @@ class Loader {
 
   MapObjects load() {
     progress_.begin("read relations");
-    read_objects(file_, osmium::osm_entity_bits::relation, progress_, [this](const auto& buffer) {
-      for (const osmium::Relation& relation : buffer.template select<osmium::Relation>()) add(relation);
+    objects_.remark = read_objects(file_, osmium::osm_entity_bits::relation, progress_, [this](const auto& buffer) {
+      bool is_kept = false;
+      for (const osmium::OSMObject& object : buffer.template select<osmium::OSMObject>()) {
+        if (object.type() == osmium::item_type::relation) is_kept = add(static_cast<const osmium::Relation&>(object));
+        // A way here is what the relation before it says of a member.
+        if (object.type() == osmium::item_type::way && is_kept) keep_given(static_cast<const osmium::Way&>(object));
+      }
     });
     finish_relations();
     progress_.begin("read nodes and ways");
@@ -75,19 +80,27 @@ class Loader {
     return !tags.empty() && (wanted_ == nullptr || wanted_(to_tags(tags)));
   }
 
-  void add(const osmium::Relation& relation) {
+  /// Returns whether it is kept.
+  bool add(const osmium::Relation& relation) {
     const std::uint32_t version = relation.version();
     relation_versions_.add({relation.id(), version, relation.visible()});
-    if (!relation.visible()) return;
+    if (!relation.visible()) return false;
     const Tags tags = to_tags(relation.tags());
     const RelationKind kind = kind_of(tags);
     bool keep = kind == RelationKind::building;
     if (kind == RelationKind::multipolygon) keep = says_nothing(tags) || is_wanted(relation.tags());
     if (kind == RelationKind::other) keep = wanted_ == nullptr ? means_building(tags) : wanted_(tags);
-    if (!keep) return;
+    if (!keep) return false;
     kept_relations_.push_back({relation.id(), version, objects_.relation_buffer.committed(), true});
     objects_.relation_buffer.add_item(relation);
     objects_.relation_buffer.commit();
+    return true;
+  }
+
+  void keep_given(const osmium::Way& way) {
+    given_ways_.push_back({way.id(), 0, objects_.way_buffer.committed(), false});
+    objects_.way_buffer.add_item(way);
+    objects_.way_buffer.commit();
   }
 
   void finish_relations() {
@@ -162,6 +175,7 @@ class Loader {
       auto& way = objects_.way_buffer.get<osmium::Way>(kept.offset);
       objects_.ways.push_back(place(way, kept.wanted));
     }
+    add_given_ways();
     if (!longitudes_.empty()) {
       const geo::LongitudeRange range = longitudes_.range();
       objects_.bounds_deg = {range.west, south_, range.east, north_};
@@ -170,6 +184,21 @@ class Loader {
     objects_.ways_in_file = way_versions_.current();
     objects_.relations_in_file = relation_versions_.current();
     objects_.superseded = nodes_.superseded() + way_versions_.superseded() + relation_versions_.superseded();
+  }
+
+  /// Members that are no objects of the file. One of several that relations give counts.
+  void add_given_ways() {
+    std::erase_if(given_ways_, [this](const Kept& kept) { return way_versions_.knows(kept.id); });
+    const auto by_id = [](const Kept& a, const Kept& b) { return a.id < b.id; };
+    std::stable_sort(given_ways_.begin(), given_ways_.end(), by_id);
+    const auto same = [](const Kept& a, const Kept& b) { return a.id == b.id; };
+    given_ways_.erase(std::unique(given_ways_.begin(), given_ways_.end(), same), given_ways_.end());
+    if (given_ways_.empty()) return;
+    for (const Kept& kept : given_ways_) {
+      objects_.ways.push_back(place(objects_.way_buffer.get<osmium::Way>(kept.offset), false));
+    }
+    std::sort(objects_.ways.begin(), objects_.ways.end(),
+              [](const KeptWay& a, const KeptWay& b) { return a.way->id() < b.way->id(); });
   }
 
   /// Gives the way's nodes their positions.
@@ -208,7 +237,7 @@ class Loader {
   MapObjects objects_;
   Versions<NodeEntry> nodes_;
   Versions<Entry> way_versions_, relation_versions_;
-  std::vector<Kept> kept_points_, kept_ways_, kept_relations_;
+  std::vector<Kept> kept_points_, kept_ways_, given_ways_, kept_relations_;
   std::vector<std::int64_t> member_ways_;  // by id
   LongitudeSpan longitudes_;
   double south_ = std::numeric_limits<double>::infinity(), north_ = -std::numeric_limits<double>::infinity();

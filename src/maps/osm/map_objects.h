@@ -7,6 +7,7 @@
 #include <osmium/memory/buffer.hpp>
 #include <osmium/osm/relation.hpp>
 #include <osmium/osm/way.hpp>
+#include <string>
 #include <vector>
 
 #include "maps/osm/extract.h"
@@ -32,6 +33,7 @@ struct MapObjects {
   std::array<double, 4> bounds_deg{};
   std::size_t nodes = 0, ways_in_file = 0, relations_in_file = 0, superseded = 0;
   bool sorted = true;
+  std::string remark;  ///< read_objects
 
   const KeptWay* find_way(std::int64_t id) const;
   const osmium::Relation* find_relation(std::int64_t id) const;
@@ -47,7 +49,8 @@ enum class RelationKind { multipolygon, building, other };
 RelationKind kind_of(const Tags& tags);
 
 /// Reads the file twice: its relations, so that the ways are known that they are made of, then all else. What is not
-/// wanted is not kept, but for the positions of nodes (24 bytes each) and the ids of ways. Throws as read_objects.
+/// wanted is not kept, but for the positions of nodes (24 bytes each) and the ids of ways. A member that is no object
+/// of the file, but whose positions the relation has, is a way, too. Throws as read_objects.
 MapObjects load_objects(const MapFile& file, const Wanted& wanted, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::osm

@@ -25,10 +25,10 @@ class Versions {
 
   /// The current version, or none when there is none or it is deleted.
   const Entry* find(std::int64_t id) const {
-    const auto found = std::lower_bound(entries_.begin(), entries_.end(), id,
-                                        [](const Entry& entry, std::int64_t wanted) { return entry.id < wanted; });
-    return found == entries_.end() || found->id != id || !found->visible ? nullptr : &*found;
+    const Entry* const entry = newest(id);
+    return entry != nullptr && entry->visible ? entry : nullptr;
   }
+  bool knows(std::int64_t id) const { return newest(id) != nullptr; }  ///< be it deleted
 
   bool is_current(std::int64_t id, std::uint32_t version) const {
     const Entry* const entry = find(id);
@@ -40,6 +40,12 @@ class Versions {
   std::size_t superseded() const { return superseded_; }  ///< entries that finish() dropped
 
  private:
+  const Entry* newest(std::int64_t id) const {
+    const auto found = std::lower_bound(entries_.begin(), entries_.end(), id,
+                                        [](const Entry& entry, std::int64_t wanted) { return entry.id < wanted; });
+    return found == entries_.end() || found->id != id ? nullptr : &*found;
+  }
+
   void keep_newest() {
     std::stable_sort(entries_.begin(), entries_.end(),
                      [](const Entry& a, const Entry& b) { return a.id != b.id ? a.id < b.id : a.version < b.version; });

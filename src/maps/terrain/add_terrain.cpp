@@ -112,18 +112,6 @@ std::string words_on_feet(const Scene& scene, const Mesh& ground) {
       heights.size(), *middle);
 }
 
-void append(Scene& scene, Mesh ground) {
-  const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
-  const auto object = static_cast<std::uint32_t>(scene.objects.size());
-  scene.mesh.vertices.insert(scene.mesh.vertices.end(), ground.vertices.begin(), ground.vertices.end());
-  for (Triangle triangle : ground.triangles) {
-    for (std::uint32_t& corner : triangle) corner += first;
-    scene.mesh.triangles.push_back(triangle);
-  }
-  scene.object_of.insert(scene.object_of.end(), ground.triangles.size(), object);
-  scene.objects.push_back({"ground", "", ObjectKind::ground});
-}
-
 }  // namespace
 }  // namespace internal::terrain
 
@@ -144,21 +132,22 @@ void add_terrain(Scene& scene, const std::filesystem::path& raster, const Terrai
   std::vector<std::string> notes;
   const auto moved = [&](terrain::HeightGrid& grid) {
     const double rise = terrain::rise_of(terrain::level_of(grid), scene, options, raster, notes);
-    if (!is_tangent) {
-      for (float& height : grid.heights_m) height = static_cast<float>(height + rise);
-      return;
-    }
-    const std::vector<Eigen::Vector2d> places = terrain::post_positions(grid, frame);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      progress.tick();
-      grid.heights_m[i] = static_cast<float>(bend.z(places[i], grid.heights_m[i] + rise));
+    const std::vector<Eigen::Vector2d> places =
+        is_tangent ? terrain::post_positions(grid, frame) : std::vector<Eigen::Vector2d>();
+    for (std::vector<float>* const heights : {&grid.heights_m, &grid.lowest_m}) {
+      for (std::size_t i = 0; i < heights->size(); ++i) {
+        progress.tick();
+        const double height = (*heights)[i] + rise;
+        (*heights)[i] = static_cast<float>(is_tangent ? bend.z(places[i], height) : height);
+      }
     }
   };
-  terrain::RasterGround ground =
-      terrain::ground_from_raster(raster, frame, min, max, options.max_error_m, moved, notes, callback);
+  terrain::RasterGround ground = terrain::ground_from_raster(
+      raster, frame, min, max, options.max_error_m, {"", options.heights, options.missing}, moved, notes, callback);
   Mesh mesh = ground.surface.mesh();
-  if (is_tangent) {
-    for (Vec3& vertex : mesh.vertices) vertex = bend.at(vertex);
+  for (Mesh* const sheet : {&mesh, &ground.beneath}) {
+    if (!is_tangent) break;
+    for (Vec3& vertex : sheet->vertices) vertex = bend.at(vertex);
   }
   const auto own = std::count_if(scene.objects.begin(), scene.objects.end(),
                                  [](const SceneObject& object) { return object.kind == ObjectKind::ground; });
@@ -169,7 +158,9 @@ void add_terrain(Scene& scene, const std::filesystem::path& raster, const Terrai
                      own));
   }
   if (std::string feet = terrain::words_on_feet(scene, mesh); !feet.empty()) notes.push_back(std::move(feet));
-  terrain::append(scene, std::move(mesh));
+  const auto object = static_cast<std::uint32_t>(scene.objects.size());
+  terrain::append_object(scene, mesh, {"ground", "", ObjectKind::ground});
+  terrain::add_voids(scene, object, options.missing, std::move(ground.ledger), ground.beneath);
   scene.notes.insert(scene.notes.end(), notes.begin(), notes.end());
 }
 

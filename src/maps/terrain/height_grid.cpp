@@ -11,7 +11,6 @@
 
 #include "core/format.h"
 #include "core/progress_reporter.h"
-#include "maps/terrain/fill_voids.h"
 #include "maps/terrain/raster_file.h"
 #include "vantage/error.h"
 
@@ -172,24 +171,67 @@ std::vector<float> read_round(const RasterFile& raster, const PixelWindow& pixel
   return heights;
 }
 
-/// Metres in the unit of the heights.
-double unit_m(const RasterFile& raster, const geo::CoordinateSystem& crs, const std::filesystem::path& file) {
+constexpr double metres_in(HeightUnit unit) {
+  return unit == HeightUnit::metre ? 1 : unit == HeightUnit::foot ? 0.3048 : 1200.0 / 3937;
+}
+
+/// The unit of the heights as the file names it; nothing where it does not.
+std::optional<HeightUnit> stated_unit(const RasterFile& raster, const std::filesystem::path& file) {
   std::string unit = raster.unit();
+  if (unit.empty()) return std::nullopt;
   std::transform(unit.begin(), unit.end(), unit.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const double upward = crs.vertical_unit_m().value_or(1) < 0 ? -1 : 1;
-  if (unit.empty()) return crs.vertical_unit_m().value_or(1);
   for (const char* metre : {"m", "metre", "metres", "meter", "meters"}) {
-    if (unit == metre) return upward;
+    if (unit == metre) return HeightUnit::metre;
   }
   for (const char* foot : {"ft", "foot", "feet", "international foot", "foot (international)", "foot_international"}) {
-    if (unit == foot) return 0.3048 * upward;
+    if (unit == foot) return HeightUnit::foot;
   }
   for (const char* foot : {"us survey foot", "us survey feet", "us-ft", "ftus", "us_ft", "foot_us", "us-foot"}) {
-    if (unit == foot) return 1200.0 / 3937 * upward;
+    if (unit == foot) return HeightUnit::us_survey_foot;
   }
   throw Error(ErrorCode::raster_not_heights, "the raster's unit of height is '" + raster.unit().substr(0, 40) + "'",
               file.string(), "convert the heights to metres with gdal_calc.py");
+}
+
+/// Metres in the unit of the heights, negative where they are depths.
+double unit_m(const RasterFile& raster, const geo::CoordinateSystem& crs, const std::filesystem::path& file,
+              const std::optional<HeightUnit>& given) {
+  const std::optional<double> of_axis = crs.vertical_unit_m();
+  const std::optional<HeightUnit> unit = given ? given : stated_unit(raster, file);
+  if (unit) return metres_in(*unit) * (of_axis.value_or(1) < 0 ? -1 : 1);
+  if (!of_axis && crs.units().horizontal_m != 1) {
+    throw Error(ErrorCode::height_unknown,
+                "the raster does not say in which unit its heights are, and its eastings are not in metres (" +
+                    crs.name() + ")",
+                file.string(), "say it: scene.z_unit (--z-unit) is us-ft (US survey feet), ft (feet) or m (metres)");
+  }
+  return of_axis.value_or(1);
+}
+
+/// From one column, and from one row, to the next, in the middle.
+std::array<double, 2> post_spacing_m(const HeightGrid& grid) {
+  const Eigen::Vector2d middle((grid.columns - 1) / 2.0, (grid.rows - 1) / 2.0);
+  const geo::LonLat place = grid.position(middle);
+  const geo::LocalFrame frame({std::remainder(place.longitude_deg, 360), place.latitude_deg});
+  const auto step_m = [&](const Eigen::Vector2d& step) {
+    return (frame.to_local(grid.position(middle + step / 2)) - frame.to_local(grid.position(middle - step / 2))).norm();
+  };
+  return {step_m({1, 0}), step_m({0, 1})};
+}
+
+void fill(HeightGrid& grid, const HeightReading& reading, const core::ProgressReporter& progress) {
+  const auto is_void = [](float height) { return std::isnan(height); };
+  if (std::none_of(grid.heights_m.begin(), grid.heights_m.end(), is_void)) return;
+  if (std::all_of(grid.heights_m.begin(), grid.heights_m.end(), is_void)) {
+    throw Error(ErrorCode::region_empty, "the raster has no value in the area: all of its posts are void",
+                grid.file.string(), "give a raster that has heights there");
+  }
+  Voids voids = fill_voids(grid.heights_m, grid.columns, grid.rows,
+                           {reading.missing, reading.heights.void_m, post_spacing_m(grid)}, progress);
+  grid.voids = voids.posts;
+  grid.void_regions = std::move(voids.regions);
+  grid.lowest_m = std::move(voids.lowest_m);
 }
 
 std::string vertical_text(const RasterFile& raster, const geo::CoordinateSystem& crs,
@@ -210,7 +252,9 @@ HeightGrid describe(const RasterFile& raster, const std::filesystem::path& file)
           raster.rows(),
           {},
           0,
-          std::move(vertical)};
+          std::move(vertical),
+          {},
+          {}};
 }
 
 void check_posts(std::int64_t posts, const std::filesystem::path& file) {
@@ -232,10 +276,14 @@ void check_posts(std::int64_t posts, const std::filesystem::path& file) {
   }
 }
 
-HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWindow& pixels, const Progress& callback) {
-  const std::string place = grid.file.string();
+HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWindow& pixels, const Progress& callback,
+                       const HeightReading& reading) {
   check_posts(static_cast<std::int64_t>(pixels.columns) * pixels.rows, grid.file);
-  const double unit = unit_m(raster, grid.crs, grid.file);
+  if (!(std::abs(reading.heights.void_m.value_or(0)) <= kImpossible_m)) {
+    throw Error(ErrorCode::value_out_of_range, "the height of voids is beyond 12 km", grid.file.string(),
+                "give it in metres");
+  }
+  const double unit = unit_m(raster, grid.crs, grid.file, reading.heights.unit);
   core::ProgressReporter progress(callback, grid.file);
   progress.begin("reading heights");
   grid.heights_m = read_round(raster, pixels, [&](int rows) {
@@ -248,11 +296,7 @@ HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWin
   grid.first += grid.step.cwiseProduct(Eigen::Vector2d(pixels.first_column, pixels.first_row));
   grid.columns = pixels.columns;
   grid.rows = pixels.rows;
-  grid.voids = fill_voids(grid.heights_m, grid.columns, grid.rows);
-  if (std::isnan(grid.heights_m.front())) {
-    throw Error(ErrorCode::region_empty, "the raster has no value in the area: all of its posts are void", place,
-                "give a raster that has heights there");
-  }
+  fill(grid, reading, progress);
   return grid;
 }
 
@@ -281,15 +325,16 @@ geo::LonLat HeightGrid::position(const Eigen::Vector2d& column_row) const {
 }
 
 HeightGrid read_height_grid(const std::filesystem::path& file, const std::optional<Window>& window,
-                            const Progress& progress) {
-  const RasterFile raster(file);
+                            const Progress& progress, const HeightReading& reading) {
+  const RasterFile raster(file, reading.crs);
   HeightGrid grid = describe(raster, file);
   const PixelWindow pixels = window ? pixels_of(grid, *window) : PixelWindow{0, 0, grid.columns, grid.rows};
-  return read_pixels(raster, std::move(grid), pixels, progress);
+  return read_pixels(raster, std::move(grid), pixels, progress, reading);
 }
 
-HeightGrid read_height_pixels(const std::filesystem::path& file, const PixelWindow& pixels, const Progress& progress) {
-  const RasterFile raster(file);
+HeightGrid read_height_pixels(const std::filesystem::path& file, const PixelWindow& pixels, const Progress& progress,
+                              const HeightReading& reading) {
+  const RasterFile raster(file, reading.crs);
   HeightGrid grid = describe(raster, file);
   const auto fits = [](int first, int count, int all) { return first >= 0 && count > 0 && count <= all - first; };
   if (!fits(pixels.first_column, pixels.columns, grid.columns) || !fits(pixels.first_row, pixels.rows, grid.rows)) {
@@ -298,7 +343,7 @@ HeightGrid read_height_pixels(const std::filesystem::path& file, const PixelWind
                     " columns and " + std::to_string(grid.rows) + " rows",
                 file.string(), "give the first column and row, counted from 0, and how many of each");
   }
-  return read_pixels(raster, std::move(grid), pixels, progress);
+  return read_pixels(raster, std::move(grid), pixels, progress, reading);
 }
 
 }  // namespace vantage::internal::terrain

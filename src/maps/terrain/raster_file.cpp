@@ -177,7 +177,8 @@ void DatasetCloser::operator()(void* dataset) const {
   library->GDALClose(dataset);
 }
 
-RasterFile::RasterFile(const fs::path& file) : file_(file), library_(library_for(file)) {
+RasterFile::RasterFile(const fs::path& file, const std::string& crs)
+    : file_(file), library_(library_for(file)), crs_wkt_(crs) {
   const GdalCalls calls(library_);
   open();
   check_bands();
@@ -250,9 +251,10 @@ void RasterFile::read_georeference() {
          "assign it with gdal_translate -a_ullr; without it gdal_translate in.tif out.tif takes the place from a world "
          "file (.tfw) beside the raster, which is not read here");
   }
-  if (!system) {
+  if (!system && crs_wkt_.empty()) {
     fail(ErrorCode::crs_missing, "the raster has no coordinate reference system",
-         "assign it, as in gdal_translate -a_srs EPSG:4326 in out.tif");
+         "give it: of a raster that is the scene as scene.crs, such as 'crs: EPSG:25832' (vantage inspect --crs); of "
+         "terrain with gdal_translate -a_srs EPSG:25832 in out.tif");
   }
   if (transform[2] != 0 || transform[4] != 0) {
     fail(ErrorCode::raster_grid_unsupported, "the raster's rows do not run east (it is rotated or sheared)",
@@ -264,6 +266,10 @@ void RasterFile::read_georeference() {
     fail(ErrorCode::raster_grid_unsupported, "the raster's pixels have no size",
          "assign it with gdal_translate -a_ullr");
   }
+  if (crs_wkt_.empty()) crs_wkt_ = stated_crs(system);
+}
+
+std::string RasterFile::stated_crs(void* system) const {
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
   const bool exported = library_.OSRExportToWktEx(system, &wkt, options) == 0;
@@ -272,7 +278,7 @@ void RasterFile::read_georeference() {
     fail(ErrorCode::crs_unusable, "the raster's coordinate reference system cannot be read",
          "assign it with gdal_translate -a_srs");
   }
-  crs_wkt_ = text.get();
+  return text.get();
 }
 
 void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float* heights) const {

@@ -25,8 +25,9 @@ struct DatasetCloser {
 
 class RasterFile {
  public:
-  /// Opens it and checks that it may be read as heights: throws Error(input) as read_height_grid does.
-  explicit RasterFile(const std::filesystem::path& file);
+  /// Opens it and checks that it may be read as heights: throws Error(input) as read_height_grid does. `crs`: overrides
+  /// what the file says; empty: that counts.
+  explicit RasterFile(const std::filesystem::path& file, const std::string& crs = {});
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -46,6 +47,7 @@ class RasterFile {
   void open();
   void check_bands() const;
   void read_georeference();
+  std::string stated_crs(void* system) const;
   void read_rows(const PixelWindow& pixels, int begin, int end, float* heights) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& fix) const;
 

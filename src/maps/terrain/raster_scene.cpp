@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
 #include "maps/terrain/post_positions.h"
+#include "maps/terrain/raster_ground.h"
 #include "maps/terrain/tin.h"
 #include "maps/terrain/tin_mesh.h"
 #include "maps/terrain/triangulate.h"
@@ -67,17 +69,20 @@ Window window_round(const std::array<double, 4>& bbox_deg, const fs::path& file)
   return window;
 }
 
-HeightGrid read(const fs::path& file, const RasterRegion& region, const Progress& progress) {
+HeightGrid read(const fs::path& file, const RasterOptions& options, const Progress& progress) {
+  const RasterRegion& region = options.region;
+  const HeightReading reading{options.crs, options.heights, options.missing};
   if (region.pixels) {
     const auto [column, row, columns, rows] = *region.pixels;
-    return read_height_pixels(file, {column, row, columns, rows}, progress);
+    return read_height_pixels(file, {column, row, columns, rows}, progress, reading);
   }
-  if (region.bbox_deg) return read_height_grid(file, window_round(*region.bbox_deg, file), progress);
+  if (region.bbox_deg) return read_height_grid(file, window_round(*region.bbox_deg, file), progress, reading);
   if (region.center_deg) {
     const Eigen::Vector2d half = Eigen::Vector2d::Constant(region.radius_m);
-    return read_height_grid(file, Window{{(*region.center_deg)[1], (*region.center_deg)[0]}, -half, half}, progress);
+    return read_height_grid(file, Window{{(*region.center_deg)[1], (*region.center_deg)[0]}, -half, half}, progress,
+                            reading);
   }
-  return read_height_grid(file, std::nullopt, progress);
+  return read_height_grid(file, std::nullopt, progress, reading);
 }
 
 geo::LonLat origin_of(const HeightGrid& grid, const RasterOptions& options, const std::filesystem::path& file) {
@@ -187,6 +192,14 @@ std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size, const
   return inside;
 }
 
+Mesh beneath_voids(const HeightGrid& grid, const std::vector<Vec3>& posts) {
+  if (grid.lowest_m.empty()) return {};
+  std::vector<Eigen::Vector2d> places;
+  for (const Vec3& post : posts) places.push_back(post.head<2>());
+  const Eigen::Vector2d far = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  return lowest_in_voids(grid, places, -far, far);
+}
+
 Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double max_error_m, const fs::path& file,
                 const core::ProgressReporter& progress) {
   Box box;
@@ -218,7 +231,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
                               const Progress& callback) {
   using namespace internal::terrain;
   check(options, file);
-  const HeightGrid grid = read(file, options.region, callback);
+  const HeightGrid grid = read(file, options, callback);
   if (grid.columns < 2 || grid.rows < 2) {
     refuse(ErrorCode::region_invalid, "the region has a single row or column of posts, which is not a surface", file,
            "give a larger region");
@@ -237,8 +250,11 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   result.report.lowest_m = static_cast<double>(*lowest);
   result.report.highest_m = static_cast<double>(*highest);
   Scene& scene = result.scene;
+  const Mesh beneath = beneath_voids(grid, posts);
   if (options.max_error_m > 0) {
-    const TriangulatedTerrain surface(simplified(grid, posts, options.max_error_m, file, progress));
+    // Half of the error on either side, and then up by as much: all of it lies above the posts.
+    const TriangulatedTerrain surface =
+        raised_over(TriangulatedTerrain(simplified(grid, posts, options.max_error_m / 2, file, progress)), {posts});
     result.report.largest_error_m = largest_error(surface, posts);
     scene.mesh = surface.mesh();
   } else {
@@ -246,6 +262,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   }
   scene.object_of.assign(scene.mesh.triangles.size(), 0);
   scene.objects = {{"surface", "", ObjectKind::surface}};
+  add_voids(scene, 0, options.missing, void_entries(grid, frame, ObjectKind::surface), beneath);
   scene.source = file;
   scene.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, grid.vertical,
                                     grid.crs.code().empty() ? grid.crs.name() : grid.crs.code()};

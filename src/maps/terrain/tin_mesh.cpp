@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace vantage::internal::terrain {
 
@@ -35,6 +36,29 @@ Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted) {
     mesh.triangles.push_back(triangle);
   }
   return mesh;
+}
+
+TriangulatedTerrain raised_over(TriangulatedTerrain surface,
+                                std::initializer_list<std::reference_wrapper<const std::vector<Vec3>>> points) {
+  constexpr double kRounding_m = 1e-9;
+  std::vector<double> raise(surface.mesh().vertices.size(), 0);
+  bool is_raised = false;
+  for (const std::vector<Vec3>& list : points) {
+    for (const Vec3& point : list) {
+      const auto below = surface.find(point.head<2>());
+      if (!below) continue;
+      const double height = point.z() - below->height;
+      if (!(height > kRounding_m)) continue;
+      is_raised = true;
+      for (const std::uint32_t corner : surface.mesh().triangles[below->triangle]) {
+        raise[corner] = std::max(raise[corner], height);
+      }
+    }
+  }
+  if (!is_raised) return surface;
+  Mesh mesh = surface.mesh();
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].z() += raise[i];
+  return TriangulatedTerrain(std::move(mesh));
 }
 
 double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points) {

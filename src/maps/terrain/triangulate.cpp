@@ -135,10 +135,12 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   Tin tin(samples.corners);
   tin.add_candidates(samples.border);
   tin.add_middles(middles(grid, samples, tin.add_candidates(samples.inner)));
-  grow(tin, max_error_m, progress);
-  tin.fold_up(max_error_m);
-  std::vector<bool> all(tin.facets().size(), true);
-  Triangulation result{TriangulatedTerrain(mesh_of(tin, all)), 0, samples.posts.size()};
+  // Half of the error on either side, and then up by as much: all of it lies above the posts.
+  grow(tin, max_error_m / 2, progress);
+  tin.fold_up(max_error_m / 2);
+  const std::vector<bool> all(tin.facets().size(), true);
+  Triangulation result{raised_over(TriangulatedTerrain(mesh_of(tin, all)), {samples.border, samples.posts}), 0,
+                       samples.posts.size()};
   result.largest_error_m =
       std::max(largest_error(result.surface, samples.border), largest_error(result.surface, samples.posts));
   return result;

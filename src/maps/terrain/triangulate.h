@@ -26,10 +26,10 @@ struct Triangulation {
 
 /// Posts are inserted greedily, worst first, into a Delaunay triangulation (Garland and Heckbert, "Fast polygonal
 /// approximation of terrains and height fields", 1995, algorithm IV) until none differs by more than `max_error_m`
-/// (>= 0; 0 keeps every post that is not in the plane of its neighbours). Nor does the middle of a side or of a higher
-/// diagonal, in cells away from the border: whatever the frame, it is the same ground. Posts within 1 cm of the border
-/// count as on it. Throws Error(input) for a rectangle without an area or one that the grid does not cover;
-/// Error(cancelled). Cost: about n log n in the posts, see docs/terrain.md.
+/// (>= 0; 0 keeps every post that is not in the plane of its neighbours), and none lies above its triangle. Nor does
+/// the middle of a side or of a higher diagonal differ by more, in cells away from the border: whatever the frame, it
+/// is the same ground. Posts within 1 cm of the border count as on it. Throws Error(input) for a rectangle without an
+/// area or one that the grid does not cover; Error(cancelled). Cost: about n log n in the posts, see docs/terrain.md.
 Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen::Vector2d& min,
                           const Eigen::Vector2d& max, double max_error_m, const Progress& progress = {});
 

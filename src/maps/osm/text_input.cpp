@@ -1,4 +1,4 @@
-#include "maps/osm/xml_input.h"
+#include "maps/osm/text_input.h"
 
 #include <bzlib.h>
 #include <fcntl.h>
@@ -11,11 +11,9 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <osmium/io/compression.hpp>
-#include <osmium/io/file_compression.hpp>
+#include <system_error>
 
 #include "maps/osm/refused_input.h"
-#include "maps/osm/xml_bounds.h"
 
 namespace vantage::internal::osm {
 namespace {
@@ -34,14 +32,9 @@ class RawFile {
     struct stat status {};
     if (::fstat(descriptor_, &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
   }
-  ~RawFile() { close(); }
+  ~RawFile() { ::close(descriptor_); }
   RawFile(const RawFile&) = delete;
   RawFile& operator=(const RawFile&) = delete;
-
-  void close() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = -1;
-  }
 
   /// Reads on when all that was read is used; false at the end of the file.
   bool fill() {
@@ -212,62 +205,48 @@ std::unique_ptr<Unpacker> make_unpacker(std::string_view bytes) {
   return std::make_unique<NotPacked>();
 }
 
-/// For libosmium: XML, unpacked and within bounds. What it throws is handed to the thread that reads.
-class BoundedXml final : public osmium::io::Decompressor {
- public:
-  explicit BoundedXml(int descriptor) : file_(descriptor) {}
-
-  std::string read() override {
-    if (!unpacker_) {
-      file_.fill();
-      unpacker_ = make_unpacker(file_.unused());
-    }
-    std::string part = unpacker_->read(file_);
-    if (unpacked_ == 0 && !part.empty()) check_root(part);
-    unpacked_ += part.size();
-    if (unpacked_ > most_unpacked(file_.size())) {
-      throw RefusedInput(ErrorCode::file_too_large,
-                         "the map unpacks to more than " + std::to_string(most_unpacked(file_.size()) >> 20U) + " MiB",
-                         "",
-                         "if it is right, unpack it first (gunzip, bunzip2) or convert it (osmium cat -o map.osm.pbf)");
-    }
-    bounds_.add(part);
-    set_offset(static_cast<std::size_t>(file_.at()));
-    return part;
-  }
-
-  void close() override { file_.close(); }
-
- private:
-  /// Also that it is UTF-8, or else bounds would be looked for in vain.
-  static void check_root(std::string_view text) {
-    const std::string_view root = root_element(text);
-    if (root == "osm") return;
-    throw RefusedInput(ErrorCode::map_format_unknown,
-                       "the file is not an OpenStreetMap file: it looks like " + guess_content(text, root), "",
-                       "give an .osm, .osm.gz, .osm.bz2 or .osm.pbf file");
-  }
-
-  RawFile file_;
-  std::unique_ptr<Unpacker> unpacker_;
-  std::uint64_t unpacked_ = 0;
-  XmlBounds bounds_;
-};
-
-bool register_bounded_xml() {
-  return osmium::io::CompressionFactory::instance().register_compression(
-      osmium::io::file_compression::gzip, [](int, osmium::io::fsync) -> osmium::io::Compressor* { return nullptr; },
-      [](int descriptor) { return new BoundedXml(descriptor); },
-      [](const char*, std::size_t) -> osmium::io::Decompressor* { return nullptr; });
+int open_for_reading(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw std::system_error(errno, std::system_category());
+  return descriptor;
 }
 
 }  // namespace
 
-std::string bounded_xml_format() {
-  static const bool registered = register_bounded_xml();
-  if (!registered)
-    throw Error(ErrorCode::internal_defect, "libosmium reads gzip by itself: no bound would hold", "", "");
-  return "osm.gz";
+struct TextInput::Data {
+  explicit Data(int descriptor) : file(descriptor) {}
+
+  RawFile file;
+  std::unique_ptr<Unpacker> unpacker;
+  std::uint64_t unpacked = 0;
+};
+
+TextInput::TextInput(const std::filesystem::path& path) : data_(std::make_unique<Data>(open_for_reading(path))) {}
+TextInput::~TextInput() = default;
+
+std::string TextInput::read() {
+  if (!data_->unpacker) {
+    data_->file.fill();
+    data_->unpacker = make_unpacker(data_->file.unused());
+  }
+  std::string part = data_->unpacker->read(data_->file);
+  data_->unpacked += part.size();
+  const std::uint64_t most = most_unpacked(size());
+  if (data_->unpacked > most) {
+    throw RefusedInput(ErrorCode::file_too_large,
+                       "the map unpacks to more than " + std::to_string(most >> 20U) + " MiB", "",
+                       "if it is right, unpack it first (gunzip, bunzip2) or convert it (osmium cat -o map.osm.pbf)");
+  }
+  return part;
+}
+
+std::uint64_t TextInput::offset() const { return data_->file.at(); }
+std::uint64_t TextInput::size() const { return data_->file.size(); }
+
+bool is_json_object(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  return start != std::string_view::npos && text[start] == '{';
 }
 
 std::string_view root_element(std::string_view text) {
