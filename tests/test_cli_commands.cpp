@@ -202,12 +202,7 @@ TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
   const std::string start = std::string(kScene) + kTarget;
   expect_empty(start + "sensor: {max_range: 5}\n", "out_of_range");
   expect_empty(start + kSensor + "navigation: {altitude: [200, 300]}\n", "outside_limits");
-  // On one side of a panel 5 cm thick, looked at from the panel's inside.
-  write("panel.obj", std::string(kCity) +
-                         "o panel\nv 40 -99 0\nv 40 99 0\nv 40 99 99\nv 40 -99 99\nf 13 14 15 16\n"
-                         "v 40.05 -99 0\nv 40.05 99 0\nv 40.05 99 99\nv 40.05 -99 99\nf 17 18 19 20\n");
-  expect_empty(std::string("scene: {mesh: panel.obj}\n") + kSensor +
-                   "target: {vertices: [[40, -2, 2], [40, 2, 2], [40, 0, 6]], front: [1, 0, 0]}\n",
+  expect_empty(std::string(kScene) + "target: {point: [25, 0, 12]}\nsensor: {max_range: 60, link: {frequency: 2.4}}\n",
                "blocked_at_once");
 }
 

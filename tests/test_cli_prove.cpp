@@ -115,7 +115,42 @@ TEST_F(CliProve, TellsWhetherTheVolumeIsMaximal) {
   const std::string table = output_of({"prove", "mission.yaml", "v.ply", "--maximal"});
   EXPECT_NE(table.find("hidden"), std::string::npos) << table;
   EXPECT_NE(table.find("condition"), std::string::npos) << table;
+  EXPECT_NE(table.find("nothing is missing"), std::string::npos) << table;
   EXPECT_TRUE(nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--json"})).at("maximal").is_null());
+}
+
+/// One tooth of a saw on the far side is cut off: so little that four decimals would say all.
+TEST_F(CliProve, AllIsSaidOnlyOfAll) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
+  VolumeFile read = read_volume(folder_ / "v.ply", mission.scene());
+  Mesh& mesh = read.volume.mesh;
+  const auto highest = std::ranges::max_element(mesh.vertices, {}, [](const Vec3& v) { return v.z(); });
+  // In the place of that vertex a small pit, a tenth of a millimetre wide.
+  const auto top = static_cast<std::uint32_t>(highest - mesh.vertices.begin());
+  const Vec3 at = *highest;
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<std::uint32_t, 3> t = {a, b, c};
+    const auto place = std::ranges::find(t, top);
+    if (place == t.end()) {
+      triangles.push_back(t);
+      continue;
+    }
+    const std::uint32_t next = t[(place - t.begin() + 1) % 3], last = t[(place - t.begin() + 2) % 3];
+    const auto rim = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const std::uint32_t v : {next, last}) {
+      mesh.vertices.push_back(at + 1e-4 * (mesh.vertices[v] - at).normalized());
+    }
+    triangles.insert(triangles.end(), {{top, rim, rim + 1}, {rim, next, last}, {rim, last, rim + 1}});
+  }
+  mesh.vertices[top].z() -= 0.02;
+  mesh.triangles = triangles;
+  write_volume(read.volume, folder_ / "pit.ply");
+  const std::string table = output_of({"prove", "mission.yaml", "pit.ply", "--maximal"});
+  EXPECT_NE(table.find("99.9999 %"), std::string::npos) << table;
+  EXPECT_EQ(table.find("100.0000 %"), std::string::npos) << table;
+  EXPECT_EQ(table.find("nothing is missing"), std::string::npos) << table;
 }
 
 /// It is safe, so the exit code is that of what is proved.
@@ -361,6 +396,33 @@ TEST_F(CliProve, ACertificateReplacesNoSceneOfOthers) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "v.cert"));
   std::filesystem::remove(folder_ / "v.scene.ply");
   for (int time = 0; time < 2; ++time) write_certificate({}, mission, read, folder_ / "v.cert");
+}
+
+TEST_F(CliProve, ACertificateReplacesNothingOfOthers) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const auto ask = [&](const char* name) { expect_bad({"prove", "mission.yaml", "v.ply", "--certificate", name}, name); };
+  for (const char* text : {"mine", "", R"({"format": "vantage certificate 1"})", R"({"format":"vantage certificate"})",
+                           R"({"format":"vantage certificate 1 is what I need"})"}) {
+    for (const char* name : {"notes.txt", "notes.json", "notes.cert"}) {
+      write(name, text);
+      std::filesystem::create_symlink(folder_ / name, folder_ / "link.cert");
+      ask(name);
+      ask("link.cert");
+      EXPECT_EQ(testing::content(folder_ / name), text);
+      std::filesystem::remove(folder_ / "link.cert");
+    }
+  }
+  for (int time = 0; time < 2; ++time) {
+    for (const char* name : {"v.cert", "v.json", "v"}) {
+      output_of({"prove", "mission.yaml", "v.ply", "--certificate", name});
+      EXPECT_EQ(nlohmann::json::parse(testing::content(folder_ / name)).at("format"), "vantage certificate 1");
+    }
+  }
+  // As it may come there during the proof.
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
+  const VolumeFile read = read_volume(folder_ / "v.ply", mission.scene());
+  testing::expect_code([&] { write_certificate({}, mission, read, folder_ / "notes.cert"); },
+                       ErrorCode::output_of_others, "notes.cert");
 }
 
 TEST_F(CliProve, APipeInThePlaceOfTheReportIsNotOpened) {

@@ -1,6 +1,7 @@
 // How a computation ends when it does not end with a volume: outcomes with a reason and a hint, errors with a way out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/error.h"
+#include "vantage/prove.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 
@@ -101,16 +103,44 @@ TEST(ExactOutcomes, ATriangleSeenFromItsLongSideIsComputed) {
   }
 }
 
-TEST(ExactOutcomes, AgainstAWallIsBlockedAtOnce) {
+TEST(ExactOutcomes, AgainstAWallIsComputedAndTold) {
   const Scene scene = SceneBuilder().ground("ground", 100).box("barn", {-60, -1, 0}, {60, -0.02, 60});
   const Volume volume = compute(scene, facade(4, {0, 0, 20}));  // looks to -y, into the barn's wall
-  EXPECT_EQ(volume.outcome, Outcome::blocked_at_once);
-  EXPECT_TRUE(contains(volume.reason, "\"barn\"")) << volume.reason;
-  EXPECT_TRUE(contains(volume.hint, "front")) << volume.hint;
-  EXPECT_TRUE(volume.mesh.empty());
+  EXPECT_EQ(volume.outcome, Outcome::computed);
+  ASSERT_EQ(volume.notes.size(), 1U);
+  EXPECT_EQ(volume.notes[0].code, WarningCode::target_covered);
+  testing::expect_wording(volume.notes[0].text);
   Target turned = facade(4, {0, 0, 20});
   turned.front = Vec3(0, 1, 0);
-  EXPECT_EQ(compute(scene, turned).outcome, Outcome::computed);
+  const Volume right = compute(scene, turned);
+  EXPECT_EQ(right.outcome, Outcome::computed);
+  EXPECT_TRUE(right.notes.empty());
+}
+
+/// What is computed for a short range is computed for a longer one, which allows more.
+TEST(ExactOutcomes, UnderASheetAllRangesAreComputed) {
+  for (const double height : {0.003, 0.01, 0.09, 0.2}) {
+    const Scene scene = SceneBuilder().ground("ground", 50).polygon(
+        "plate", {{-60, -60, height}, {60, -60, height}, {60, 60, height}, {-60, 60, height}});
+    const Target target = square(2, {0, 0, 0});
+    double before = 0;
+    for (const double range : {4.0, 17.9, 19.0, 20.0, 40.0}) {
+      SCOPED_TRACE(testing::Message() << height << " m, range " << range);
+      const Volume volume = compute(scene, target, range);
+      ASSERT_EQ(volume.outcome, Outcome::computed);
+      const double found = enclosed_volume(volume.mesh);
+      EXPECT_GT(found, before);
+      before = found;
+      EXPECT_EQ(!volume.notes.empty(), height < 0.1 * std::min(1.0, range / 20));
+      const ProofReport proof = prove_volume(scene, target, {.max_range_m = range}, {}, volume.mesh,
+                                             {.lift_m = volume.lift_m});
+      EXPECT_EQ(proof.verdict(), ProofVerdict::proved);
+      Mesh raised = volume.mesh;
+      for (Vec3& vertex : raised.vertices) vertex.z() *= 1.001;
+      EXPECT_NE(prove_volume(scene, target, {.max_range_m = range}, {}, raised, {.lift_m = volume.lift_m}).verdict(),
+                ProofVerdict::proved);
+    }
+  }
 }
 
 TEST(ExactOutcomes, TheSurfaceUnderTheTargetDoesNotBlock) {

@@ -336,6 +336,10 @@ TEST_F(PlanMissionTour, ItsCertificateReplacesNothingOfOthers) {
   EXPECT_EQ(read_bytes(folder_ / "tour.region1.ply"), "ply\nof somebody\n");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "tour.region0.ply"));
   std::filesystem::remove(folder_ / "tour.region1.ply");
+  write_bytes(folder_ / "tour.cert", "of somebody");
+  expect_code(plan, ErrorCode::output_of_others, "tour.cert");
+  EXPECT_EQ(read_bytes(folder_ / "tour.cert"), "of somebody");
+  std::filesystem::remove(folder_ / "tour.cert");
   plan();
   plan();  // its own files it may replace
   expect_error([&] { plan_mission_tour(of, {.certificate = folder_ / "plaza.obj"}); },

@@ -4,8 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -247,6 +250,60 @@ TEST(ProveMaximal, ABoxThatIsHiddenHasNoWitnessInFront) {
     const Vec3 &p = box.vertices[a], &q = box.vertices[b], &r = box.vertices[c];
     const bool is_far = (q - p).cross(r - p).dot(p - Vec3(0, 0, 0.5)) > 0;
     EXPECT_EQ(proof.facets[i].kind, is_far ? WitnessKind::hidden : WitnessKind::none) << i;
+  }
+}
+
+/// The facets of all directions that are near the normal, moved towards the target until they are 1e-8 of a metre wide.
+TEST(ProveMaximal, ATinyHoleThatAConeOfDirectionsIsMissingByIsOpen) {
+  const Scene scene = testing::SceneBuilder().ground("ground", 60, -5).box("block", {4, -3, -5}, {6, 3, 4});
+  const Target target = testing::target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+  const Sensor sensor{.max_range_m = 20};
+  const Mesh whole = compute_volume(PreparedTarget(PreparedScene(scene), target, sensor)).mesh;
+  ASSERT_TRUE(prove_volume(scene, target, sensor, {}, whole, {.maximal = true}).maximal->open.empty());
+  constexpr double kNear = 0x1p-28;
+  const auto is_in_cone = [&](std::uint32_t v) { return whole.vertices[v].normalized().z() > 0.5; };
+  Mesh cut{whole.vertices, {}};
+  for (const Vec3& vertex : whole.vertices) cut.vertices.push_back(kNear * vertex);
+  const auto near = [&](std::uint32_t v) { return v + static_cast<std::uint32_t>(whole.vertices.size()); };
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const Triangle& t : whole.triangles) {
+    const auto& [a, b, c] = t;
+    if (!std::all_of(t.begin(), t.end(), is_in_cone)) {
+      cut.triangles.push_back(t);
+      continue;
+    }
+    cut.triangles.push_back({near(a), near(b), near(c)});
+    edges.insert({{a, b}, {b, c}, {c, a}});
+  }
+  for (const auto& [a, b] : edges) {
+    if (edges.contains({b, a})) continue;
+    cut.triangles.push_back({a, b, near(b)});
+    cut.triangles.push_back({a, near(b), near(a)});
+  }
+  const ProofReport report = prove_volume(scene, target, sensor, {}, cut, {.maximal = true});
+  EXPECT_EQ(report.verdict(), ProofVerdict::proved);  // it is safe
+  EXPECT_TRUE(report.maximal->conditions_hold());
+  EXPECT_GT(report.maximal->open.size(), 10u);
+  EXPECT_LT(report.maximal->proved_share, 1);
+}
+
+/// Products of its coordinates are zero, so that no facet would be left that is open.
+TEST(ProveMaximal, AVolumeBelowWhatDoublesCanSquareIsRefused) {
+  const Scene scene = testing::SceneBuilder().ground("ground", 60, -20);
+  const Sensor sensor{.max_range_m = 10};
+  const Target target = Target::point({0, 0, 0});
+  for (const double size : {1e-62, 1e-90, 1e-170, 1e-300}) {
+    const Mesh tiny = testing::make_box_mesh(Vec3::Constant(-size), Vec3::Constant(1.1 * size));
+    testing::expect_code([&] { prove_volume(scene, target, sensor, {}, tiny, {.maximal = true}); },
+                         ErrorCode::value_out_of_range, "volume");
+    testing::expect_code([&] { prove_maximal(scene, target, sensor, {}, tiny); }, ErrorCode::value_out_of_range,
+                         "volume");
+  }
+  for (const double size : {1e-55, 1e-30, 1e-9}) {
+    const Mesh small = testing::make_box_mesh(Vec3::Constant(-size), Vec3::Constant(1.1 * size));
+    const MaximalProof proof = prove_maximal(scene, target, sensor, {}, small);
+    EXPECT_EQ(proof.proved_share, 0) << size;
+    EXPECT_EQ(proof.open.size(), 12u) << size;
   }
 }
 

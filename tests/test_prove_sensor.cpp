@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/random.h"
 #include "support/scenes.h"
 #include "support/wording.h"
 #include "vantage/prove.h"
@@ -213,6 +214,40 @@ TEST(ProveSensor, ACameraThatTurnsAndRolls) {
     EXPECT_EQ(sensor_claim(place, sensor, volume_with(place, sensor)).verdict, ProofVerdict::proved)
         << camera.width_deg;
   }
+}
+
+/// Each camera sees the target from so near that neighbouring facets of the volume need other orientations.
+TEST(ProveSensor, CamerasThatTurnOfManyKinds) {
+  const Scene scene = SceneBuilder().ground("ground", 500, -1);
+  testing::Random random(73);
+  int made = 0;
+  for (int draw = 0; draw < 12; ++draw) {
+    SCOPED_TRACE(testing::Message() << "draw " << draw << " of seed 73");
+    const double radius = std::pow(10, random.uniform(-0.3, 1)), tilt = draw % 2 == 0 ? 0 : random.uniform(0, 1.5);
+    const Eigen::AngleAxisd turn(tilt, Vec3(std::cos(draw), std::sin(draw), 0));
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 3 + draw % 5; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + random.uniform(0, 0.8)) / (3 + draw % 5);
+      corners.push_back(Vec3(0, 0, 2 * radius) + turn * Vec3(radius * std::cos(angle), radius * std::sin(angle), 0));
+    }
+    Target target = Target::polygon(corners);
+    target.front = turn * Vec3::UnitZ();
+    const double width = random.uniform(25, 120), height = random.uniform(25, 90);
+    Sensor sensor{.max_range_m = radius + 3 * radius / std::tan(std::min(width, height) / 2 * kDegree)};
+    sensor.camera = pinhole_of_fov(width, height);
+    sensor.mount = {.min_pitch_deg = -90, .max_pitch_deg = draw % 3 * 30.0, .roll_deg = draw % 4 == 0 ? 20.0 : 0.0};
+    const Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, sensor), {}, {.tolerance_m = 0.1});
+    if (volume.empty()) continue;
+    const auto verdict = [&](double scale) {
+      Mesh mesh = volume.mesh;
+      for (Vec3& vertex : mesh.vertices) vertex = volume.frame.origin + scale * (vertex - volume.frame.origin);
+      return prove_volume(scene, target, sensor, {}, mesh, {.lift_m = volume.lift_m}).claims.back().verdict;
+    };
+    EXPECT_EQ(verdict(1), ProofVerdict::proved);
+    EXPECT_EQ(verdict(0.97), ProofVerdict::not_proved);  // nearer than the picture allows
+    ++made;
+  }
+  EXPECT_GT(made, 8);
 }
 
 /// What does not keep the frame is not proved, as no search shows that there is no orientation.

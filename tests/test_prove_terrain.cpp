@@ -165,6 +165,62 @@ Mesh box_in_storeys(const Vec3& low, const Vec3& high, std::vector<double> heigh
   return mesh;
 }
 
+/// What is computed above steps of the ground is proved; moved up or down by a millimetre it is not.
+void expect_computed_is_proved(const Mesh& surface, double min_m, double max_m) {
+  Scene scene;
+  scene.mesh = surface;
+  scene.objects.push_back({.name = "ground"});
+  scene.object_of.assign(surface.triangles.size(), 0);
+  const Navigation navigation = above_surface(surface, min_m, max_m);
+  const Target target = Target::polygon({{-2, -2, 6}, {2, -2, 6}, {2, 2, 6}, {-2, 2, 6}});
+  const Sensor sensor{.max_range_m = 40};
+  const Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, sensor), navigation);
+  ASSERT_FALSE(volume.empty()) << volume.reason;
+  const auto verdict = [&](double by) {
+    Mesh moved = volume.mesh;
+    for (Vec3& vertex : moved.vertices) vertex.z() += by;
+    return prove_volume(scene, target, sensor, navigation, moved, {.lift_m = volume.lift_m}).claims.back().verdict;
+  };
+  EXPECT_EQ(verdict(0), ProofVerdict::proved);
+  for (const double by : {-1e-3, 1e-3}) EXPECT_NE(verdict(by), ProofVerdict::proved) << by;
+}
+
+/// Three grounds, or four, meet in a point: walls straight above two steps keep the heights only off both of them.
+TEST(ProveTerrain, WithStepsThatMeet) {
+  struct Ground {
+    double beside, beyond, opposite, max_m;
+  };
+  for (const Ground& ground : std::vector<Ground>{{1, 0, 1.5, 13}, {1, 0.5, 1.5, 13}, {4, 2, 5, 30}, {-8, 4, -12, 63}}) {
+    SCOPED_TRACE(ground.opposite);
+    Mesh surface;
+    add_rectangle(surface, {-70, -70}, {10, 10}, 0);
+    add_rectangle(surface, {10, -70}, {70, 10}, ground.beside);
+    add_rectangle(surface, {-70, 10}, {10, 70}, ground.beyond);
+    add_rectangle(surface, {10, 10}, {70, 70}, ground.opposite);
+    expect_computed_is_proved(surface, 3, ground.max_m);
+  }
+}
+
+/// Rows of terraces, each cut at other places.
+TEST(ProveTerrain, OfRandomTerraces) {
+  Random random(72);
+  for (int draw = 0; draw < 6; ++draw) {
+    SCOPED_TRACE(testing::Message() << "draw " << draw << " of seed 72");
+    Mesh surface;
+    double y = -70;
+    while (y < 70) {
+      const double next_y = std::min(70.0, y + random.uniform(12, 40));
+      for (double x = -70; x < 70;) {
+        const double next_x = std::min(70.0, x + random.uniform(12, 40));
+        add_rectangle(surface, {x, y}, {next_x, next_y}, random.uniform(0, 4));
+        x = next_x;
+      }
+      y = next_y;
+    }
+    expect_computed_is_proved(surface, random.uniform(2, 6), random.uniform(12, 30));
+  }
+}
+
 /// Where a deck lies over other ground nothing keeps the heights of both. A fin straight below the side that two of its
 /// triangles share is as near to the lower ground alone as one at the deck's border is.
 TEST(ProveTerrain, UnderADeck) {

@@ -18,7 +18,7 @@ TEST(Report, TellsWhatWasComputed) {
   Volume volume = vantage::testing::make_hemisphere(Vec3(1, 2, 3), 10);
   volume.causes[1].area_m2 = 12.5;
   volume.tolerance_m = 0.02;
-  volume.lift_m = {1e-4};
+  volume.lift_m = {1e-5, 1e-4};
   volume.counts = {11, 12, 13, 14, 15, 16};
   volume.seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 1.5};
   const MeshMeasures measures = measure(volume.mesh);
@@ -42,7 +42,8 @@ TEST(Report, TellsWhatWasComputed) {
   EXPECT_EQ(report.at("closed"), true);
   EXPECT_EQ(report.at("oriented"), true);
   EXPECT_EQ(report.at("tolerance_m"), 0.02);
-  EXPECT_EQ(report.at("lift_m"), 1e-4);
+  EXPECT_EQ(report.at("lift_m"), 1e-4);  // the largest
+  EXPECT_EQ(report.at("lift_of_part_m"), json({1e-5, 1e-4}));
   EXPECT_EQ(report.at("bounding_box").at("min"), json({-9.0, -8.0, 3.0}));
   EXPECT_EQ(report.at("bounding_box").at("max"), json({11.0, 12.0, 13.0}));
   ASSERT_EQ(report.at("causes").size(), volume.causes.size());

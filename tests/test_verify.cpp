@@ -348,6 +348,22 @@ TEST(Verify, ReportsAMeshWithHoles) {
   EXPECT_EQ(report.points, 0U);
 }
 
+/// They claim nothing: two that cancel each other, of one line, and one that two of its corners lie in one place of.
+TEST(Verify, FacetsOfNoExtentAreToldAndNotWrong) {
+  Example example = plate_example();
+  Mesh mesh = example.truth;
+  const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{0, 0, -0.5}, {0, 0, 1}, {0, 0, 2}, mesh.vertices[0]});
+  mesh.triangles.insert(mesh.triangles.end(),
+                        {{next, next + 1, next + 2}, {next, next + 2, next + 1}, {0, next + 3, 1}});
+  const VerifyReport report = example.verify(mesh);
+  EXPECT_EQ(report.flat_facets, 3U);
+  EXPECT_TRUE(report.is_right());
+  EXPECT_EQ(example.verify(example.truth).flat_facets, 0U);
+  for (Vec3& vertex : mesh.vertices) vertex *= 1.01;
+  EXPECT_FALSE(example.verify(mesh).is_right());
+}
+
 /// Of a needle no point is tried: nothing is known of it then.
 TEST(Verify, AVolumeWithoutAPointInsideIsNotRight) {
   Example example = plate_example();

@@ -253,6 +253,7 @@ enum class WarningCode {
   volume_moved,             ///< the volume lies about another origin on the earth and was moved
   heights_differ,           ///< heights are measured from another level than the scene's
   rounding_overstated,      ///< the file states a larger rounding than its numbers can have
+  target_covered,      ///< the scene covers the target within a hand's breadth: most likely its wrong side is looked at
 };
 
 /// All codes, in the order of their declaration.

@@ -55,14 +55,14 @@ struct VerifyReport {
   bool closed = false;           ///< every edge has an even number of facets, with vertices in one place taken for one,
   OpenEdges open_edges;          ///< those that have not: then no points are tried
   bool oriented = false;         ///< and is run as often in one direction as in the other
-  std::size_t flat_facets = 0;   ///< facets without area, or with two corners in one place: readers that weld vertices
-                                 ///< find the mesh open at them
+  std::size_t flat_facets = 0;   ///< facets without area, or with two corners in one place: they claim nothing, but
+                                 ///< readers that weld vertices find the mesh open at them
   long euler = 0;
   std::uint64_t seed = 0;
   double lift_m = 0, rounding_m = 0;  ///< what was allowed: the largest lift of a part, as far as it is believed, and
                                       ///< the file's rounding
 
-  bool is_solid() const { return closed && oriented && flat_facets == 0; }
+  bool is_solid() const { return closed && oriented; }
   bool is_right() const { return over_claimed == 0 && inside > 0 && is_solid(); }
 };
 
@@ -70,7 +70,7 @@ struct VerifyReport {
 /// interior, and to where scene geometry reaches between the viewpoint and the target. Grazing is allowed: a hit closer
 /// to a triangle's border than 1e-9 of its size does not count. Hits lower than 1 mm over the target itself count as
 /// the surface that it lies on. A volume is right when nothing is over-claimed of the viewpoints inside it, of which
-/// there must be some, and its mesh is a closed, oriented surface for whoever reads it; see docs/verification.md. Of a
+/// there must be some, and its mesh is a closed, oriented surface; see docs/verification.md. Of a
 /// mesh with holes, which has no inside, only that is reported. What is claimed must see every part of the target
 /// whole, and what is not must miss some of one. Where the sensor has a VisibleShare, what is claimed must see that
 /// part of the area: the shadows of the scene's triangles are cut out of it. The limits of the sensor are judged by

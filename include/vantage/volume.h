@@ -49,9 +49,10 @@ VANTAGE_API Cause cause_of_object(std::uint32_t index, const SceneObject& object
 enum class Outcome {
   computed,
   out_of_range,     ///< no point is within max_range of all vertices
-  blocked_at_once,  ///< the front is covered by the scene within a hand's breadth (0.1 m; where max_range is less than
-                    ///< 20 m, less in proportion): most likely the wrong side. Of spheres: a vertex sees nothing, or
-                    ///< no point is in all of them. Of a link: something enters the zone of every position
+  blocked_at_once,  ///< the front is covered by the scene as closely as only its own surface is (2 mm; where max_range
+                    ///< is less than 20 m, less in proportion). Of spheres: a vertex sees nothing farther than 0.1 m
+                    ///< (likewise), or no point is in all of them. Of a link: something enters the zone of every
+                    ///< position
   outside_limits,   ///< the navigation limits leave nothing
   no_common_view,   ///< of a target in parts: no point sees all of them; of a VisibleShare: none sees so much
 };

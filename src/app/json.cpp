@@ -228,6 +228,7 @@ Json json_of(const ProofReport& report) {
   json["layer_m"] = report.layer_m;
   json["lift_m"] = report.lift_m;
   json["scene_incomplete"] = report.scene_incomplete.empty() ? Json(nullptr) : Json(report.scene_incomplete);
+  json["lift_of_part_m"] = report.lift_of_part_m;
   json["seconds"] = report.seconds;
   return json;
 }

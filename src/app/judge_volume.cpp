@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <vector>
 
 #include "app/combine_targets.h"
 #include "common/input.h"
@@ -18,19 +18,25 @@ namespace {
 
 constexpr double kMostLift = ProveOptions::kMostLift;  // a target is raised by no more than 2.01 mm
 
-/// The largest lift of the target's parts, by the report beside the file, if there is one.
-std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) {
+/// The lifts of the target's parts, by the report beside the file, if there is one: of a report that does not tell them
+/// apart, the largest one for all.
+std::vector<double> reported_lifts_m(const std::filesystem::path& volume_file, std::size_t parts) {
   std::filesystem::path volume = volume_file;
   if (volume.extension() == ".gz") volume.replace_extension();
   const std::filesystem::path report = report_file(volume);
   std::error_code ignored;
-  if (!std::filesystem::exists(report, ignored)) return std::nullopt;
+  if (!std::filesystem::exists(report, ignored)) return std::vector<double>(parts, 0);
   check_readable(report, "the report beside the volume");
   std::ifstream in(report);
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  const double lift =
-      json.is_object() && json.contains("lift_m") && json["lift_m"].is_number() ? json["lift_m"].get<double>() : -1;
-  if (lift >= 0 && lift <= kMostLift) return lift;
+  const auto is_lift = [](const nlohmann::json& lift) {
+    return lift.is_number() && lift.get<double>() >= 0 && lift.get<double>() <= kMostLift;
+  };
+  if (json.is_object() && json.contains("lift_m") && is_lift(json["lift_m"])) {
+    const nlohmann::json each = json.value("lift_of_part_m", nlohmann::json());
+    if (!each.is_array() || each.size() != parts) return std::vector<double>(parts, json["lift_m"].get<double>());
+    if (std::all_of(each.begin(), each.end(), is_lift)) return each.get<std::vector<double>>();
+  }
   throw Error(ErrorCode::record_garbled, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
               "write it again with \"vantage compute\", or say how far the target was raised with --lift");
 }
@@ -140,7 +146,7 @@ VerifyOptions verify_options(const VolumeFile& read, const Mission& mission) {
   for (const std::vector<Target>& view : internal::app::views_of(mission)) {
     for (const Target& target : view) parts += target.parts.size();
   }
-  if (options.lift_m.size() != parts) options.lift_m.assign(parts, reported_lift_m(read.file).value_or(0));
+  if (options.lift_m.size() != parts) options.lift_m = reported_lifts_m(read.file, parts);
   return options;
 }
 

@@ -215,10 +215,9 @@ void check_certificate_files(const fs::path& certificate_file, const fs::path& v
     throw Error(ErrorCode::not_applicable, "a certificate is about the numbers of a PLY file", volume_file.string(),
                 "write the volume as .ply");
   }
-  check_derived_output(certificate_scene_file(certificate_file));
   for (const fs::path& file : {certificate_file, certificate_scene_file(certificate_file)}) {
-    check_can_write(file);
     check_not_an_input(file, inputs);
+    check_certificate_output(file);
   }
   std::error_code ignored;
   if (!fs::equivalent(folder_of(certificate_file), folder_of(volume_file), ignored)) {
@@ -243,7 +242,7 @@ void write_certificate(const Certificate& certificate, const Mission& mission, c
   auto files = stage_scene(scene, scene_file).files;
   files.push_back(std::make_unique<AtomicFile>(certificate_file));
   files.back()->write(certificate_text(certificate, about));
-  check_derived_output(scene_file);  // the proof may have taken long
+  for (const fs::path& file : {certificate_file, scene_file}) check_certificate_output(file);  // it may have taken long
   commit_all(files);
 }
 

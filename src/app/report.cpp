@@ -108,6 +108,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   }
   report["tolerance_m"] = volume.tolerance_m;
   report["lift_m"] = volume.lift_m.empty() ? 0 : *std::max_element(volume.lift_m.begin(), volume.lift_m.end());
+  report["lift_of_part_m"] = volume.lift_m;
   if (volume.georeference) report["georeference"] = internal::io::georeference_json(*volume.georeference);
   if (!volume.attribution.empty()) report["attribution"] = volume.attribution;
   report["bounding_box"] = box_json(measures.bounds);

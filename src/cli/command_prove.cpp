@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -71,13 +72,22 @@ const char* meaning_of(WitnessKind kind) {
   return "";
 }
 
-std::string percent(double share) { return fixed(100 * share, 4) + " %"; }
+/// What is proved is rounded down, and what is open up: 100 % is all, and 0 % nothing.
+std::string proved_percent(double share) { return fixed(std::floor(1e6 * share) / 1e4, 4) + " %"; }
+std::string open_percent(double share) { return fixed(std::ceil(1e6 * share) / 1e4, 4) + " %"; }
+
+const char* meaning_of_share(const MaximalProof& proof) {
+  if (!proof.conditions_hold()) return "of the surface; a piece that is missing as a whole is not noticed";
+  if (!proof.open.empty()) return "of the surface; beyond the open facets something may be missing";
+  return "of the surface: nothing is missing";
+}
 
 void add_maximal(const MaximalProof& proof, TextTable& table) {
   table.heading("is anything missing beyond the surface?");
   for (const MaximalProof::Row& row : proof.rows) {
     const std::string name = row.limit.empty() ? std::string(name_of(row.kind)) : row.limit;
-    table.row(name, percent(row.area_share), meaning_of(row.kind));
+    const bool is_open = row.kind == WitnessKind::none;
+    table.row(name, is_open ? open_percent(row.area_share) : proved_percent(row.area_share), meaning_of(row.kind));
   }
   for (const MaximalCondition& condition : proof.conditions) {
     table.row("condition", condition.holds ? "holds" : "does not hold", condition.text);
@@ -92,9 +102,7 @@ void add_maximal(const MaximalProof& proof, TextTable& table) {
   }
   if (!proof.open.empty()) table.row("open facets", count(proof.open.size()), "--json lists them");
   table.row("time", fixed(proof.seconds, 3), "seconds of those below");
-  table.row("maximal", percent(proof.proved_share),
-            proof.conditions_hold() ? "of the surface: where it is all, nothing is missing"
-                                    : "of the surface; a piece that is missing as a whole is not noticed");
+  table.row("maximal", proved_percent(proof.proved_share), meaning_of_share(proof));
 }
 
 std::string table_text(const ProofReport& report, const std::string& file, bool asks_maximal) {
@@ -104,7 +112,7 @@ std::string table_text(const ProofReport& report, const std::string& file, bool 
   table.row("facets", count(report.tested_facets), "that a line of sight can leave the volume by, all looked at");
   if (!report.unproved.empty()) {
     table.row("open facets", count(report.unproved.size()),
-              fixed(100 * report.unproved_area_share, 4) + " % of the surface");
+              open_percent(report.unproved_area_share) + " of the surface");
   }
   table.row("planes", count(report.separations),
             "each with the scene on one side and views of the target on the other");

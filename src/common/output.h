@@ -26,7 +26,7 @@ VANTAGE_API void check_can_write(const std::filesystem::path& file);
 /// check_can_write, and Error(input) where a file of that name is there that vantage did not write. It is known by what
 /// vantage writes first, to the letter and with a version: the first comment of PLY, OBJ and KML (of KMZ that of the
 /// first file in it), the header of STL, the generator of GLB, the software of PNG; the columns of a table, the keys of
-/// a report and of a place file. Cost: reads a JSON file of up to 64 MB, and the first 64 KiB of another one.
+/// a report and of a place file, the format of a certificate. Cost: reads a JSON file of up to 64 MB, and the first 64 KiB of another one.
 VANTAGE_API void check_derived_output(const std::filesystem::path& file);
 
 /// What chooses the format: the extension in lower case, ".ply".
@@ -86,6 +86,9 @@ VANTAGE_API void check_volume_output(const std::filesystem::path& file);
 /// The same of a scene, which is not written as a folder: Error(output_format_unknown) for a format that holds volumes
 /// alone.
 VANTAGE_API void check_scene_output(const std::filesystem::path& file);
+
+/// The same of a certificate, and of what lies beside it: it replaces nothing that vantage did not write.
+VANTAGE_API void check_certificate_output(const std::filesystem::path& file);
 
 /// To call before a long computation: whether the formats of these files can place volumes of a scene there on the
 /// earth. `sea_level_z_m`, of KML: z of the mean sea level (sea_level_m of a mission); without it 0 where the scene's

@@ -39,13 +39,14 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::volume_moved, "volume-moved"},
     WarningRow{WarningCode::heights_differ, "heights-differ"},
     WarningRow{WarningCode::rounding_overstated, "rounding-overstated"},
+    WarningRow{WarningCode::target_covered, "target-covered"},
 };
 
 constexpr bool are_warnings_in_order() {
   for (std::size_t i = 0; i < kWarningRows.size(); ++i) {
     if (static_cast<std::size_t>(kWarningRows[i].code) != i) return false;
   }
-  return kWarningRows.back().code == WarningCode::rounding_overstated;
+  return kWarningRows.back().code == WarningCode::target_covered;
 }
 static_assert(are_warnings_in_order(), "one row for each code, in the order of their declaration");
 

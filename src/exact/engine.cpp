@@ -39,7 +39,21 @@ void check(const PreparedTarget& target, const ExactOptions& options) {
   }
 }
 
-void set_mesh(HalfSpaceVolume side, const TargetFrame& frame, Volume& volume) {
+/// Tells where the scene covers the target within a hand's breadth: most likely the wrong side of it is looked at. The
+/// volume is right all the same.
+void note_cover(const HalfSpaceVolume& side, const TargetFrame& frame, double max_range, Volume& volume) {
+  const auto widest = widest_cause(side.causes);
+  if (!side.ends_within(internal::target::hand_breadth(max_range)) || widest.kind != CauseKind::scene) return;
+  volume.notes.push_back(
+      {WarningCode::target_covered,
+       '"' + widest.name + "\" covers the target within " + internal::core::metres_text(side.height) +
+           (frame.all_sides ? ": if it lies in there, move it out"
+                            : ": if it looks into what it lies on, turn it round with front:, or raise it with "
+                              "offset:")});
+}
+
+void set_mesh(HalfSpaceVolume side, const TargetFrame& frame, double max_range, Volume& volume) {
+  note_cover(side, frame, max_range, volume);
   volume.counts = side.counts;
   for (Vec3& v : side.mesh.vertices) v = frame.to_scene(v);
   volume.causes = std::move(side.causes);
@@ -64,12 +78,12 @@ void set_mesh(HalfSpaceVolume side, const TargetFrame& frame, Volume& volume) {
 /// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
 void fill_volume(HalfSpaceVolume side, const TargetFrame& frame, double max_range, Volume& volume,
                  const std::string& what, const std::string& hint) {
-  const double near = internal::target::min_useful_depth(max_range);
-  if (!side.blocked_within(near)) return set_mesh(std::move(side), frame, volume);
+  const double near = internal::target::most_lift(max_range);
+  if (!side.ends_within(near)) return set_mesh(std::move(side), frame, max_range, volume);
   volume.counts = side.counts;
   volume.outcome = Outcome::blocked_at_once;
   volume.reason =
-      '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + internal::core::metres_text(near);
+      '"' + widest_cause(side.causes).name + "\" covers " + what + " within " + internal::core::metres_text(near);
   volume.hint = hint;
 }
 
@@ -154,9 +168,9 @@ std::optional<Volume> compute_star_visibility(const PreparedTarget& target, cons
   const double max_range = range_limit_m(target.sensor());
   const target::RangeRegion range(star->frame.polygon, max_range);
   HalfSpaceVolume side = compute_half_space(target.scene(), star->frame, star->cover, range, options, progress);
-  if (side.blocked_within(target::min_useful_depth(max_range))) return std::nullopt;
+  if (side.ends_within(target::most_lift(max_range))) return std::nullopt;
   Volume volume = volume_for(target, options);
-  set_mesh(std::move(side), star->frame, volume);
+  set_mesh(std::move(side), star->frame, max_range, volume);
   volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
   return volume;
 }
@@ -178,7 +192,7 @@ LimitedVisibility compute_visibility_within(const PreparedTarget& target, const 
   });
   if (!side) return {How::failed, {}};
   if (side->mesh.empty()) return {How::needs_booleans, {}};
-  set_mesh(std::move(*side), star.frame, volume);
+  set_mesh(std::move(*side), star.frame, range_limit_m(target.sensor()), volume);
   volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
   return {How::computed, std::move(volume)};
 }

@@ -229,11 +229,9 @@ std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& sc
   return compute(scene, frame, cover, range, &limits, options, progress);
 }
 
-std::string widest_scene_cause(const std::vector<Cause>& causes) {
-  const auto widest = std::max_element(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) {
-    return (a.kind == CauseKind::scene ? a.area_m2 : 0) < (b.kind == CauseKind::scene ? b.area_m2 : 0);
-  });
-  return widest->name;
+const Cause& widest_cause(const std::vector<Cause>& causes) {
+  const auto area = [](const Cause& cause) { return cause.kind == CauseKind::target_plane ? 0 : cause.area_m2; };
+  return *std::ranges::max_element(causes, {}, area);
 }
 
 }  // namespace vantage::internal::exact

@@ -24,8 +24,8 @@ struct HalfSpaceVolume {
   double height = 0;        ///< up to which the mesh reaches over the target's plane, metres
   double range_height = 0;  ///< up to which the range alone would let it reach, straight over the centre
 
-  /// Whether the scene, not the range, ends it that close to the target.
-  bool blocked_within(double distance) const { return height < distance && range_height > distance; }
+  /// Whether the scene, not the range, ends it that close to the target's plane.
+  bool ends_within(double distance) const { return height < distance && range_height > distance; }
 };
 
 /// The frame's polygon has at least 3 vertices; `range` is about the frame's origin. Throws Error(cancelled), and
@@ -67,7 +67,7 @@ std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& sc
 /// is next to it. Cost: O(n log n) in the vertices in the plane, and linear in the facets.
 HalfSpaceVolume join_half_spaces(const HalfSpaceVolume& front, const HalfSpaceVolume& back);
 
-/// Name of the scene object that most of the boundary is due to.
-std::string widest_scene_cause(const std::vector<Cause>& causes);
+/// What most of the boundary is due to, but for the target's plane.
+const Cause& widest_cause(const std::vector<Cause>& causes);
 
 }  // namespace vantage::internal::exact

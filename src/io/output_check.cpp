@@ -96,6 +96,15 @@ void check_derived_output(const fs::path& file) {
               file.string(), "move that file away, or give the output another name with -o");
 }
 
+void check_certificate_output(const fs::path& file) {
+  try {
+    check_derived_output(file);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::output_of_others) throw;
+    throw error.with_fix("move that file away, or give the certificate another name");
+  }
+}
+
 void check_volume_output(const fs::path& file) {
   check_is_no_stream(file);
   if (is_folder_format(file)) return internal::io::check_tiles_place(file);

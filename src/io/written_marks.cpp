@@ -65,6 +65,16 @@ bool is_own_region(std::string_view text) {
   return text.starts_with("outer\nelement vertex ") || text.starts_with("given\nelement vertex ");
 }
 
+/// The format and its number, and nothing else in that text.
+bool is_own_certificate(std::string_view text) {
+  for (const std::string_view start : {kCertificateStart, kTourCertificateStart}) {
+    if (!text.starts_with(start)) continue;
+    const std::size_t end = text.find_first_not_of("0123456789", start.size());
+    return end != start.size() && end != std::string_view::npos && text.substr(end).starts_with("\",");
+  }
+  return false;
+}
+
 /// What is behind `start` and a version, to the end of the line; nothing where the text does not begin so. People write
 /// "# vantage point" and the like: with the version it is the writers' line.
 std::string_view behind_version(std::string_view text, std::string_view start) {
@@ -115,9 +125,10 @@ bool is_own_kmz(std::string_view bytes) {
 
 bool is_own_file(const std::filesystem::path& file) {
   const std::string extension = format_extension(file);
-  if (extension == ".json") return is_own_json(file);
   const std::string bytes = beginning_of(file, kLooked);
   const std::string_view text = bytes;
+  if (is_own_certificate(text)) return true;
+  if (extension == ".json") return is_own_json(file);
   if (extension == ".csv") return text.substr(0, text.find_first_of("\r\n")) == kVolumeTableHeader;
   if (const OutputFormat* format = find_output_format(file)) return format->is_own(text);
   return extension == ".png" && core::has_png_mark(text);

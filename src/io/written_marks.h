@@ -13,6 +13,10 @@ inline constexpr std::string_view kVolumeTableHeader =
 /// What a KML file of a volume begins with; the version, and words for a volume, stand behind it.
 inline constexpr std::string_view kKmlStart = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- vantage ";
 
+/// What certificates begin with, whatever their names; the version stands behind it.
+inline constexpr std::string_view kCertificateStart = "{\"format\":\"vantage certificate ";
+inline constexpr std::string_view kTourCertificateStart = "{\"format\":\"vantage tour certificate ";
+
 /// Whether the file, which is there, is one that vantage wrote; false where it cannot be read.
 bool is_own_file(const std::filesystem::path& file);
 

@@ -201,15 +201,31 @@ class GroundSheet {
   /// than the tolerance; what no shift serves as a whole is tried in parts. "No" where these are many.
   template <typename ShiftsOf>
   bool keeps_beside(const ConvexPolygon& polygon, const ShiftsOf& shifts_of, double tolerance) const {
-    constexpr std::size_t kMostParts = 200;
-    if (!do_heights_overlap(polygon, tolerance)) return false;
+    constexpr std::size_t kMostParts = 400;
     std::vector<ConvexPolygon> waiting = {polygon};
     for (std::size_t tried = 0; !waiting.empty(); ++tried) {
       if (tried == kMostParts) return false;
       const ConvexPolygon part = waiting.back();
       waiting.pop_back();
-      if (!add_what_shifts_leave(part, shifts_of(part), tolerance, waiting)) return false;
+      // Heights may differ along it by more than the limit allows.
+      const bool goes_on = do_heights_overlap(part, tolerance)
+                               ? add_what_shifts_leave(part, shifts_of(part), tolerance, waiting)
+                               : add_halves(part, tolerance, waiting);
+      if (!goes_on) return false;
     }
+    return true;
+  }
+
+  /// Cut across its longer extent in plan. False where that is no longer than what is looked at beside it.
+  static bool add_halves(const ConvexPolygon& polygon, double tolerance, std::vector<ConvexPolygon>& waiting) {
+    const Box box = box_of(polygon);
+    const Vec3 extent = box.max - box.min, middle = (box.min + box.max) / 2;
+    const Vec3 along = extent.x() > extent.y() ? Vec3::UnitX() : Vec3::UnitY();
+    if (!(along.dot(extent) > 4 * tolerance)) return false;
+    CutPolygon halves = cut(polygon, {along, along.dot(middle)});
+    if (halves.inside.empty() || halves.outside.empty()) return false;
+    waiting.push_back(std::move(halves.inside));
+    waiting.push_back(std::move(halves.outside));
     return true;
   }
 
@@ -265,6 +281,13 @@ class GroundSheet {
       if (&other == &piece || part_within(polygon, other.column(volume_.unsure_m())).empty()) return;
       add_shifts_off(other, polygon, tolerance, shifts);
     });
+    // Where several pieces meet, off two of them at once.
+    const std::size_t singles = shifts.size();
+    for (std::size_t i = 0; i < singles; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (const Vec3 both = shifts[i] + shifts[j]; both.norm() < tolerance) shifts.push_back(both);
+      }
+    }
     return shifts;
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -124,11 +125,13 @@ void FacetJudge::cover(WitnessKind kind, double area, std::uint32_t limit) {
 }
 
 bool FacetJudge::is_edge_on(const FacetPiece& piece) const {
-  const Vec3 normal = (piece[1] - piece[0]).cross(piece[2] - piece[0]);
-  const double length = normal.norm();
   double largest = 0;
   for (const Vec3& corner : piece) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
-  return !(length > 0) || std::abs(normal.dot(piece[0])) <= 16 * kUnitRounding * largest * length;
+  if (!(largest > 0)) return true;
+  // In parts of the largest coordinate: else the squares of very small ones would be zero.
+  const Vec3 normal = ((piece[1] - piece[0]) / largest).cross((piece[2] - piece[0]) / largest);
+  const double length = normal.norm();
+  return !(length > 0) || std::abs(normal.dot(piece[0] / largest)) <= 16 * kUnitRounding * length;
 }
 
 /// What lies so low that no line of sight is told from the target's plane is left out.
@@ -247,8 +250,8 @@ bool FacetJudge::has_witness(std::uint32_t corner) {
 /// What a whole piece has as a witness, if anything; its area is counted then.
 bool FacetJudge::is_covered(const Corners& corners, bool is_whole) {
   const FacetPiece piece = piece_of(corners);
-  const double area = area_of(piece);
-  if (!(area > 0)) return true;
+  const double area = std::max(area_of(piece), std::numeric_limits<double>::min());
+  if (!(area_of(piece) > 0) && is_edge_on(piece)) return true;
   if (const auto limit = broken_limit(corners)) {
     cover(shared_.beyond.limits.limits[*limit].kind, area, *limit);
   } else if (is_far_ && is_out_of_range(piece)) {
@@ -297,7 +300,7 @@ void FacetJudge::look_at(const Corners& facet) {
     const bool goes_on = halved < (left > 0.9 * whole ? kFewHalvings : kMostHalvings);
     const auto has = [&](std::uint32_t corner) { return has_witness(corner); };
     if (!goes_on || std::none_of(piece.corners.begin(), piece.corners.end(), has)) {
-      cover(WitnessKind::none, piece.area);
+      cover(WitnessKind::none, std::max(piece.area, std::numeric_limits<double>::min()));
       continue;
     }
     for (const Corners& half : halves(piece.corners)) {
@@ -345,7 +348,8 @@ FacetWitness FacetJudge::summary() const {
   if (!(*most > 0)) return {};
   const auto kind = static_cast<WitnessKind>(most - covered_.begin());
   const bool is_limit = kind == WitnessKind::navigation || kind == WitnessKind::sensor;
-  return {kind, is_limit ? limit_ : 0, covered_[0] / all};
+  const double open = covered_[0] > 0 ? std::max(covered_[0] / all, std::numeric_limits<double>::min()) : 0;
+  return {kind, is_limit ? limit_ : 0, open};
 }
 
 /// Nothing where it is too near to tell.

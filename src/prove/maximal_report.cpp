@@ -1,5 +1,6 @@
 // What witnesses of facets come to.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -42,6 +43,8 @@ void count_witnesses(const Mesh& volume, MaximalProof& proof) {
   if (!proof.open.empty()) proof.rows.push_back(none);
   for (MaximalProof::Row& row : proof.rows) row.area_share /= all;
   proof.proved_share = 1 - without / all;
+  // Also where what is open is too small to count.
+  if (!proof.open.empty()) proof.proved_share = std::min(proof.proved_share, std::nextafter(1.0, 0.0));
 }
 
 }  // namespace

@@ -166,6 +166,7 @@ class Prover {
   Box reach_of(const Judged& judged, const prove::View& view) const;
   void add_certificate(std::size_t part, const prove::View& view, const std::vector<std::uint32_t>& numbers,
                        const prove::SightProof& proof);
+  void check_has_areas() const;
   void look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
                    const internal::core::ProgressReporter& progress);
   void add_sight();
@@ -339,6 +340,22 @@ void Prover::look_at(std::size_t part, const internal::core::ProgressReporter& p
   if (options_.maximal && !other_side_m_) look_beyond(view, obstacles, progress.part(0.5, 1));
 }
 
+/// Areas, which are squared, would be zero.
+void Prover::check_has_areas() const {
+  constexpr double kSmallest = 0x1p-200;
+  Box box;
+  for (const Triangle& triangle : solid_.mesh.triangles) {
+    for (const std::uint32_t v : triangle) box.extend(solid_.mesh.vertices[v]);
+  }
+  const double extent = (box.max - box.min).maxCoeff();
+  if (extent >= kSmallest) return;
+  throw Error(ErrorCode::value_out_of_range,
+              internal::core::format("the volume is only {:.3g} m across: doubles cannot hold its areas, so it is not "
+                                     "known whether anything is missing",
+                                     extent),
+              "volume", "give a volume in metres, or leave out the question whether it is maximal");
+}
+
 void Prover::look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
                          const internal::core::ProgressReporter& progress) {
   const auto begin = std::chrono::steady_clock::now();
@@ -394,6 +411,7 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   report_.facets = solid_.mesh.triangles.size();
   report_.shrink = options_.shrink;
   report_.rounding_m = options_.rounding_m;
+  if (options_.maximal) check_has_areas();
   set_lifts(progress);
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
@@ -421,6 +439,7 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
 }
 
 MaximalProof Prover::run_maximal(const internal::core::ProgressReporter& progress) {
+  check_has_areas();
   set_lifts(progress);
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {

@@ -101,7 +101,7 @@ class Run {
   void take_sphere(std::uint32_t point, Sphere sphere) {
     ++report_.spheres;
     // A range of that size ends the view by itself; a coarse grid has no vertex straight above.
-    const double near = target::min_useful_depth(maker_.range_m());
+    const double near = target::hand_breadth(maker_.range_m());
     const bool sees_nothing = maker_.range_m() > 2 * near && sphere.reach_m < near;
     if (sees_nothing && !result_.blocked) result_.blocked = points_[point].place;
     if (result_.blocked) return;

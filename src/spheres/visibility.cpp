@@ -43,7 +43,7 @@ std::string point_name(const Target& target, const Vec3& place) {
 void set_blocked(const Target& target, const Vec3& place, double max_range, Volume& volume) {
   volume.outcome = Outcome::blocked_at_once;
   volume.reason = point_name(target, place) + " sees nothing farther than " +
-                  metres_text(target::min_useful_depth(max_range)) +
+                  metres_text(target::hand_breadth(max_range)) +
                   ": it is inside a solid, or faces the surface that it lies on";
   volume.hint = "turn the target round with front:, or raise it with offset:";
 }

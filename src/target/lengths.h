@@ -22,9 +22,14 @@ struct Lengths {
 /// The frame's polygon has at least 3 vertices. `max_range` is positive.
 VANTAGE_INTERNAL_API Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range);
 
-/// A volume that ends this close to the target is of no use to anyone: the view is blocked at once.
-inline double min_useful_depth(double max_range) {
-  return numerics::kMinUsefulDepth * std::min(1.0, max_range / numerics::kFullRange);
+/// What covers the target this closely was hardly meant to: numerics::kHandBreadth.
+inline double hand_breadth(double max_range) {
+  return numerics::kHandBreadth * std::min(1.0, max_range / numerics::kFullRange);
+}
+
+/// Lengths::lift, but for the cap: what ends lower than that over the target is its own surface.
+inline double most_lift(double max_range) {
+  return numerics::kMaxLift * std::min(1.0, max_range / numerics::kFullRange);
 }
 
 }  // namespace vantage::internal::target

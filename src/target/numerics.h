@@ -63,8 +63,8 @@ inline constexpr double kMaxLift = 2e-3;
 /// Advice to raise the target goes no further, in metres: higher up it is another target.
 inline constexpr double kMostRaise = 5;
 
-/// A volume that ends this close to the target is of no use to anyone: the view is blocked at once. Less in small
-/// worlds.
-inline constexpr double kMinUsefulDepth = 0.1;
+/// Where the scene covers the target this closely, most likely the wrong side is looked at: the exact method warns, and
+/// to the spheres method the view is blocked at once. Less in small worlds.
+inline constexpr double kHandBreadth = 0.1;
 
 }  // namespace vantage::internal::numerics

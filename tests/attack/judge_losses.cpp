@@ -157,7 +157,7 @@ void judge_outcome(Trial& trial) {
   const Outcome outcome = trial.answer.volume.outcome;
   if (outcome == Outcome::outside_limits) return;
   if (outcome == Outcome::blocked_at_once && is_beside_point(trial)) return;
-  const double least = outcome == Outcome::blocked_at_once ? 0.1 * small_world(trial.c.range) : 0;
+  const double least = outcome == Outcome::blocked_at_once ? 2e-3 * small_world(trial.c.range) : 0;
   const Vec3 p = find_clear(trial, grown_views(trial), least, 400);
   if (p.allFinite()) trial.result.add({FindingKind::bad_outcome, 0, trial.to_scene(p), trial.result.status});
 }

@@ -226,17 +226,12 @@ double room_above_m(const Vec3& home, const Vec3& start, const Airspace& airspac
 
 void check_tour_certificate_files(const Mission& mission, const std::filesystem::path& certificate) {
   const std::vector<std::filesystem::path> inputs = input_files(mission.as_written);
-  check_can_write(certificate);
   check_not_an_input(certificate, inputs);
+  check_certificate_output(certificate);
   for (std::size_t i = 0; i < volume_count(mission); ++i) {
     const std::filesystem::path mesh = region_file(certificate, i);
     check_not_an_input(mesh, inputs);
-    try {
-      check_derived_output(mesh);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::output_of_others) throw;
-      throw error.with_fix("move that file away, or give the certificate another name");
-    }
+    check_certificate_output(mesh);
   }
 }
 

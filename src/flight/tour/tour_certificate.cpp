@@ -143,10 +143,11 @@ void write_tour_certificate(const TourBound& bound, const std::filesystem::path&
     const std::filesystem::path mesh = region_file(file, r);
     files.push_back(mesh.filename().string());
     if (bound.regions[r].kind() == OuterRegion::Kind::point) continue;
-    check_derived_output(mesh);
+    check_certificate_output(mesh);
     written.push_back(std::make_unique<AtomicFile>(mesh));
     written.back()->write(region_ply(bound.regions[r]));
   }
+  check_certificate_output(file);
   written.push_back(std::make_unique<AtomicFile>(file));
   written.back()->write(tour_certificate_text(bound, files));
   commit_all(written);
