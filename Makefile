@@ -81,6 +81,8 @@ nightly: tested benchmarks package  ## what takes too long for every change: lin
 	JOBS=$(JOBS) scripts/build_variants.sh
 	python3 tests/check_hostile_files.py build/bin/vantage --mutants 300 --bombs --jobs $(JOBS) \
 	  --seed $(or $(SEED),$(shell date +%Y%m%d)) --keep build/hostile
+	python3 tests/check_damaged_maps.py build/bin/vantage --damages $(or $(DAMAGES),1000) --jobs $(JOBS) \
+	  --seed $(or $(SEED),$(shell date +%Y%m%d)) --keep build/damaged
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 	build/bin/vantage_attack --meshes $(or $(MESHES),20000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
