@@ -87,7 +87,7 @@ struct Scene {
   std::filesystem::path source;  ///< the file it was read from; empty when made in memory
   UpAxis up = UpAxis::z;         ///< axes of that file, used when a result is written as OBJ
   double scale = 1.0;            ///< metres in one unit of that file, used likewise
-  bool states_axes = false;      ///< the file itself says both: an OBJ that vantage wrote
+  bool states_axes = false;      ///< the file itself says which axis is up: CityJSON, an OBJ that vantage wrote
 
   // Counted while reading.
   std::size_t dropped_faces = 0;  ///< faces of the file that hold no triangle (fewer than 3 corners)

@@ -46,8 +46,8 @@ struct TilesetReport {
   std::size_t objects = 0;           ///< of the scene
   std::size_t objects_outside = 0;   ///< in tiles that were read, but wholly beyond the radius: left out
 
-  /// Files that are missing or cannot be read. What they hold is not in the scene, so that volumes may claim too much
-  /// behind it.
+  /// Files that are missing or cannot be read. Each is an entry of Scene::ledger: where nothing holds its place,
+  /// volumes may claim too much behind it.
   std::size_t holes = 0;
   std::string first_hole = {};  ///< the first of them, and what is wrong with it
   /// Coarser tiles that were taken, too, as finer ones that were to replace them cannot be read.
@@ -80,7 +80,7 @@ VANTAGE_API bool is_web_address(const std::filesystem::path& file);
 /// It may be a web address; all files then come from that server, which gets what the address has as `key`, and what
 /// it gives as `session`, with every request. libcurl is loaded for it. Nothing is kept on disk.
 ///
-/// Contents are glTF, GLB, b3dm, i3dm and cmpt; clouds of points are counted. Draco and meshopt compression are
+/// Contents are glTF, GLB, b3dm, i3dm and cmpt; clouds of points are held by a box. Draco and meshopt compression are
 /// unpacked where vantage was built with these libraries. Textures are not read. Each feature of a batch table or of
 /// EXT_structural_metadata is an object, named by its id ("gml_id") and name or address; where a tile has no features,
 /// each node is.
@@ -88,15 +88,15 @@ VANTAGE_API bool is_web_address(const std::filesystem::path& file);
 /// A tile that is finer than `detail_m` or has no finer ones is taken. With REPLACE refinement finer tiles stand for
 /// their parent, with ADD they are added to it. A tileset on the earth is turned, not bent, into the frame about the
 /// origin: straight lines stay straight, and z is the height above the plane that touches the ellipsoid at the origin.
-/// A file that cannot be read is a hole: see the report, and Scene::notes. Where it was to replace a coarser tile (up
-/// to three levels above), that is taken as well.
+/// A file that cannot be read is a hole: see the report, and Scene::ledger. Where it was to replace a coarser tile (up
+/// to three levels above), that is taken as well; else the box of its tile stands in (TilesetOptions::missing).
 ///
 /// Throws Error(input) for: a tileset.json that cannot be read, options that are out of range, a centre outside of the
 /// tileset, nothing within the radius, no file that can be read, a tileset without end (more than 5 million tiles,
 /// 20,000 tileset.json and subtrees with 1 GiB of text, 32 GiB of files, or 200 million triangles); where a file needs
 /// a library that vantage was built without, or libcurl is not installed; a server that refuses the key or ends the
-/// session (401, 403). Error(cancelled) when told to stop. Cost: linear in the tiles looked at and the files read, on
-/// one thread.
+/// session (401, 403); a file that did not come, but with MissingPolicy::warn. Error(cancelled) when told to stop.
+/// Cost: linear in the tiles looked at and the files read, on one thread.
 VANTAGE_API TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options = {},
                                       const Progress& progress = {});
 

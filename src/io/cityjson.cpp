@@ -303,9 +303,10 @@ class CityJsonReader {
       entry.reason = fault.reason;
       entry.box = fault.box;
       entry.instead = fault.instead;
-      entry.may_be_larger = fault.is_held;
-      if (!fault.is_held && known != number.end()) entry.stand_in = known->second;
-      mesh.ledger.push_back({std::move(entry), fault.is_held ? box_mesh(fault.box) : Mesh{}});
+      const bool is_held = !fault.holder.triangles.empty();
+      entry.may_be_larger = is_held;
+      if (!is_held && known != number.end()) entry.stand_in = known->second;
+      mesh.ledger.push_back({std::move(entry), fault.holder});
     };
     for (const auto& fault : surfaces_.faults()) tell(fault);
     for (const auto& fault : own_faults_) tell(fault);

@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "io/join_holes.h"
+#include "io/object_text.h"
 
 namespace vantage::internal::io::cityjson {
 namespace {
@@ -37,8 +39,7 @@ void SurfaceBuilder::end_shell() {
   switch (shell_.result()) {
     case ShellCheck::Result::open:
       open_.add(trail_.object());
-      faults_.push_back({trail_.object(), "solid", "its shell is not closed", "the box of its open edges", {}, true});
-      for (const std::uint32_t end : shell_.open_ends()) faults_.back().box.extend(builder_.vertex(end));
+      tell_open();
       break;
     case ShellCheck::Result::misoriented:
       misoriented_.add(trail_.object());
@@ -47,6 +48,39 @@ void SurfaceBuilder::end_shell() {
       if (is_cavity_ ? volume_ > 0 : volume_ < 0) inside_out_.add(trail_.object());
       break;
   }
+}
+
+/// What is missing lies between the open edges: in their plane, where they have one, and there what they go round an
+/// odd number of times, which the triangles from one point to each of them cover. Else the box about them holds it.
+void SurfaceBuilder::tell_open() {
+  constexpr double kFlatM = 0.01;
+  Fault fault{trail_.object(), "solid", "its shell is not closed", "the box of its open edges", {}};
+  Mesh fan;
+  Vec3 middle = Vec3::Zero();
+  for (const std::uint32_t end : shell_.open_ends()) {
+    fan.vertices.push_back(builder_.vertex(end));
+    fault.box.extend(fan.vertices.back());
+    middle += (fan.vertices.back() - fan.vertices[0]) / static_cast<double>(shell_.open_ends().size());
+  }
+  middle += fan.vertices[0];
+  const auto farthest = [&](const auto& distance) {
+    return *std::max_element(fan.vertices.begin(), fan.vertices.end(),
+                             [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+  };
+  const Vec3 along = farthest([&](const Vec3& p) { return (p - middle).norm(); }) - middle;
+  const Vec3 across = farthest([&](const Vec3& p) { return along.cross(p - middle).norm(); }) - middle;
+  const Vec3 normal = along.cross(across).normalized();
+  const auto off = [&](const Vec3& p) { return std::abs(normal.dot(p - middle)); };
+  if (off(farthest(off)) <= kFlatM / limits_.unit_m) {
+    const auto tip = static_cast<std::uint32_t>(fan.vertices.size());
+    for (std::uint32_t i = 0; i + 1 < tip; i += 2) fan.triangles.push_back({i, i + 1, tip});
+    fan.vertices.push_back(middle);
+    fault.instead = "what its open edges go round";
+    fault.holder = std::move(fan);
+  } else {
+    fault.holder = box_mesh(fault.box);
+  }
+  faults_.push_back(std::move(fault));
 }
 
 void SurfaceBuilder::add(std::vector<Ring>& rings) {

@@ -46,11 +46,12 @@ class SurfaceBuilder {
     std::string object;  ///< its id
     std::string what, reason, instead = {};
     Box box;
-    bool is_held = false;  ///< the box holds it; else, where `instead` is given, the object does as it is built
+    Mesh holder = {};  ///< holds it; where it is empty, and `instead` is given, the object does as it is built
   };
   const std::vector<Fault>& faults() const { return faults_; }
 
  private:
+  void tell_open();
   void check_shell(const std::vector<std::vector<std::uint32_t>>& rings);
 
   MeshBuilder& builder_;
