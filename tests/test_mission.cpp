@@ -265,6 +265,13 @@ TEST(MissionErrors, MissingKeysSayWhatToWrite) {
   expect_refusal(text_of_mission("", kTarget, "sensor:\n"), ErrorCode::wrong_type, ":5:1");
 }
 
+TEST(MissionErrors, HeightsOfRastersAndPartialMaps) {
+  expect_refusal(with_scene("raster: a.tif\n  z_unit: inch"), ErrorCode::unknown_choice, ":3:11");
+  expect_refusal(with_scene("osm: a.osm\n  void: 3"), ErrorCode::not_applicable, ":3:9");
+  expect_refusal(with_scene("mesh: a\n  partial: true"), ErrorCode::not_applicable, ":3:12");
+  expect_refusal(with_scene("osm: a.osm\n  partial: maybe"), ErrorCode::unknown_choice, ":3:12");
+}
+
 TEST(MissionErrors, WrongTypes) {
   expect_refusal("- 1\n- 2\n", ErrorCode::wrong_type, ":1:1");
   expect_refusal("just words", ErrorCode::wrong_type, ":1:1");
@@ -274,10 +281,6 @@ TEST(MissionErrors, WrongTypes) {
   expect_refusal(with_scene("mesh: ~"), ErrorCode::wrong_type, ":2:3");
   expect_refusal(with_scene("mesh: \"a\\0b\""), ErrorCode::value_syntax, ":2:9");
   expect_refusal(with_scene("mesh: a\n  up: x"), ErrorCode::unknown_choice, ":3:7");
-  expect_refusal(with_scene("raster: a.tif\n  z_unit: inch"), ErrorCode::unknown_choice, ":3:11");
-  expect_refusal(with_scene("osm: a.osm\n  void: 3"), ErrorCode::not_applicable, ":3:9");
-  expect_refusal(with_scene("mesh: a\n  partial: true"), ErrorCode::not_applicable, ":3:12");
-  expect_refusal(with_scene("osm: a.osm\n  partial: maybe"), ErrorCode::unknown_choice, ":3:12");
   expect_refusal(with_scene("mesh: a\n  up: [y]"), ErrorCode::wrong_type, ":3:7");
   expect_refusal(with_scene("mesh: a\n  scale: big"), ErrorCode::not_a_number, ":3:10");
   expect_refusal(with_scene("mesh: a\n  scale: 0"), ErrorCode::value_out_of_range, ":3:10");
