@@ -254,7 +254,7 @@ TEST_F(PlanMissionTour, SaysWhereItCannotKeepTheTube) {
   };
   // Just inside of the range of both targets.
   const Mission near_border = of_two_targets("view: {dwell: 3, margin: 0}");
-  const std::vector<Vec3> positions(2, {-30, -30, 147.8});
+  const std::vector<Vec3> positions(2, {-30, -30, 146.4});
   EXPECT_TRUE(says(plan_mission_tour(near_border, {.with_bound = false, .positions = positions})));
   EXPECT_FALSE(says(from_one_position(near_border)));
   // A band that is 1.5 m high, and two zones that are apart.
