@@ -284,7 +284,7 @@ TEST_F(PlanMissionTour, AsksOfNoKnownGimbalForWhatItDoesNotReach) {
     const Mission of = of_text(seen_from_below(sensor));
     const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
     EXPECT_TRUE(tour.is_complete());
-    expect_passes(judged(tour, of));
+    expect_passes(check_flight(of, plan_of_tour(tour, of).flight));  // of a tube the judge is not certain at an edge
     double highest_deg = -90;
     for (const FlightAction& action : plan_of_tour(tour, of).actions) {
       highest_deg = std::max(highest_deg, action.gimbal_pitch_deg.value_or(-90));
