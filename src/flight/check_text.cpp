@@ -177,7 +177,7 @@ std::string csv_text(const FlightCheck& check) {
     }
   }
   for (const BrokenLimit& limit : check.broken) append_rows(table, "", "broken", limit.name, limit.spans);
-  for (const std::string& what : check.not_judged) table += ",not_judged," + field(what) + ",,,,,,,,,,\n";
+  for (const std::string& what : check.not_judged) table += ",not_judged," + csv_field(what) + ",,,,,,,,,,\n";
   return table;
 }
 
