@@ -213,7 +213,7 @@ TEST(OsmRead, NoticesRemarksOnErrors) {
   EXPECT_EQ(read_bytes_as_map(osm_xml(kHouse + "<note>an error</note>")).remark, "");
   std::string json = kJsonHouse;
   json.insert(json.rfind('}'), ", \"remark\": \"runtime error: out of memory\"");
-  EXPECT_EQ(read_bytes_as_map(json).remark, "runtime error: out of memory");
+  EXPECT_EQ(read_bytes_as_map(json).remark.rfind("runtime error", 0), 0U);
 }
 
 TEST(OsmRead, RefusesBrokenJson) {

@@ -301,7 +301,7 @@ TEST_F(PlanMissionTour, AsksOfNoKnownGimbalForWhatItDoesNotReach) {
   EXPECT_NE(own_notes[0].find("dji_mavic_3e_wide takes -90 to 35"), std::string::npos) << own_notes[0];
   const std::vector<std::string> unknown = asked("camera: {model: sony_a7r_iv_35mm}").second;
   ASSERT_EQ(unknown.size(), 1U);
-  EXPECT_NE(unknown[0].find("is not known"), std::string::npos) << unknown[0];
+  EXPECT_NE(unknown[0].find("not known"), std::string::npos) << unknown[0];
   EXPECT_EQ(asked("camera: {model: sony_a7r_iv_35mm}, gimbal: {pitch: [-90, 70]}").second.size(), 0U);
 }
 
