@@ -20,6 +20,7 @@
 #include "vantage/city.h"
 #include "vantage/flight.h"
 #include "vantage/mission.h"
+#include "vantage/mission_tour.h"
 #include "vantage/scene.h"
 
 namespace vantage::testing {

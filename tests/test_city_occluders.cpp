@@ -58,7 +58,7 @@ Built line(std::initializer_list<std::pair<std::string, std::string>> tags, cons
 
 Built point(std::initializer_list<std::pair<std::string, std::string>> tags) {
   Built built;
-  built.shapes = shapes_of_point(tagged(tags), {100, 200}, OccluderDefaults(), built.remarks);
+  built.shapes = shapes_of_point(tagged(tags), {100, 200}, OccluderDefaults(), BuildingDefaults(), built.remarks);
   expect_sound(built);
   return built;
 }
@@ -201,7 +201,7 @@ TEST(CityOccluders, RandomTagsAndLines) {
     if (random.chance(0.3)) points.push_back(points.front());
     Built built;
     built.shapes = shapes_of_line(tags, points, random.chance(0.5) ? 7 : 0, OccluderDefaults(), built.remarks);
-    for (Shape& shape : shapes_of_point(tags, points[0], OccluderDefaults(), built.remarks))
+    for (Shape& shape : shapes_of_point(tags, points[0], OccluderDefaults(), BuildingDefaults(), built.remarks))
       built.shapes.push_back(shape);
     expect_sound(built);
     ASSERT_FALSE(built.shapes.empty()) << round;

@@ -120,20 +120,22 @@ TEST(ExactOutcomes, AgainstAWallIsComputedAndTold) {
 /// What is computed for a short range is computed for a longer one, which allows more.
 TEST(ExactOutcomes, UnderASheetAllRangesAreComputed) {
   for (const double height : {0.003, 0.01, 0.09, 0.2}) {
-    const Scene scene = SceneBuilder().ground("ground", 50).polygon(
-        "plate", {{-60, -60, height}, {60, -60, height}, {60, 60, height}, {-60, 60, height}});
+    const Scene scene =
+        SceneBuilder()
+            .ground("ground", 50)
+            .polygon("plate", {{-60, -60, height}, {60, -60, height}, {60, 60, height}, {-60, 60, height}});
     const Target target = square(2, {0, 0, 0});
     double before = 0;
     for (const double range : {4.0, 17.9, 19.0, 20.0, 40.0}) {
-      SCOPED_TRACE(testing::Message() << height << " m, range " << range);
+      SCOPED_TRACE(::testing::Message() << height << " m, range " << range);
       const Volume volume = compute(scene, target, range);
       ASSERT_EQ(volume.outcome, Outcome::computed);
       const double found = enclosed_volume(volume.mesh);
       EXPECT_GT(found, before);
       before = found;
       EXPECT_EQ(!volume.notes.empty(), height < 0.1 * std::min(1.0, range / 20));
-      const ProofReport proof = prove_volume(scene, target, {.max_range_m = range}, {}, volume.mesh,
-                                             {.lift_m = volume.lift_m});
+      const ProofReport proof =
+          prove_volume(scene, target, {.max_range_m = range}, {}, volume.mesh, {.lift_m = volume.lift_m});
       EXPECT_EQ(proof.verdict(), ProofVerdict::proved);
       Mesh raised = volume.mesh;
       for (Vec3& vertex : raised.vertices) vertex.z() *= 1.001;

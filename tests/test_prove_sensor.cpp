@@ -222,7 +222,7 @@ TEST(ProveSensor, CamerasThatTurnOfManyKinds) {
   testing::Random random(73);
   int made = 0;
   for (int draw = 0; draw < 12; ++draw) {
-    SCOPED_TRACE(testing::Message() << "draw " << draw << " of seed 73");
+    SCOPED_TRACE(::testing::Message() << "draw " << draw << " of seed 73");
     const double radius = std::pow(10, random.uniform(-0.3, 1)), tilt = draw % 2 == 0 ? 0 : random.uniform(0, 1.5);
     const Eigen::AngleAxisd turn(tilt, Vec3(std::cos(draw), std::sin(draw), 0));
     std::vector<Vec3> corners;
@@ -236,7 +236,8 @@ TEST(ProveSensor, CamerasThatTurnOfManyKinds) {
     Sensor sensor{.max_range_m = radius + 3 * radius / std::tan(std::min(width, height) / 2 * kDegree)};
     sensor.camera = pinhole_of_fov(width, height);
     sensor.mount = {.min_pitch_deg = -90, .max_pitch_deg = draw % 3 * 30.0, .roll_deg = draw % 4 == 0 ? 20.0 : 0.0};
-    const Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), target, sensor), {}, {.tolerance_m = 0.1});
+    const Volume volume =
+        compute_volume(PreparedTarget(PreparedScene(scene), target, sensor), {}, {.tolerance_m = 0.1});
     if (volume.empty()) continue;
     const auto verdict = [&](double scale) {
       Mesh mesh = volume.mesh;

@@ -144,16 +144,16 @@ TEST(TourGimbal, StretchesInPassingAreThoseThatAreSlow) {
     const tour::Polyline way(points);
     TourTarget target;
     target.look_at = Vec3::Zero();
-    TourSettings settings;
-    settings.gimbal_rate_deg_s = random.uniform(5, 60);
+    TourRequest request;
+    request.settings.gimbal_rate_deg_s = random.uniform(5, 60);
     const std::vector<tour::Stretch> all = {{0.1 * way.length_m(), 0.6 * way.length_m()}};
-    const std::vector<tour::Stretch> found = tour::stretches_followed(all, way, target, settings);
+    const std::vector<tour::Stretch> found = tour::stretches_followed(all, way, target, request);
     for (int k = 0; k < 100; ++k) {
       constexpr double kStep = 1e-4;  // metres
       const double station = random.uniform(0, way.length_m() - kStep);
       const Vec3 a = way.at(station), b = way.at(station + kStep);
       const double angle = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-      const double rate = angle / (kStep / settings.vehicle.speed_m_s);
+      const double rate = angle / (kStep / request.settings.vehicle.speed_m_s);
       const bool is_in = std::any_of(found.begin(), found.end(), [&](const tour::Stretch& one) {
         return one.begin_m <= station && station + kStep <= one.end_m;
       });
@@ -161,10 +161,10 @@ TEST(TourGimbal, StretchesInPassingAreThoseThatAreSlow) {
         ++slow;
         ASSERT_GE(station, all[0].begin_m);
         ASSERT_LE(station, all[0].end_m);
-        ASSERT_LE(rate, settings.gimbal_rate_deg_s) << i;
+        ASSERT_LE(rate, request.settings.gimbal_rate_deg_s) << i;
       } else if (station > all[0].begin_m + 0.01 && station < all[0].end_m - 0.01) {
-        fast += rate > settings.gimbal_rate_deg_s ? 1 : 0;
-        ASSERT_GE(rate, 0.97 * settings.gimbal_rate_deg_s) << i;
+        fast += rate > request.settings.gimbal_rate_deg_s ? 1 : 0;
+        ASSERT_GE(rate, 0.97 * request.settings.gimbal_rate_deg_s) << i;
       }
     }
   }

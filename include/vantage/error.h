@@ -233,6 +233,7 @@ enum class WarningCode {
   target_underground,  ///< the target seems to lie under the ground
   target_inside,       ///< the target lies inside a closed object of the scene
   target_from_below,   ///< the target is looked at from below, where nothing of the scene is
+  target_covered,      ///< the scene covers the target within a hand's breadth: most likely its wrong side is looked at
   volume_below_scene,  ///< the whole volume lies below the scene
   pixel_in_metres,     ///< the size of a pixel on the target is so large that centimetres seem to be meant
   ground_extended,     ///< the ground was made larger to hold the target
@@ -253,7 +254,6 @@ enum class WarningCode {
   volume_moved,             ///< the volume lies about another origin on the earth and was moved
   heights_differ,           ///< heights are measured from another level than the scene's
   rounding_overstated,      ///< the file states a larger rounding than its numbers can have
-  target_covered,      ///< the scene covers the target within a hand's breadth: most likely its wrong side is looked at
 };
 
 /// All codes, in the order of their declaration.

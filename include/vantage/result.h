@@ -159,9 +159,9 @@ VANTAGE_API ProofReport with_verify_tolerances(ProofReport proof, const Mission&
 VANTAGE_API std::filesystem::path certificate_scene_file(const std::filesystem::path& certificate_file);
 
 /// Throws Error(input) for a volume that a certificate cannot be about: its file is no binary, little-endian PLY of
-/// triangles, or lies in another folder than the certificate. Throws as check_can_write and check_not_an_input do unless
-/// the certificate and its scene can be written, and Error(output_of_others) where they would replace a file that
-/// vantage did not write.
+/// triangles, or lies in another folder than the certificate. Throws as check_can_write and check_not_an_input do
+/// unless the certificate and its scene can be written, and Error(output_of_others) where they would replace a file
+/// that vantage did not write.
 VANTAGE_API void check_certificate_files(const std::filesystem::path& certificate_file,
                                          const std::filesystem::path& volume_file,
                                          const std::vector<std::filesystem::path>& inputs);

@@ -89,7 +89,8 @@ std::string table_text(const VerifyReport& report, const Proof& proof, const std
   if (report.closed) table.row("oriented", report.oriented ? "yes" : "NO", "which run it in opposite directions");
   table.row("Euler number", std::to_string(report.euler), "2 for one piece without holes");
   if (report.flat_facets > 0) {
-    table.row("flat facets", count(report.flat_facets), "without area, which is not wrong: programs that join vertices find holes there");
+    table.row("flat facets", count(report.flat_facets),
+              "without area, which is not wrong: programs that join vertices find holes there");
   }
   if (report.lift_m > 0) {
     table.row("lift", fixed(report.lift_m, 6), "metres that the target was raised to clear its surface");

@@ -26,7 +26,8 @@ VANTAGE_API void check_can_write(const std::filesystem::path& file);
 /// check_can_write, and Error(input) where a file of that name is there that vantage did not write. It is known by what
 /// vantage writes first, to the letter and with a version: the first comment of PLY, OBJ and KML (of KMZ that of the
 /// first file in it), the header of STL, the generator of GLB, the software of PNG; the columns of a table, the keys of
-/// a report and of a place file, the format of a certificate. Cost: reads a JSON file of up to 64 MB, and the first 64 KiB of another one.
+/// a report and of a place file, the format of a certificate. Cost: reads a JSON file of up to 64 MB, and the first 64
+/// KiB of another one.
 VANTAGE_API void check_derived_output(const std::filesystem::path& file);
 
 /// What chooses the format: the extension in lower case, ".ply".

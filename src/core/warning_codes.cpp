@@ -20,6 +20,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::target_underground, "target-underground"},
     WarningRow{WarningCode::target_inside, "target-inside"},
     WarningRow{WarningCode::target_from_below, "target-from-below"},
+    WarningRow{WarningCode::target_covered, "target-covered"},
     WarningRow{WarningCode::volume_below_scene, "volume-below-scene"},
     WarningRow{WarningCode::pixel_in_metres, "pixel-in-metres"},
     WarningRow{WarningCode::ground_extended, "ground-extended"},
@@ -39,14 +40,13 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::volume_moved, "volume-moved"},
     WarningRow{WarningCode::heights_differ, "heights-differ"},
     WarningRow{WarningCode::rounding_overstated, "rounding-overstated"},
-    WarningRow{WarningCode::target_covered, "target-covered"},
 };
 
 constexpr bool are_warnings_in_order() {
   for (std::size_t i = 0; i < kWarningRows.size(); ++i) {
     if (static_cast<std::size_t>(kWarningRows[i].code) != i) return false;
   }
-  return kWarningRows.back().code == WarningCode::target_covered;
+  return kWarningRows.back().code == WarningCode::rounding_overstated;
 }
 static_assert(are_warnings_in_order(), "one row for each code, in the order of their declaration");
 

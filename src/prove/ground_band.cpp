@@ -201,7 +201,7 @@ class GroundSheet {
   /// than the tolerance; what no shift serves as a whole is tried in parts. "No" where these are many.
   template <typename ShiftsOf>
   bool keeps_beside(const ConvexPolygon& polygon, const ShiftsOf& shifts_of, double tolerance) const {
-    constexpr std::size_t kMostParts = 400;
+    constexpr std::size_t kMostParts = 200;
     std::vector<ConvexPolygon> waiting = {polygon};
     for (std::size_t tried = 0; !waiting.empty(); ++tried) {
       if (tried == kMostParts) return false;
@@ -281,8 +281,9 @@ class GroundSheet {
       if (&other == &piece || part_within(polygon, other.column(volume_.unsure_m())).empty()) return;
       add_shifts_off(other, polygon, tolerance, shifts);
     });
-    // Where several pieces meet, off two of them at once.
-    const std::size_t singles = shifts.size();
+    // Where several pieces meet, off two of them at once; of many pieces the first ones alone.
+    constexpr std::size_t kMostAtOnce = 12;
+    const std::size_t singles = std::min(shifts.size(), kMostAtOnce);
     for (std::size_t i = 0; i < singles; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (const Vec3 both = shifts[i] + shifts[j]; both.norm() < tolerance) shifts.push_back(both);
