@@ -35,7 +35,8 @@ TEST_F(CliQuery, NamesInTablesAreTextAndApart) {
   write("mission.yaml", std::string(kScene) +
                             "targets: [{name: '@t', vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}, "
                             "{name: \"a,b\", vertices: [[-9, -5, 0], [-7, -5, 0], [-7, 5, 0], [-9, 5, 0]]}]\n"
-                            "combine: each\n" + kSensor);
+                            "combine: each\n" +
+                            kSensor);
   write("points.csv", "x,y,z,note\n40,0,5,=mine\n45,-2,30,-5\n");
   const std::vector<std::string> rows =
       lines(output_of({"query", "mission.yaml", "points.csv", "--target", "@t", "-o", "out.csv"}) +

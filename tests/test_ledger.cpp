@@ -244,11 +244,16 @@ TEST_F(LedgerTest, HeightsThatAreNoPlainNumbersCountByTheirLargest) {
     const char *key, *value;
     double metres;
   };
-  const std::vector<Height> heights = {{"height", "13-22", 22},         {"height", "22m - 25m", 25},
-                                       {"height", "~22", 22},           {"height", "22 m (approx)", 22},
-                                       {"height", "22/13", 22},         {"height", "10 storeys", 30},
-                                       {"height", "1.5e1", 15},         {"height", "ca. 72 ft", 72 * 0.3048},
-                                       {"building:levels", "2-3", 9},   {"building:levels", "G+5", 18},
+  const std::vector<Height> heights = {{"height", "13-22", 22},
+                                       {"height", "22m - 25m", 25},
+                                       {"height", "~22", 22},
+                                       {"height", "22 m (approx)", 22},
+                                       {"height", "22/13", 22},
+                                       {"height", "10 storeys", 30},
+                                       {"height", "1.5e1", 15},
+                                       {"height", "ca. 72 ft", 72 * 0.3048},
+                                       {"building:levels", "2-3", 9},
+                                       {"building:levels", "G+5", 18},
                                        {"height", "\xEF\xBC\x91\xEF\xBC\x92", 12}};
   MapText map;
   for (std::size_t i = 0; i < heights.size(); ++i) {

@@ -107,8 +107,8 @@ struct Scene {
   /// file does not say.
   std::optional<double> rounding_m;
 
-  /// Under power lines, cable cars and pipelines overhead: upright facets from the ground to the height of their supports.
-  /// They hide nothing, but clearance is kept from them: obstacles_of.
+  /// Under power lines, cable cars and pipelines overhead: upright facets from the ground to the height of their
+  /// supports. They hide nothing, but clearance is kept from them: obstacles_of.
   Mesh overhead = {};
 
   /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.

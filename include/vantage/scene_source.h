@@ -78,8 +78,8 @@ struct LoadedScene {
 /// What is worth a sentence of the scene and its source.
 VANTAGE_API std::vector<std::string> notes_of(const LoadedScene& loaded);
 
-/// Throws as the function of its kind does; and Error(input), ErrorCode::scene_incomplete, for a ledger that is not empty
-/// where the source says MissingPolicy::refuse.
+/// Throws as the function of its kind does; and Error(input), ErrorCode::scene_incomplete, for a ledger that is not
+/// empty where the source says MissingPolicy::refuse.
 VANTAGE_API LoadedScene load_scene(const SceneSource& source, const Progress& progress = {});
 
 }  // namespace vantage

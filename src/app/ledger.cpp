@@ -12,9 +12,7 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
-double distance(const Box& a, const Box& b) {
-  return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
-}
+double distance(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm(); }
 
 double nearest(const Box& box, const std::vector<Box>& others) {
   double least = kNowhere;
@@ -58,9 +56,9 @@ std::optional<Warning> incomplete_warning(const Scene& scene, const std::vector<
                                       : std::to_string(near.size()) +
                                             " things within reach are not built as the scene's file has them";
   const std::size_t open = near.size() - held;
-  text += open == 0      ? " (stand-ins hold their place)"
-          : held == 0    ? " (nothing holds their place: they hide nothing)"
-                         : " (nothing holds the place of " + std::to_string(open) + " of them: these hide nothing)";
+  text += open == 0   ? " (stand-ins hold their place)"
+          : held == 0 ? " (nothing holds their place: they hide nothing)"
+                      : " (nothing holds the place of " + std::to_string(open) + " of them: these hide nothing)";
   text += least > 0 ? core::format(", the nearest {:.0f} m from {}", std::floor(least), path)
                     : core::format(", the nearest among {}", path);
   return Warning{WarningCode::scene_incomplete, text + "; the worst: " + ledger_text(*worst.entry)};

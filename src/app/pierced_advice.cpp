@@ -28,7 +28,8 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
   if (!loaded.city || object >= loaded.scene.objects.size()) return std::nullopt;
   const SceneObject& found = loaded.scene.objects[object];
   const std::vector<LedgerEntry>& ledger = loaded.scene.ledger;
-  const auto entry = std::find_if(ledger.begin(), ledger.end(), [&](const auto& one) { return one.stand_in == object; });
+  const auto entry =
+      std::find_if(ledger.begin(), ledger.end(), [&](const auto& one) { return one.stand_in == object; });
   if (entry != ledger.end() && found.kind == ObjectKind::stand_in) {
     return "a stand-in is there: " + ledger_text(*entry) + "; leave it out with scene: {" +
            (entry->without.empty() ? "missing: warn}, which leaves out all stand-ins"

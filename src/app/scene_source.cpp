@@ -126,11 +126,12 @@ LoadedScene load_scene(const SceneSource& source, const Progress& progress) {
   LoadedScene loaded = loaded_scene(source, progress);
   const std::vector<LedgerEntry>& ledger = loaded.scene.ledger;
   if (missing_of(source) == MissingPolicy::refuse && !ledger.empty()) {
-    throw Error(ErrorCode::scene_incomplete,
-                std::to_string(ledger.size()) + " things cannot be built as the file has them; the first: " +
-                    internal::app::ledger_text(ledger.front()),
-                source.file.string(),
-                "mend the file ('vantage inspect' lists all), or let stand-ins hold their place with scene.missing: block");
+    throw Error(
+        ErrorCode::scene_incomplete,
+        std::to_string(ledger.size()) +
+            " things cannot be built as the file has them; the first: " + internal::app::ledger_text(ledger.front()),
+        source.file.string(),
+        "mend the file ('vantage inspect' lists all), or let stand-ins hold their place with scene.missing: block");
   }
   if (source.attribution.empty()) return loaded;
   loaded.scene.attribution = source.attribution;

@@ -207,12 +207,12 @@ std::vector<Warning> beyond_data_warnings(const Mission& mission, std::span<cons
   if (shortfall.metres > kTolerance) {
     warnings.push_back({WarningCode::range_beyond_data,
                         "the flight, or what it must see, reaches " + metres(shortfall.metres) + " beyond " +
-                            shortfall.known +
-                            ": what stands out there hides nothing, and nothing keeps clear of it; " + shortfall.fix});
+                            shortfall.known + ": what stands out there hides nothing, and nothing keeps clear of it; " +
+                            shortfall.fix});
   }
   const double range = range_limit_m(mission.sensor);
-  auto missing = internal::app::incomplete_warning(mission.scene(), legs, std::isfinite(range) ? range : 0, legs,
-                                                   "the flight");
+  auto missing =
+      internal::app::incomplete_warning(mission.scene(), legs, std::isfinite(range) ? range : 0, legs, "the flight");
   if (missing) warnings.push_back(std::move(*missing));
   return warnings;
 }

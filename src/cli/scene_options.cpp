@@ -180,7 +180,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--set", options.settings, "A value to use where the map has no tag, see docs/scene.md")
       ->allow_extra_args(false)
       ->option_text("NAME=VALUE");
-  command.add_option("--without", options.without, "Leave out a kind of object, such as walls, trees or woods (docs/scene.md)")
+  command
+      .add_option("--without", options.without,
+                  "Leave out a kind of object, such as walls, trees or woods (docs/scene.md)")
       ->allow_extra_args(false)
       ->option_text("KIND");
   command

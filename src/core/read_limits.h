@@ -42,8 +42,8 @@ struct ReadLimits {
   /// Metres in one unit of the mesh: to tell which of its polygons are flat.
   double unit_m = 1;
 
-  /// Whether quadrilaterals that are not flat become the triangles of both their diagonals: as blockers, and not as what
-  /// is allowed or claimed.
+  /// Whether quadrilaterals that are not flat become the triangles of both their diagonals: as blockers, and not as
+  /// what is allowed or claimed.
   bool both_diagonals = true;
 
   /// Corners of one polygon: the time to triangulate it may grow with the square.

@@ -113,8 +113,9 @@ inline constexpr std::array kSceneKeys = {
     Own{{.path = "missing",
          .says = "what is done about what the file says stands there and that cannot be built as it stands: `block`, "
                  "`warn` or `refuse`",
-         .more = "With `block` a [stand-in](scene.md#the-ledger) holds its place, where it has one. With `warn` nothing "
-                 "does: volumes may claim too much behind it. `refuse` makes it an error.",
+         .more =
+             "With `block` a [stand-in](scene.md#the-ledger) holds its place, where it has one. With `warn` nothing "
+             "does: volumes may claim too much behind it. `refuse` makes it an error.",
          .without = "`block`"},
         Kind::word},
     Own{{.path = "defaults",

@@ -202,8 +202,8 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
                     ", which are not told apart: no images are read");
   }
   if (report.without_surfaces > 0) {
-    notes.push_back(internal::core::format("{} of the tileset's files hold points or lines, no surfaces: see the ledger",
-                                           report.without_surfaces));
+    notes.push_back(internal::core::format(
+        "{} of the tileset's files hold points or lines, no surfaces: see the ledger", report.without_surfaces));
   }
   notes.push_back(internal::core::format("the largest geometric error of a tile that was taken is {:.6g} m",
                                          report.largest_error_m));

@@ -91,8 +91,8 @@ std::optional<double> parse_lowest_length_m(std::string_view text);
 /// "3", "2.5", "2;3" (the largest); nothing for what is not a number of levels.
 std::optional<double> parse_levels(std::string_view text);
 std::optional<double> parse_lowest_levels(std::string_view text);
-/// The largest length, or number of levels, that a text holds which is not plainly one: "13-22", "~22", "22 m (approx)",
-/// "10 storeys" of `level_m` each; "G+5" are 6 levels. Nothing where it holds no number.
+/// The largest length, or number of levels, that a text holds which is not plainly one: "13-22", "~22", "22 m
+/// (approx)", "10 storeys" of `level_m` each; "G+5" are 6 levels. Nothing where it holds no number.
 std::optional<double> roughly_length_m(std::string_view text, double level_m);
 std::optional<double> roughly_levels(std::string_view text);
 /// Degrees clockwise from north: "45", "45°", "NE", "north"; nothing else.

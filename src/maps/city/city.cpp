@@ -107,7 +107,8 @@ std::vector<LedgerEntry> ledger_of(const internal::city::Site& site, const std::
   return ledger;
 }
 
-/// Upright facets from below the lowest ground to the tops of the supports. Beyond the ground it is taken as at its rim.
+/// Upright facets from below the lowest ground to the tops of the supports. Beyond the ground it is taken as at its
+/// rim.
 Mesh curtains_under(const std::vector<internal::city::Overhead>& lines, const internal::city::Ground& ground) {
   Mesh mesh;
   const Box box = bounding_box(ground.mesh());

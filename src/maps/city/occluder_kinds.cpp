@@ -50,7 +50,8 @@ bool stands_nowhere(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 3> below = {"underground", "indoor", "underwater"};
   static constexpr std::array<std::string_view, 6> gone = {"demolished", "razed",   "removed",
                                                            "proposed",   "planned", "destroyed"};
-  if (says_yes(tags.get("indoor")) || says_yes(tags.get("tunnel")) || is_one_of(tags.get("location"), below)) return true;
+  if (says_yes(tags.get("indoor")) || says_yes(tags.get("tunnel")) || is_one_of(tags.get("location"), below))
+    return true;
   const auto sinks = [&](std::string_view key) { return parse_levels(tags.get(key)).value_or(0) < 0; };
   if (sinks("layer") || sinks("level")) return true;
   return std::any_of(tags.all.begin(), tags.all.end(), [&](const auto& tag) {
@@ -62,20 +63,19 @@ bool stands_nowhere(const osm::Tags& tags) {
 
 /// Street furniture, ways, and forms of the ground, whatever height they have.
 bool is_no_blocker(const osm::Tags& tags) {
-  static constexpr std::array<std::string_view, 12> keys = {"highway",  "place",   "waterway", "entrance",
-                                                            "door",     "kerb",    "boundary", "emergency",
-                                                            "playground", "traffic_sign", "traffic_calming", "crossing"};
+  static constexpr std::array<std::string_view, 12> keys = {
+      "highway",   "place",      "waterway",     "entrance",        "door",    "kerb", "boundary",
+      "emergency", "playground", "traffic_sign", "traffic_calming", "crossing"};
   static constexpr std::array<std::string_view, 20> amenities = {
-      "bench",        "waste_basket",   "waste_disposal", "recycling",     "post_box",         "telephone",
-      "clock",        "parking_meter",  "vending_machine", "drinking_water", "bicycle_parking", "charging_station",
-      "atm",          "bbq",            "lounger",        "table",         "letter_box",       "parcel_locker",
-      "watering_place", "grit_bin"};
-  static constexpr std::array<std::string_view, 8> made = {"flagpole", "surveillance", "street_cabinet", "manhole",
-                                                           "survey_point", "water_tap", "planter", "cutline"};
+      "bench",         "waste_basket",    "waste_disposal", "recycling",       "post_box",         "telephone", "clock",
+      "parking_meter", "vending_machine", "drinking_water", "bicycle_parking", "charging_station", "atm",       "bbq",
+      "lounger",       "table",           "letter_box",     "parcel_locker",   "watering_place",   "grit_bin"};
+  static constexpr std::array<std::string_view, 8> made = {"flagpole",     "surveillance", "street_cabinet", "manhole",
+                                                           "survey_point", "water_tap",    "planter",        "cutline"};
   static constexpr std::array<std::string_view, 16> grounds = {
-      "peak",  "hill",     "volcano",   "cliff",       "valley", "ridge", "arete", "saddle",
+      "peak",  "hill",      "volcano",       "cliff",    "valley", "ridge", "arete", "saddle",
       "water", "coastline", "cave_entrance", "sinkhole", "spring", "gorge", "bay",   "earth_bank"};
-  static constexpr std::array<std::string_view, 8> barriers = {"bollard", "kerb", "gate",  "lift_gate",
+  static constexpr std::array<std::string_view, 8> barriers = {"bollard", "kerb",  "gate",     "lift_gate",
                                                                "chain",   "block", "handrail", "cycle_barrier"};
   static constexpr std::array<std::string_view, 4> signs = {"board", "sign", "flag", "poster_box"};
   return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return says_yes(tags.get(key)); }) ||
@@ -94,18 +94,28 @@ struct StandInKind {
   std::string_view name;        ///< of the switch
 };
 
-constexpr std::array kStandInKinds = {
-    StandInKind{"natural", "wood", "woods"},           StandInKind{"natural", "scrub", "woods"},
-    StandInKind{"natural", "tree_group", "woods"},     StandInKind{"landuse", "forest", "woods"},
-    StandInKind{"landuse", "orchard", "woods"},        StandInKind{"leisure", "stadium", "stadiums"},
-    StandInKind{"leisure", "sports_hall", "stadiums"}, StandInKind{"leisure", "sports_centre", "stadiums"},
-    StandInKind{"generator:source", "wind", "turbines"}, StandInKind{"man_made", "windmill", "turbines"},
-    StandInKind{"man_made", "wind_turbine", "turbines"}, StandInKind{"man_made", "crane", "cranes"},
-    StandInKind{"man_made", "tank", "tanks"},          StandInKind{"man_made", "bunker_silo", "tanks"},
-    StandInKind{"man_made", "antenna", "masts"},       StandInKind{"man_made", "utility_pole", "masts"},
-    StandInKind{"power", "", "masts"},                 StandInKind{"aerialway", "", "masts"},
-    StandInKind{"historic", "", "monuments"},          StandInKind{"man_made", "obelisk", "monuments"},
-    StandInKind{"tourism", "artwork", "monuments"},    StandInKind{"memorial", "", "monuments"}};
+constexpr std::array kStandInKinds = {StandInKind{"natural", "wood", "woods"},
+                                      StandInKind{"natural", "scrub", "woods"},
+                                      StandInKind{"natural", "tree_group", "woods"},
+                                      StandInKind{"landuse", "forest", "woods"},
+                                      StandInKind{"landuse", "orchard", "woods"},
+                                      StandInKind{"leisure", "stadium", "stadiums"},
+                                      StandInKind{"leisure", "sports_hall", "stadiums"},
+                                      StandInKind{"leisure", "sports_centre", "stadiums"},
+                                      StandInKind{"generator:source", "wind", "turbines"},
+                                      StandInKind{"man_made", "windmill", "turbines"},
+                                      StandInKind{"man_made", "wind_turbine", "turbines"},
+                                      StandInKind{"man_made", "crane", "cranes"},
+                                      StandInKind{"man_made", "tank", "tanks"},
+                                      StandInKind{"man_made", "bunker_silo", "tanks"},
+                                      StandInKind{"man_made", "antenna", "masts"},
+                                      StandInKind{"man_made", "utility_pole", "masts"},
+                                      StandInKind{"power", "", "masts"},
+                                      StandInKind{"aerialway", "", "masts"},
+                                      StandInKind{"historic", "", "monuments"},
+                                      StandInKind{"man_made", "obelisk", "monuments"},
+                                      StandInKind{"tourism", "artwork", "monuments"},
+                                      StandInKind{"memorial", "", "monuments"}};
 
 }  // namespace
 

@@ -31,10 +31,10 @@ std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list
     const std::optional<double> length = plain ? plain : roughly_length_m(value, BuildingDefaults{}.level_m);
     const bool usable = length && *length > 0 && *length <= most;
     if (plain && usable) return std::max(*length, kLeastSize);
-    const TagFault fault = usable          ? TagFault::rough
-                           : !length       ? TagFault::no_value
-                           : *length <= 0  ? TagFault::negative
-                                           : TagFault::too_large;
+    const TagFault fault = usable         ? TagFault::rough
+                           : !length      ? TagFault::no_value
+                           : *length <= 0 ? TagFault::negative
+                                          : TagFault::too_large;
     remarks.push_back({fault, std::string(key), std::string(value),
                        usable ? core::format("taken as {:.6g} m", *length) : "taken as untagged"});
     remarks.back().unsure = key.ends_with("height");

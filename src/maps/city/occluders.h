@@ -24,8 +24,8 @@ enum class Geometry { point, line, area };
 /// itself is drawn).
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
 
-/// How high above the ground the supports of a line overhead are whose tags and nodes say no height, metres; nothing for
-/// what is no such line.
+/// How high above the ground the supports of a line overhead are whose tags and nodes say no height, metres; nothing
+/// for what is no such line.
 std::optional<double> overhead_height_m(const osm::Tags& tags);
 
 /// Which member of Occluders switches the stand-in of such tags off: "woods", "others".
@@ -54,10 +54,10 @@ struct Shape {
   std::optional<Tree> tree;
 };
 
-/// The shapes of a line: walls, tree rows, bridges, stand-ins. `points`: in scene metres, of a closed line the first repeated at
-/// the end. `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in one.
-/// Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height. Empty, with a remark, for
-/// what has no length.
+/// The shapes of a line: walls, tree rows, bridges, stand-ins. `points`: in scene metres, of a closed line the first
+/// repeated at the end. `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in
+/// one. Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height. Empty, with a remark,
+/// for what has no length.
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 

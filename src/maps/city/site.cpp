@@ -14,7 +14,6 @@
 namespace vantage::internal::city {
 namespace {
 
-
 /// Parts that cover this share of their building are all of it where they begin above the ground, too.
 constexpr double kCovered = 0.9;
 
@@ -33,8 +32,9 @@ void skip(Site& site, CityRecord record, std::string reason) {
 /// The words of the map for what an object is: "power=tower".
 std::string what_of(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 17> keys = {
-      "building", "building:part", "man_made", "power",      "aerialway", "historic",    "tourism", "leisure", "natural",
-      "landuse",  "barrier",       "amenity",  "attraction", "bridge",    "advertising", "height",  "type"};
+      "building",   "building:part", "man_made",    "power",   "aerialway", "historic",
+      "tourism",    "leisure",       "natural",     "landuse", "barrier",   "amenity",
+      "attraction", "bridge",        "advertising", "height",  "type"};
   for (const std::string_view key : keys) {
     if (tags.has(key)) return std::string(key).append("=").append(tags.get(key));
   }
@@ -78,10 +78,12 @@ void add_faults(std::vector<Fault>& faults, const Repairs& repairs) {
   } else if (repairs.enclosed) {
     faults.push_back({"", "the smallest rectangle round what is known of its outline", true});
   } else if (repairs.self_crossing) {
-    faults.push_back({"its outline crosses itself", "all that it is wound round, and the hull of each crossing's corners"});
+    faults.push_back(
+        {"its outline crosses itself", "all that it is wound round, and the hull of each crossing's corners"});
   }
   if (repairs.nesting) {
-    faults.push_back({"holes cross its outline or each other, or lie outside of it", "its outline without these holes"});
+    faults.push_back(
+        {"holes cross its outline or each other, or lie outside of it", "its outline without these holes"});
   }
   if (repairs.beyond) faults.push_back({"some of it lies beyond all bounds", "the rest of it", true});
 }
@@ -305,9 +307,8 @@ class OccluderSorter {
       if (is_building(kind)) kind = ObjectKind::stand_in;
       if (!is_switched_on(kind, point.tags, options_.occluders) || !belongs(std::vector{point.position})) continue;
       const Vec2 place = frame_.to_local(point.position);
-      add(point.id, point.tags, *kind, {place, place}, {}, [&](auto& remarks) {
-        return shapes_of_point(point.tags, place, defaults_, options_.defaults, remarks);
-      });
+      add(point.id, point.tags, *kind, {place, place}, {},
+          [&](auto& remarks) { return shapes_of_point(point.tags, place, defaults_, options_.defaults, remarks); });
     }
   }
 

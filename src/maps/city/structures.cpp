@@ -19,7 +19,8 @@ constexpr double kLeastSide = 0.25;
 constexpr double kPointSide = 20;
 
 Ring enclosing(const Ring& positions) {
-  const bool is_point = std::all_of(positions.begin(), positions.end(), [&](const Vec2& p) { return p == positions[0]; });
+  const bool is_point =
+      std::all_of(positions.begin(), positions.end(), [&](const Vec2& p) { return p == positions[0]; });
   return enclosing_rectangle(positions, is_point ? kPointSide : kLeastSide);
 }
 

@@ -171,7 +171,9 @@ bool counts_levels(std::string_view unit) {
 
 std::optional<double> parse_length_m(std::string_view text) { return largest(text, one_length_m); }
 
-std::optional<double> parse_lowest_length_m(std::string_view text) { return largest(text, one_length_m, std::less<>()); }
+std::optional<double> parse_lowest_length_m(std::string_view text) {
+  return largest(text, one_length_m, std::less<>());
+}
 
 std::optional<double> parse_levels(std::string_view text) { return largest(text, plain_number); }
 
