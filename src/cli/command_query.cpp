@@ -385,14 +385,13 @@ int run_query(const QueryArguments& options) {
   if (!is_quiet) tell_of_columns(table);
 
   Mission mission = resolve_mission(file, progress.callback());
-  for (const Warning& warning : mission.notes) {
-    if (warning.code == WarningCode::zones_left_out && !is_quiet) note(warning.text);
-  }
   if (!options.target.empty()) mission = of_target(mission, options.target);
   check_fraction(options, mission);
   const Scene& scene = mission.scene();
   for (const Warning& warning : mission_warnings(mission)) {
-    if (warning.code == WarningCode::scene_incomplete && !is_quiet) note(warning.text);
+    const bool is_missing =
+        warning.code == WarningCode::scene_incomplete || warning.code == WarningCode::zones_left_out;
+    if (is_missing && !is_quiet) note(warning.text);
   }
   if (table.is_lonlat() && table.height() == HeightDatum::scene_z && !is_quiet) tell_of_heights(scene);
   if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
