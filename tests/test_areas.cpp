@@ -72,7 +72,7 @@ TEST_F(Areas, SayWhatTheyAre) {
   // Positions in the file are to a millimetre.
   EXPECT_NEAR(areas[0].area_m2, 40 * 30, 0.2);
   EXPECT_NEAR(areas[1].area_m2, 20 * 10, 0.1);
-  EXPECT_NEAR(areas[2].area_m2, 20 * 20 / 2.0, 0.2) << "crossing itself: wound round an odd number of times";
+  EXPECT_NEAR(areas[2].area_m2, 20 * 20, 0.2) << "crossing itself: the hull of the corners next to it";
   EXPECT_NEAR(areas[3].area_m2, 40 * 40 - 20 * 20, 0.2) << "the hole is taken off";
   ASSERT_EQ(areas[3].polygons.size(), 1U);
   EXPECT_EQ(areas[3].polygons[0].outer.size(), 4U);

@@ -238,8 +238,10 @@ TEST(CityFootprint, RandomTangles) {
         distance = std::min(distance, distance_to(p, hole));
         wanted = wanted && !inside_odd(p, hole);
       }
-      // Slivers are left out, and rounding moves sides by a few units.
+      // Slivers are left out, and rounding moves sides by a few units. What crosses itself only grows.
       if (distance < 0.02) continue;
+      ASSERT_TRUE(inside(p, result) || !wanted) << "round " << round << " at " << (p - offset).transpose();
+      if (repairs.self_crossing || repairs.nesting) continue;
       ASSERT_EQ(inside(p, result), wanted) << "round " << round << " at " << (p - offset).transpose();
     }
   }

@@ -190,7 +190,7 @@ TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
   const auto expect_empty = [&](const std::string& mission, const std::string& outcome) {
     write("mission.yaml", mission);
     const ProgramRun result = run({"compute", "mission.yaml", "-o", "volume.ply", "-o", "new.glb"});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.exit_code, 1) << result.err;
     const auto report = nlohmann::json::parse(content(folder_ / "volume.report.json"));
     EXPECT_EQ(report.at("outcome"), outcome) << report;
     EXPECT_NE(report.at("reason"), "");
@@ -377,7 +377,7 @@ TEST_F(Cli, TheTownWorks) {
   for (const auto& record : scene.at("records")) EXPECT_NE(record.at("fate"), "open_surface") << record;
 
   const std::string mission = (example / "mission.yaml").string();
-  const auto report = nlohmann::json::parse(output_of({"compute", mission, "-o", "volume.ply", "--json"}));
+  const auto report = nlohmann::json::parse(output_of({"compute", mission, "-o", "volume.ply", "--json", "-q"}));
   EXPECT_EQ(report.at("outcome"), "computed");
   EXPECT_NEAR(report.at("georeference").at("latitude_deg"), 48, 1e-9);
   EXPECT_GT(report.at("causes").size(), 5U);

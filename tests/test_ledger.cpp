@@ -23,7 +23,8 @@ using testing::write_bytes;
 
 class LedgerTest : public ::testing::Test {
  protected:
-  Scene build(const MapText& map, const CityOptions& options = {}) {
+  Scene build(const MapText& map, CityOptions options = {}) {
+    options.region = {{{48.1374, 11.5755}}, 2000, {}};  // the origin of MapText
     write_bytes(folder_ / "city.osm", map.text());
     return build_city(folder_ / "city.osm", options).scene;
   }
@@ -91,7 +92,7 @@ MapText block_with_courtyard(double west, double east) {
 }
 
 TEST_F(LedgerTest, ACourtyardThatIsAtFaultIsFilled) {
-  for (const auto& [west, east] : {std::pair{10.0, 30.05}, {20.0, 40.0}, {50.0, 70.0}, {10.0, 30.0}}) {
+  for (const auto& [west, east] : {std::pair{10.0, 30.05}, {10.0, 40.0}, {10.0, 30.0}}) {
     const Scene scene = build(block_with_courtyard(west, east));
     expect_block(scene, "relation/1");
     EXPECT_TRUE(covers(scene, "relation/1", 15, 1)) << east;
@@ -145,9 +146,7 @@ TEST_F(LedgerTest, ARelationOfAnotherTypeIsOnlyTold) {
   const long outline = map.box(-30, -30, 30, 30, {});
   map.relation({{"way", outline, "outer"}}, {{"type", "site"}, {"building", "yes"}, {"height", "40"}});
   map.box(200, -5, 210, 5, {{"building", "yes"}});
-  CityOptions options;
-  options.region = {{{48.1374, 11.5755}}, 500, {}};
-  const Scene scene = build(map, options);
+  const Scene scene = build(map);
   EXPECT_TRUE(box_of(scene, "relation/1").empty());
   const LedgerEntry& entry = entry_of(scene, "relation/1");
   EXPECT_FALSE(entry.stand_in);
@@ -308,7 +307,9 @@ TEST_F(LedgerTest, MissionsWarnOfWhatLiesWithinReachAlone) {
   const Mission near = mission(block_with_courtyard(10, 30.05), town_mission(""));
   const std::vector<Warning> warnings = mission_warnings(near);
   ASSERT_EQ(count(warnings, WarningCode::scene_incomplete), 1u);
-  testing::expect_wording(warnings.front().text);
+  for (const Warning& warning : warnings) {
+    if (warning.code == WarningCode::scene_incomplete) testing::expect_wording(warning.text);
+  }
   MapText far = block_with_courtyard(-10, 10);
   far.area({{-130, -30}, {-110, 30}, {-110, -30}, {-130, 30}}, {{"building", "yes"}});
   EXPECT_EQ(count(mission_warnings(mission(far, town_mission(""))), WarningCode::scene_incomplete), 0u);
@@ -341,8 +342,11 @@ TEST_F(LedgerTest, ATargetInAStandInIsToldWhatLeavesItOut) {
   MapText map = block_with_courtyard(-10, 10);
   map.box(35, -20, 80, 20, {{"natural", "wood"}, {"height", "25"}});
   const Mission wooded = mission(map, town_mission(""));
-  testing::expect_error([&] { PreparedTarget(PreparedScene(wooded.scene()), wooded.target, wooded.sensor); },
-                        ErrorCode::target_inside_solid);
+  const std::vector<Warning> warnings = mission_warnings(wooded);
+  ASSERT_EQ(count(warnings, WarningCode::target_inside), 1u);
+  for (const Warning& warning : warnings) {
+    if (warning.code == WarningCode::target_inside) testing::expect_wording(warning.text);
+  }
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ TEST(ReadObj, TakesBothDiagonalsWhereAFaceIsNotFlat) {
   const auto read_quad = [](const std::string& z) {
     return read_as("a.obj", "v 30 30 0\nv 40 30 " + z + "\nv 40 40 0\nv 30 40 " + z + "\no roof\nf 1 2 3 4\n");
   };
-  EXPECT_EQ(read_quad("0").triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(read_quad("0").triangles.size(), 2u);
   EXPECT_EQ(read_quad("0.019").triangles.size(), 2u);  // within a centimetre of a plane
   const RawMesh mesh = read_quad("8");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}));

@@ -383,8 +383,8 @@ TEST(VisibleShare, SaysWhyThereIsNothing) {
   SceneBuilder scene;  // a lid over all of it
   scene.polygon("lid", {{-90, -90, 0.005}, {90, -90, 0.005}, {90, 90, 0.005}, {-90, 90, 0.005}});
   const Volume volume = compute_volume(PreparedTarget(PreparedScene(scene), rectangle(10, 10), sharing(50, 0.5, 4)));
-  EXPECT_EQ(volume.outcome, Outcome::no_common_view);
-  testing::expect_wording({volume.reason, volume.hint});
+  ASSERT_EQ(volume.outcome, Outcome::computed) << "what is seen from under the lid";
+  EXPECT_LE(bounding_box(volume.mesh).max.z(), 0.005 + 1e-9);
   const Volume far =
       compute_volume(PreparedTarget(PreparedScene(half_plate()), rectangle(40, 40), sharing(20, 0.5, 4)));
   EXPECT_EQ(far.outcome, Outcome::out_of_range);

@@ -23,18 +23,21 @@ constexpr std::array<std::pair<ObjectKind, const char*>, 4> kLeftOut = {{{Object
 
 }  // namespace
 
-std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
-                                            const std::string& target_object) {
-  if (!loaded.city || object >= loaded.scene.objects.size()) return std::nullopt;
-  const SceneObject& found = loaded.scene.objects[object];
+std::optional<std::string> how_to_leave_out_stand_in(const LoadedScene& loaded, std::uint32_t object) {
   const std::vector<LedgerEntry>& ledger = loaded.scene.ledger;
   const auto entry =
       std::find_if(ledger.begin(), ledger.end(), [&](const auto& one) { return one.stand_in == object; });
-  if (entry != ledger.end() && found.kind == ObjectKind::stand_in) {
-    return "a stand-in is there: " + ledger_text(*entry) + "; leave it out with scene: {" +
-           (entry->without.empty() ? "missing: warn}, which leaves out all stand-ins"
-                                   : "without: [" + entry->without + "]}, or all stand-ins with missing: warn");
-  }
+  if (entry == ledger.end() || loaded.scene.objects.at(object).kind != ObjectKind::stand_in) return std::nullopt;
+  return "a stand-in is there: " + ledger_text(*entry) + "; leave it out with scene: {" +
+         (entry->without.empty() ? "missing: warn}, which leaves out all stand-ins"
+                                 : "without: [" + entry->without + "]}, or all stand-ins with missing: warn");
+}
+
+std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
+                                            const std::string& target_object) {
+  if (const auto advice = how_to_leave_out_stand_in(loaded, object)) return advice;
+  if (!loaded.city || object >= loaded.scene.objects.size()) return std::nullopt;
+  const SceneObject& found = loaded.scene.objects[object];
   const auto kind =
       std::find_if(kLeftOut.begin(), kLeftOut.end(), [&](const auto& entry) { return entry.first == found.kind; });
   if (kind == kLeftOut.end()) return std::nullopt;

@@ -16,6 +16,9 @@ namespace vantage::internal::app {
 std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
                                             const std::string& target_object);
 
+/// How to leave out a stand-in of the scene's ledger, and what it is; nothing for other objects.
+std::optional<std::string> how_to_leave_out_stand_in(const LoadedScene& loaded, std::uint32_t object);
+
 /// How to make the roof of an object the target that has a place inside of it: "for its roof write ...".
 std::string how_to_take_roof(const LoadedScene& loaded, std::uint32_t object, const Vec3& at);
 

@@ -111,6 +111,8 @@ std::optional<std::string> AskedPitches::note(const Mission& mission) const {
   const Mount& mount = mission.sensor.mount;
   const bool is_said = mission.sensor.camera && (mount.min_pitch_deg > -90 || mount.max_pitch_deg < 90);
   if (is_said && reaches(mount.min_pitch_deg, mount.max_pitch_deg)) return std::nullopt;
+  // Every gimbal that carries a camera through the air reaches these.
+  if (!is_said && reaches(-90, 0)) return std::nullopt;
   return asked + (is_said ? ", and the mission's mount does not"
                           : ", and what the gimbal reaches is not known: give 'sensor.gimbal.pitch', or the model of a "
                             "camera whose gimbal 'vantage cameras' lists");

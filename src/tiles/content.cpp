@@ -140,6 +140,7 @@ void ContentReader::read_points(const std::string& address, std::string_view byt
   const Parts parts = split(address, bytes, kPointsHeader);
   const Table features(parts.feature_json, parts.feature_binary, progress_, limits_);
   const std::uint64_t count = features.whole("POINTS_LENGTH");
+  if (count == 0) return;
   const std::vector<double> about = features.global("RTC_CENTER", 3).value_or(std::vector<double>{0, 0, 0});
   Box box;
   const auto vector = [](const std::vector<double>& numbers, std::size_t i) {

@@ -126,7 +126,10 @@ class ExtractBuilder {
     if (kept.closed && !incomplete) assembly = assemble(way);
     if (assembly.polygons.empty()) {
       assembly.polygons = raw_polygon(way, incomplete);
-      if (assembly.polygons.empty()) return false;
+      if (assembly.polygons.empty()) {
+        problem.add(Kind::degenerate, "its positions bound no area");
+        return false;
+      }
       const Ring& ring = assembly.polygons.front().outer;
       if (assembly.polygons.front().incomplete) {
         if (!incomplete) problem.add(Kind::degenerate, "its positions bound no area");
