@@ -35,7 +35,7 @@ std::optional<std::string> how_to_leave_out_stand_in(const LoadedScene& loaded, 
 
 std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
                                             const std::string& target_object) {
-  if (const auto advice = how_to_leave_out_stand_in(loaded, object)) return advice;
+  if (auto advice = how_to_leave_out_stand_in(loaded, object)) return advice;
   if (!loaded.city || object >= loaded.scene.objects.size()) return std::nullopt;
   const SceneObject& found = loaded.scene.objects[object];
   const auto kind =
