@@ -325,7 +325,7 @@ TEST(ZoneFiles, ReadsFencesOfWaypoints) {
   EXPECT_EQ(list.zones[3].is_inclusion, std::optional(false));
   EXPECT_EQ(list.left_out, (std::map<std::string, std::size_t>{{"return point", 1}, {"waypoint", 1}}));
   EXPECT_TRUE(list.has_no_heights);
-  refuse(start + row(5002, "3", "48\t11") + row(5002, "3", "48\t11.001"), kSyntax, "line 4");
+  refuse(start + row(5002, "3", "48\t11") + row(5002, "3", "48\t11.001"), kSyntax, "line 3");
   refuse(start + row(5002, "3", "48\t11") + row(5001, "1", "48\t11"), kSyntax, "line 3");
   refuse(start + row(5005, "3", "48\t11"), kSyntax, "line 3");
   refuse(start + row(5004, "-3", "48\t11"), kSyntax, "line 3");

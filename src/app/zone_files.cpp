@@ -401,7 +401,7 @@ void FileZones::skip(const ListedZone& listed, const Error& fault) {
   const Error named(
       fault.code(), problem, fault.where(),
       is_kept ? fault.fix() : fault.fix() + "; or leave out what cannot be read: 'skip: true' beside 'file'");
-  if (!is_kept && !file_.skip) throw named;
+  if (!is_kept && !file_.skip) throw Error(named);
   if (!left_.fault) left_.fault = named;
   left_.skipped.push_back(listed.place + (name.empty() ? "" : " " + name) + " (" + fault.problem() + ")");
 }
@@ -424,7 +424,7 @@ void FileZones::fail_for_nothing() const {
     fail(ErrorCode::nothing_given, "", std::string("the file has no fence to stay ") + (is_kept ? "in" : "out of"),
          std::string("name it under '") + (is_kept ? "keep_out'" : "keep_in'") + ", or add a fence");
   }
-  if (left_.fault) throw *left_.fault;
+  if (left_.fault) throw Error(*left_.fault);
   fail(ErrorCode::nothing_given, "", "the file has no areas",
        "give polygons or circles: lines and points are no zones");
 }

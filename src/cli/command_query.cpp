@@ -135,7 +135,8 @@ void tell_of_columns(const PointTable& table) {
   if (table.is_ambiguous()) note("the points have x, y and lon, lat: x and y are used; --lonlat uses the others");
   const std::string used = table.height_name().empty() ? "--z" : table.height_name();
   for (const std::string& name : table.unused_heights()) {
-    note("the points have " + used + " and " + name + ": " + used + " is used");
+    note(std::string("the points have ").append(used).append(" and ").append(name).append(": ").append(used) +
+         " is used");
   }
   if (table.replaced().empty()) return;
   std::string names;
