@@ -246,7 +246,7 @@ def built(program: str, file: str, folder: pathlib.Path) -> tuple[dict, dict]:
     """What is built by id, as numbers that tell it, and the ledger by id."""
     listed = run(program, ["inspect", file, "--objects", "*", "--json"], folder)
     objects = {o["source_id"]: (round(o["height_m"], 3), round(o.get("footprint_m2") or 0, 1))
-               for o in json.loads(listed.stdout)} if listed.returncode == 0 else {}
+               for o in json.loads(listed.stdout)["objects"]} if listed.returncode == 0 else {}
     told = run(program, ["inspect", file, "--json"], folder)
     return objects, {e["object"]: e for e in json.loads(told.stdout)["ledger"]} if told.returncode == 0 else {}
 

@@ -140,7 +140,7 @@ std::string csv_field(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.empty() ? 'a' : text.front());
   const bool is_formula =
       first < ' ' || std::string_view("=+-@'").find(static_cast<char>(first)) != std::string_view::npos;
-  const std::string field = (is_formula ? "'" : "") + std::string(text);
+  std::string field = (is_formula ? "'" : "") + std::string(text);
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
   std::string quoted = "\"";
   for (const char c : field) quoted.append(c == '"' ? 2 : 1, c);
