@@ -146,8 +146,7 @@ TEST_F(CliProve, AllIsSaidOnlyOfAll) {
   }
   mesh.vertices[top].z() -= 0.02;
   mesh.triangles = triangles;
-  read.volume.causes.clear();
-  read.volume.cause_of.clear();
+  read.volume.cause_of.resize(triangles.size(), 0);
   write_volume(read.volume, folder_ / "pit.ply");
   const std::string table = output_of({"prove", "mission.yaml", "pit.ply", "--maximal"});
   EXPECT_NE(table.find("99.9999 %"), std::string::npos) << table;
