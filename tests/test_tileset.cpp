@@ -300,8 +300,8 @@ TEST(Tileset, ReadsInstancesAndComposites) {
   for (const float value : {2.f, 3.f}) rest += bytes_of(value);
   const json features = {{"INSTANCES_LENGTH", 2}, {"POSITION", {{"byteOffset", 0}}}, {"SCALE", {{"byteOffset", 24}}}};
   const std::string trees = i3dm(box_glb({{}}), features, positions + rest, {{"name", {"oak", "elm"}}});
-  const std::string points = std::string("pnts\1\0\0\0\x34\0\0\0\x18\0\0\0", 16) + std::string(12, '\0') +
-                             R"({"POINTS_LENGTH": 0}    )";
+  const std::string points =
+      std::string("pnts\1\0\0\0\x34\0\0\0\x18\0\0\0", 16) + std::string(12, '\0') + R"({"POINTS_LENGTH": 0}    )";
   tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points}));
   const TilesetScene read = tiles.read();
   EXPECT_EQ(read.report.triangles, 36u);

@@ -192,12 +192,12 @@ std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& ta
       ++inside;
     }
     if (!object) continue;
-    return Warning{WarningCode::target_inside,
-                   (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
-                       in_quotes(display_name(loaded.scene.objects[*object])) +
-                       ", so no position outside that object sees all of it; " +
-                       how_to_leave_out_stand_in(loaded, *object).value_or(
-                           how_to_take_roof(loaded, *object, places[first]))};
+    return Warning{
+        WarningCode::target_inside,
+        (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
+            in_quotes(display_name(loaded.scene.objects[*object])) +
+            ", so no position outside that object sees all of it; " +
+            how_to_leave_out_stand_in(loaded, *object).value_or(how_to_take_roof(loaded, *object, places[first]))};
   }
   return std::nullopt;
 }
