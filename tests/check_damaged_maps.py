@@ -5,9 +5,10 @@
 
 Takes buildings of the extracts in data/osm of VANTAGE_SHARED (../shared beside the project), with what stands round
 them, and damages one of them: rings are opened, ways removed, courtyards moved across their outlines, heights garbled,
-corners swapped. Each damage must leave the building as it is, or be in the ledger. Positions round the building are then
-asked of the sound map and of the damaged one, whether they see a target beside it: none may be claimed that the sound
-map refutes, but where a height is garbled that nothing else tells. Prints a table, and exits with 1 for a fault.
+corners swapped; and posts of a surface raster lose their heights. Each damage must leave the building as it is, or be in
+the ledger. Positions round the building are then asked of the sound map and of the damaged one, whether they see a
+target beside it: none may be claimed that the sound map refutes, but where a height is lost that nothing else tells.
+Prints a table, and exits with 1 for a fault.
 """
 
 import argparse
@@ -21,6 +22,7 @@ import os
 import pathlib
 import random
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -28,6 +30,7 @@ import xml.etree.ElementTree as ElementTree
 
 EXTRACTS = ["empire-state-600m.osm.pbf", "helsinki.osm.pbf", "new-york-les.osm.pbf", "singapore-bayfront.osm.pbf",
             "berlin-siegessaeule.osm.gz", "erlangen.osm.gz", "monaco.osm.pbf", "manhattan-midtown.osm.pbf"]
+RASTER = "dsm.tif"
 REACH_M = 90
 METRES_PER_DEGREE = 111320.0
 CLOSE_M = 0.05  # of a border: the two frames round differently
@@ -308,17 +311,94 @@ def try_damage(program: str, city: Map, choices: list, seed: str, kept: pathlib.
         return Result(damage.__name__, became, judged, wrong, what)
 
 
+# ---- posts of a raster
+
+
+class Raster:
+    """The posts of an uncompressed GeoTIFF of 32-bit floats, 1 m apart, and where they lie in the file."""
+
+    def __init__(self, file: pathlib.Path) -> None:
+        self.bytes = file.read_bytes()
+        (directory,) = struct.unpack_from("<I", self.bytes, 4)
+        entries = [struct.unpack_from("<HHII", self.bytes, directory + 2 + 12 * i)
+                   for i in range(struct.unpack_from("<H", self.bytes, directory)[0])]
+        value = {tag: at for tag, _, _, at in entries}
+        strips = next(count for tag, _, count, _ in entries if tag == 273)
+        self.columns, self.rows = value[256], value[257]
+        offsets = struct.unpack_from(f"<{strips}I", self.bytes, value[273])
+        per_strip = value[278]
+        self.place = [offsets[r // per_strip] + 4 * ((r % per_strip) * self.columns + c)
+                      for r in range(self.rows) for c in range(self.columns)]
+        self.heights = [struct.unpack_from("<f", self.bytes, at)[0] for at in self.place]
+        self.void = min(self.heights)
+
+    def block(self, row: int, column: int, rows: int, columns: int) -> list[int]:
+        return [r * self.columns + c for r in range(row, row + rows) for c in range(column, column + columns)]
+
+    def without(self, posts: list[int]) -> bytes:
+        text = bytearray(self.bytes)
+        for post in posts:
+            struct.pack_into("<f", text, self.place[post], self.void)
+        return bytes(text)
+
+
+def void_posts(program: str, raster: Raster, seed: str, kept: pathlib.Path | None) -> Result | None:
+    """Up to 18 m of posts near the middle. Where one of them is higher than all of the rim nothing tells that."""
+    numbers = random.Random(seed)
+    rows, columns = numbers.randint(1, 18), numbers.randint(1, 18)
+    row = raster.rows // 2 + numbers.randint(-30, 12)
+    column = raster.columns // 2 + numbers.randint(-30, 12)
+    lost = raster.block(row, column, rows, columns)
+    rim = set(raster.block(row - 1, column - 1, rows + 2, columns + 2)) - set(lost)
+    if any(raster.heights[post] == raster.void for post in [*lost, *rim]):
+        return None
+    is_told = max(raster.heights[p] for p in lost) <= max(raster.heights[p] for p in rim)
+    near = [h for h in (raster.heights[p] for p in raster.block(row - 30, column - 30, rows + 60, columns + 60))
+            if h != raster.void]
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "sound.tif").write_bytes(raster.bytes)
+        (folder / "damaged.tif").write_bytes(raster.without(lost))
+        told = [json.loads(run(program, ["inspect", f"{name}.tif", "--json"], folder).stdout) for name in ("sound", "damaged")]
+        # The void's middle in the scene, whose axes are turned by some degrees against those of the raster.
+        x, y = column + columns / 2 - raster.columns / 2, raster.rows / 2 - row - rows / 2
+        points = ["x,y,z"] + [f"{x + numbers.uniform(-40, 40):.3f},{y + numbers.uniform(-40, 40):.3f},"
+                              f"{numbers.uniform(min(near), max(near) + 15):.3f}" for _ in range(300)]
+        (folder / "points.csv").write_text("\n".join(points) + "\n")
+        judged = wrong = 0
+        for _ in range(6):
+            a, b = x + numbers.uniform(-25, 25), y + numbers.uniform(-25, 25)
+            z = numbers.uniform(min(near), max(near))
+            corners = ", ".join(f"[{a + i:.3f}, {b + j:.3f}, {z:.3f}]" for i, j in ((0, 0), (3, 0), (3, 3), (0, 3)))
+            for name in ("sound", "damaged"):
+                (folder / f"{name}.yaml").write_text(f"scene: {{raster: {name}.tif}}\ntarget: {{vertices: [{corners}]}}\n"
+                                                     "sensor: {max_range: 70}\n")
+            sound = answers(program, "sound.yaml", folder)
+            damaged = None if sound is None else answers(program, "damaged.yaml", folder)
+            if damaged is None:
+                continue
+            judged = len(sound)
+            wrong = sum(there and not here and abs(margin) > CLOSE_M and abs(other) > CLOSE_M
+                        for (there, other), (here, margin) in zip(damaged, sound, strict=True))
+            break
+        became = "silent" if len(told[1]["ledger"]) == len(told[0]["ledger"]) else "held" if is_told else "ledger only"
+        what = f"{rows} x {columns} posts, {became}: {wrong} of {judged} positions; seed {seed!r}"
+        if kept is not None and (became == "silent" or (wrong and became != "ledger only")):
+            shutil.copytree(folder, kept / seed.replace(" ", "-"), dirs_exist_ok=True)
+        return Result(void_posts.__name__, became, judged, wrong, what)
+
+
 def report(results: list[Result]) -> int:
     fates = ["built right", "held", "ledger only", "silent"]
     print(f"{'damage':16}" + "".join(f"{f:>14}" for f in fates) + f"{'positions':>12}{'over-claimed':>14}")
-    for damage in DAMAGES:
+    for damage in [*DAMAGES, void_posts]:
         own = [r for r in results if r.damage == damage.__name__]
         counts = collections.Counter(r.fate for r in own)
         wrong = sum(r.wrong for r in own if r.fate != "ledger only")
         print(f"{damage.__name__:16}" + "".join(f"{counts[f]:14}" for f in fates) +
               f"{sum(r.judged for r in own):12}{wrong:14}")
     faults = [r for r in results if r.fate == "silent" or (r.wrong and r.fate != "ledger only") or
-              (r.fate == "ledger only" and r.damage != "lose_height")]
+              (r.fate == "ledger only" and r.damage not in ("lose_height", "void_posts"))]
     for fault in faults[:40]:
         print("FAULT", fault.what)
     print(f"{len(results)} damages, {sum(r.judged for r in results)} positions, {len(faults)} faults")
@@ -347,15 +427,21 @@ def main() -> int:
         relations = [r for r in city.relations.values() if is_building(r) and tags(r).get("type") == "multipolygon"]
         # Relations are few, and most damages are of theirs.
         cities.append((city, choices + relations * max(1, len(choices) // max(1, 2 * len(relations)))))
+    surface = Raster(shared / "data" / "dsm" / RASTER)
     results: list[Result] = []
+
+    def damage_one(number: int) -> Result | None:
+        seed, turn = f"{arguments.seed} {number}", number % (len(cities) + 1)
+        if turn == len(cities):
+            return void_posts(program, surface, seed, arguments.keep)
+        return try_damage(program, *cities[turn], seed, arguments.keep)
+
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         number = 0
         while len(results) < arguments.damages and number < 20 * arguments.damages:
             batch = range(number, number + 4 * arguments.jobs)
             number = batch.stop
-            found = pool.map(lambda i: try_damage(program, *cities[i % len(cities)], f"{arguments.seed} {i}",
-                                                  arguments.keep), batch)
-            results.extend(r for r in found if r is not None)
+            results.extend(r for r in pool.map(damage_one, batch) if r is not None)
     print(f"seed {arguments.seed}; {', '.join(file.name for file in files)}")
     return report(results[:arguments.damages])
 

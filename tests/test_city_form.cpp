@@ -68,6 +68,34 @@ TEST(CityForm, Lengths) {
   EXPECT_FALSE(parse_length_m(std::string(1000, '9'))) << "not finite";
 }
 
+TEST(CityForm, WhatIsNoPlainNumberIsTakenForTheMostThatItMayMean) {
+  const std::vector<std::pair<const char*, double>> lengths = {{"13-22", 22},
+                                                               {"~22", 22},
+                                                               {"22 m (approx)", 22},
+                                                               {"10 storeys", 30},
+                                                               {"10-storey", 30},
+                                                               {"10 (storeys)", 30},
+                                                               {"G+5", 18},
+                                                               {"2\u00bd m", 2.5},
+                                                               {"1,250 ft", 381},
+                                                               {"2,500", 2.5},  // and no 2500 m
+                                                               {"0,125 m ?", 0.125},
+                                                               {"0.3 km?", 300},
+                                                               {"0.2 kilometres", 200},
+                                                               {"12+3", 15},
+                                                               {"5'11\" or so", 1.524}};
+  for (const auto& [text, metres] : lengths) {
+    const std::optional<double> length = roughly_length_m(text, 3);
+    ASSERT_TRUE(length) << text;
+    EXPECT_NEAR(*length, metres, 1e-9) << text;
+  }
+  EXPECT_FALSE(parse_length_m("1,250 ft")) << "a thousand, or one and a quarter";
+  const std::vector<std::pair<const char*, double>> levels = {{"5+1", 6}, {"G+5", 6}, {"2-3", 3},     {"2\u00bd", 2.5},
+                                                              {"~7", 7},  {"3+", 3},  {"1,250", 1.25}};
+  for (const auto& [text, count] : levels) EXPECT_EQ(roughly_levels(text), count) << text;
+  for (const char* text : {"", "high", "-", "?"}) EXPECT_FALSE(roughly_length_m(text, 3)) << text;
+}
+
 TEST(CityForm, LevelsAndDirections) {
   EXPECT_EQ(parse_levels("3"), 3);
   EXPECT_EQ(parse_levels("2.5"), 2.5);
@@ -91,16 +119,15 @@ TEST(CityForm, LevelsAndDirections) {
 TEST(CityForm, RoofShapes) {
   for (int k = 0; k < kRoofShapes; ++k) {
     const auto shape = static_cast<RoofShape>(k);
-    const std::optional<RoofName> name = parse_roof_shape(text(shape));
+    const std::optional<RoofShape> name = parse_roof_shape(text(shape));
     ASSERT_TRUE(name) << text(shape);
-    EXPECT_EQ(name->shape, shape);
-    EXPECT_TRUE(name->same);
+    EXPECT_EQ(*name, shape);
   }
-  EXPECT_EQ(parse_roof_shape("half_hipped")->shape, RoofShape::half_hipped);
-  EXPECT_EQ(parse_roof_shape(" Pitched ")->shape, RoofShape::gabled);
-  EXPECT_EQ(parse_roof_shape("lean-to")->shape, RoofShape::skillion);
-  EXPECT_FALSE(parse_roof_shape("double_saltbox")->same);
-  for (const char* text : {"", "many", "9.0", "sawtooth"}) EXPECT_FALSE(parse_roof_shape(text)) << text;
+  EXPECT_EQ(parse_roof_shape("half_hipped"), RoofShape::half_hipped);
+  EXPECT_EQ(parse_roof_shape(" Pitched "), RoofShape::gabled);
+  EXPECT_EQ(parse_roof_shape("lean-to"), RoofShape::skillion);
+  for (const char* text : {"", "many", "9.0", "sawtooth", "double_saltbox", "cross_gabled"})
+    EXPECT_FALSE(parse_roof_shape(text)) << text;
 }
 
 TEST(CityForm, HeightsAndTheirOrder) {
@@ -152,7 +179,7 @@ TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
   EXPECT_EQ(below.form.bottom_m, 0);
   EXPECT_TRUE(below.has(TagFault::negative, "building:min_level"));
   const Reading many = read({{"building", "yes"}, {"roof:shape", "many"}, {"roof:direction", "up"}});
-  EXPECT_EQ(many.form.roof, RoofShape::flat);
+  EXPECT_TRUE(many.form.is_box);
   EXPECT_TRUE(many.has(TagFault::unknown_roof, "roof:shape"));
 }
 

@@ -279,6 +279,7 @@ TEST(CitySolid, WhatIsNotStarShapedIsNamed) {
     const CitySolid solid = make_solid({horseshoe, {}}, form_of(shape, 0, 12, 5), 0);
     expect_sound(solid, std::string(text(shape)));
     vantage::testing::expect_wording(solid.repair);
+    EXPECT_NEAR(enclosed_volume(solid.mesh), 250 * 12, 0.1) << "a box holds whatever it is";
   }
   EXPECT_EQ(make_solid({horseshoe, {}}, form_of(RoofShape::pyramidal, 0, 12, 5), 0).repair, "");
 }

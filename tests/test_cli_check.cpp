@@ -112,6 +112,15 @@ TEST_F(CliCheck, PlansThatCannotBeFollowedAreNotJudged) {
   EXPECT_EQ(run({"check", "map.yaml", "a.plan", "--clearance", "1000"}).exit_code, 4);
   write("b.plan", plan({waypoint(48, 11, 30), waypoint(48.0002, 11, 30)}));
   EXPECT_EQ(run({"check", "map.yaml", "b.plan"}).exit_code, 0);
+  // Keeps its height, or descends.
+  write("c.waypoints",
+        "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t0\t1\n1\t0\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n"
+        "2\t0\t3\t16\t0\t0\t0\t0\t48.0002\t11\t0\t1\n");
+  EXPECT_EQ(run({"check", "map.yaml", "c.waypoints"}).exit_code, 4);
+  // Above ground, and then a spline above the home.
+  write("d.plan", plan({waypoint(48, 11, 30, 10), waypoint(48.0001, 11, 30, 10),
+                        simple(82, 3, "[0, 0, 0, 0, 48.0002, 11, 30]")}));
+  EXPECT_EQ(run({"check", "map.yaml", "d.plan"}).exit_code, 4);
 }
 
 // Eastward along an arc that leads 70 m to the north, where the target is out of range.
@@ -161,6 +170,22 @@ TEST_F(CliCheck, WhatLiesBeyondTheMapIsTold) {
   const ProgramRun check = run({"check", "far.yaml", "a.csv", "--json"});
   expect_wording(check.err);
   EXPECT_EQ(Json::parse(check.out)["notes"].size(), 1U);
+}
+
+TEST_F(CliCheck, AnswersSayWhatMissionAndPlanLeaveOut) {
+  write("zones.json", R"({"type": "Polygon", "coordinates": [[[11, 48], [11.1, 48], [11.1, 48.1]]]})");
+  write("zones.yaml",
+        content(folder_ / "map.yaml") + "navigation: {keep_out: [{file: zones.json, heights: any, skip: true}]}\n");
+  write("a.plan",
+        plan({waypoint(48, 11, 30, 3, 1), simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"), waypoint(48.0002, 11, 30, 3, 2)}));
+  const ProgramRun check = run({"check", "zones.yaml", "a.plan", "--json", "-o", "a.json"});
+  const Json notes = Json::parse(check.out)["notes"];
+  EXPECT_EQ(Json::parse(content(folder_ / "a.json"))["notes"], notes);
+  const std::string told = notes.dump();
+  for (const char* const name : {"zones.json", "31010"}) {
+    EXPECT_NE(told.find(name), std::string::npos) << told;
+    EXPECT_NE(check.err.find(name), std::string::npos) << check.err;
+  }
 }
 
 }  // namespace

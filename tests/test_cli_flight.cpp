@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/cli_fixture.h"
+#include "support/map_text.h"
 
 namespace vantage {
 namespace {
@@ -124,6 +125,24 @@ TEST_F(CliFlight, OfSeveralTargetsEachHasItsAnswer) {
   EXPECT_EQ(code_of({"stand", "two.yaml", "--target", "west"}), 0);
   EXPECT_EQ(code_of({"stand", "two.yaml", "--target", "east"}), 2);
   EXPECT_EQ(code_of({"orbit", "two.yaml", "--radius", "15"}), 1);
+}
+
+TEST_F(CliFlight, AnswersSayWhatTheSceneLacks) {
+  testing::MapText map({11, 48});
+  map.area({{20, -5}, {30, 5}, {30, -5}, {20, 5}}, {{"building", "yes"}, {"name", "Bowtie"}});
+  write("city.osm", map.text());
+  write("map.yaml",
+        "scene: {osm: city.osm, center: [48, 11], radius: 150}\nsensor: {max_range: 60}\n"
+        "target: {center: [48, 11], width: 4, length: 4}\n");
+  for (const char* const command : {"stand", "orbit"}) {
+    const testing::ProgramRun found = run({command, "map.yaml", "--json"});
+    const std::string told = Json::parse(found.out)["targets"][0]["notes"].dump();
+    EXPECT_NE(told.find("Bowtie"), std::string::npos) << told;
+    EXPECT_NE(found.err.find("Bowtie"), std::string::npos) << found.err;
+  }
+  run({"compute", "map.yaml", "-q", "-o", "v.ply"});
+  const Json verified = json_of({"verify", "map.yaml", "v.ply", "--points", "200", "--json"});
+  EXPECT_NE(verified["scene_incomplete"].get<std::string>().find("Bowtie"), std::string::npos);
 }
 
 }  // namespace

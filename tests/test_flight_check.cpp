@@ -19,6 +19,8 @@
 #include "support/flight_cases.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/solids.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/query.h"
@@ -283,6 +285,41 @@ TEST(FlightCheck, WithATubeHoldsForAllOfIt) {
     }
   }
   EXPECT_GT(checked, 500U);
+}
+
+/// 5 m north of a flight along x, within a volume that asks for no range.
+Mission beside_what_is_not_built() {
+  Scene scene = with_ground(SceneBuilder().ground("ground", 200, -0.5));
+  scene.ledger.push_back({{"mast"}, "", "nothing tells how wide it is", Box{{-1, 5, 0}, {1, 7, 30}}});
+  auto room = std::make_shared<TargetVolume>();
+  room->mesh = make_box_mesh({-50, -40, 1}, {50, 40, 60});
+  Target target;
+  target.parts.clear();
+  target.volume = room;
+  return mission_in(scene, target, std::numeric_limits<double>::infinity());
+}
+
+TEST(FlightCheck, WithoutARangeWhatIsNotBuiltCountsWithinTheClearance) {
+  const Mission mission = beside_what_is_not_built();
+  Flight flight = flight_along({{-30, 0, 20}, {30, 0, 20}});
+  const auto notes = [&](const FlightCheckOptions& options) { return check_flight(mission, flight, options).notes; };
+  EXPECT_TRUE(notes({.clearance_m = 4}).empty());
+  ASSERT_EQ(notes({.clearance_m = 6}).size(), 1U);
+  expect_wording(notes({.clearance_m = 6})[0]);
+  EXPECT_EQ(notes({.tube_radius_m = 2, .clearance_m = 4}).size(), 1U);
+  flight.chord_error_m = 2;
+  EXPECT_EQ(notes({.clearance_m = 4}).size(), 1U);
+  Mission limited = mission;
+  limited.navigation.clearance = Clearance{6, obstacles_of(mission.scene())};
+  EXPECT_EQ(check_flight(limited, flight_along({{-30, 0, 20}, {30, 0, 20}})).notes.size(), 1U);
+}
+
+TEST(FlightCheck, HasTheNotesOfTheMission) {
+  Mission mission = behind_a_wall();
+  mission.notes.push_back({WarningCode::zones_left_out, "a zone was left out"});
+  const FlightCheck check = check_flight(mission, flight_along({{-60, 27, 20}, {60, 27, 20}}, 5));
+  EXPECT_EQ(check.notes, std::vector<std::string>{"a zone was left out"});
+  EXPECT_EQ(nlohmann::json::parse(json_text(check))["notes"].get<std::vector<std::string>>(), check.notes);
 }
 
 TEST(FlightCheckText, IsJsonThatSaysWhatIsNotKnown) {

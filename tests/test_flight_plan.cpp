@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "support/plan_texts.h"
@@ -184,7 +185,8 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
     return parsed_plan(plan({waypoint(48, 11, 10, 3, 1), item, waypoint(48.001, 11, 10)})).not_judged;
   };
   const std::string nowhere = "[2, 0, 0, 0, 0, 0, 0]", somewhere = "[0, 0, 0, null, 48.002, 11, 30]";
-  for (const int command : {25, 30, 32, 35, 37, 83, 91, 92, 94, 113, 176, 185, 186, 192, 208, 224, 601, 4001, 42703}) {
+  for (const int command :
+       {25, 30, 32, 35, 37, 83, 91, 92, 94, 113, 176, 185, 186, 192, 208, 218, 224, 601, 3000, 4001, 42703}) {
     const std::vector<std::string> told = not_judged(simple(command, 3, nowhere));
     ASSERT_EQ(told.size(), 1u) << command;
     EXPECT_NE(told[0].find("item 2"), std::string::npos) << told[0];
@@ -221,15 +223,48 @@ TEST(ReadFlightPlan, NamesRallyPointsThatItMayReturnTo) {
   expect_wording(told);
   EXPECT_TRUE(with("", {waypoint(48, 11, 10), home}).empty());
   EXPECT_TRUE(with("[48, 11, 30]", {waypoint(48, 11, 10)}).empty());
+  // As rows of a table, also behind the return.
+  const std::string way = "QGC WPL 110\n0\t1\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n",
+                    back = "1\t0\t3\t20\t0\t0\t0\t0\t0\t0\t0\t1\n",
+                    rally = "2\t0\t3\t5100\t0\t0\t0\t0\t48.001\t11\t30\t1\n";
+  const std::vector<std::string> rows = parsed_plan(way + back + rally).not_judged;
+  ASSERT_EQ(rows.size(), 1u);
+  expect_wording(rows);
+  EXPECT_EQ(parsed_plan(way + rally + back).not_judged.size(), 1u);
+  EXPECT_TRUE(parsed_plan(way + rally).not_judged.empty());
+  EXPECT_TRUE(parsed_plan(way + back).not_judged.empty());
 }
 
-// Of the ground station's own samples nothing is left out; one has rally points, and returns.
+TEST(ReadFlightPlan, TellsThatFencesAreNotJudged) {
+  const auto with = [](const std::string& members) {
+    std::string text = plan({waypoint(48, 11, 10)});
+    text.insert(1, "\"geoFence\": {" + members + "}, ");
+    return parsed_plan(text).notes;
+  };
+  const std::string square = "\"polygons\": [{\"inclusion\": true, \"polygon\": [[48, 11], [48, 12], [49, 12]]}]";
+  const std::vector<Warning> polygon = with(square), circle = with("\"circles\": [{\"inclusion\": false}]");
+  ASSERT_EQ(polygon.size(), 1u);
+  EXPECT_EQ(polygon[0].code, WarningCode::plan_left_out);
+  expect_wording(polygon[0].text);
+  EXPECT_TRUE(has_note(circle, WarningCode::plan_left_out));
+  EXPECT_TRUE(has_note(with("\"polygon\": [[48, 11], [48, 12], [49, 12]]"), WarningCode::plan_left_out)) << "old";
+  EXPECT_TRUE(with("\"circles\": [], \"polygons\": [], \"breachReturn\": [48, 11, 30]").empty());
+  const std::string way = "QGC WPL 110\n0\t1\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n";
+  for (const std::string command : {"5001", "5002", "5003", "5004"}) {
+    const FlightPlan read = parsed_plan(way + "1\t0\t3\t" + command + "\t3\t0\t0\t0\t48.001\t11\t0\t1\n");
+    EXPECT_TRUE(has_note(read.notes, WarningCode::plan_left_out)) << command;
+    EXPECT_EQ(read.notes.size(), 1u) << command;
+  }
+  EXPECT_TRUE(parsed_plan(way + "1\t0\t3\t5000\t0\t0\t0\t0\t48.001\t11\t0\t1\n").notes.empty());
+}
+
+// Of the ground station's own samples nothing is left out but a fence; one has rally points, and returns.
 TEST(ReadFlightPlan, ReadsRealPlansWhole) {
   VANTAGE_REQUIRE_SHARED("missions/simple.plan");
   for (const std::string name : {"qgroundcontrol_sample", "qgroundcontrol_sample_with_survey", "simple"}) {
     const FlightPlan read = read_flight_plan(shared_data("missions/" + name + ".plan"));
     EXPECT_EQ(read.not_judged.size(), name == "simple" ? 1u : 0u) << name;
-    EXPECT_FALSE(has_note(read.notes, WarningCode::plan_left_out)) << name;
+    EXPECT_EQ(has_note(read.notes, WarningCode::plan_left_out), name == "simple") << name;
   }
 }
 
@@ -284,36 +319,79 @@ TEST(ReadFlightPlan, NamesSplinesThatNobodyDefines) {
             1u);
 }
 
+/// A plan for an autopilot (MAV_AUTOPILOT: 3 is ArduPilot, 12 PX4) and a kind of vehicle (MAV_TYPE).
+FlightPlan plan_for(int autopilot, int vehicle, const std::vector<std::string>& items) {
+  std::string text = plan(items, vehicle);
+  const std::string px4 = "\"firmwareType\": 12";
+  return parsed_plan(text.replace(text.find(px4), px4.size(), "\"firmwareType\": " + std::to_string(autopilot)));
+}
+
 TEST(ReadFlightPlan, KeepsTheHeightBeforeForTheHeightZero) {
-  const std::string rows =
-      "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t500\t1\n1\t0\t3\t22\t0\t0\t0\t0\t0\t0\t50\t1\n"
-      "2\t0\t3\t16\t0\t0\t0\t0\t48\t11.001\t0\t1\n3\t0\t0\t82\t0\t0\t0\t0\t48.001\t11.001\t0\t1\n"
-      "4\t0\t3\t21\t0\t0\t0\t0\t48\t11\t0\t1\n";
-  const FlightPlan read = parsed_plan(rows);
+  const std::string up = simple(22, 3, "[0, 0, 0, null, null, null, 50]"),
+                    here = simple(17, 3, "[0, 0, 0, 0, 0, 0, 0]");
+  const FlightPlan read = plan_for(3, 2,
+                                   {up, waypoint(48, 11.001, 0), simple(82, 0, "[0, 0, 0, 0, 48.001, 11.001, 0]"),
+                                    simple(21, 3, "[0, 0, 0, 0, 48, 11, 0]")});
   ASSERT_EQ(read.items.size(), 4u);
   for (const std::size_t i : {1u, 2u}) {
     EXPECT_EQ(read.items[i].position.height_m, 50);
     EXPECT_EQ(read.items[i].position.datum, HeightDatum::home);
   }
   EXPECT_EQ(read.items[3].position.height_m, 0) << "it lands";
+  EXPECT_TRUE(read.not_judged.empty());
   std::vector<std::string> texts;
   for (const Warning& note : read.notes) texts.push_back(note.text);
   expect_wording(texts);
-  // Of other autopilots, and of ArduPilot's Plane, 0 is a height.
-  const auto second = [](int firmware, int vehicle) {
-    std::string text = plan({waypoint(48, 11, 50), waypoint(48.001, 11, 0)}, vehicle);
-    const std::string px4 = "\"firmwareType\": 12";
-    return parsed_plan(text.replace(text.find(px4), px4.size(), "\"firmwareType\": " + std::to_string(firmware)))
-        .items[1]
-        .position.height_m;
+  // Of other autopilots 0 is a height, and of ArduPilot's Plane where there is a position.
+  const auto second = [](int autopilot, int vehicle, const std::string& item) {
+    const FlightPlan two = plan_for(autopilot, vehicle, {waypoint(48, 11, 50), item});
+    EXPECT_TRUE(two.not_judged.empty()) << autopilot << ", " << vehicle;
+    return two.items[1].position.height_m;
   };
-  EXPECT_EQ(second(3, 2), 50);
-  EXPECT_EQ(second(12, 2), 0);
-  EXPECT_EQ(second(3, 1), 0);
+  const std::string there = waypoint(48.001, 11, 0);
+  EXPECT_EQ(second(3, 2, there), 50);
+  EXPECT_EQ(second(12, 2, there), 0);
+  EXPECT_EQ(second(3, 1, there), 0);
+  EXPECT_EQ(second(3, 20, there), 0);
+  EXPECT_EQ(second(3, 2, here), 50);
+  EXPECT_EQ(second(12, 2, here), 0);
+  EXPECT_EQ(second(3, 1, here), 50);
   // Over another ground the height is not that of the item before.
-  const std::string terrain =
-      "QGC WPL 110\n0\t1\t10\t16\t0\t0\t0\t0\t48\t11\t50\t1\n1\t0\t3\t16\t0\t0\t0\t0\t48\t11.001\t0\t1\n";
-  EXPECT_EQ(parsed_plan(terrain).not_judged.size(), 1u);
+  EXPECT_EQ(plan_for(3, 2, {waypoint(48, 11, 50, 10), there}).not_judged.size(), 1u);
+}
+
+// A Copter keeps the height, and others descend: unless that is the same.
+TEST(ReadFlightPlan, NamesHeightsOfZeroThatNobodyKnows) {
+  const auto row = [](int number, int frame, int command, const std::string& at) {
+    return std::to_string(number) + "\t0\t" + std::to_string(frame) + "\t" + std::to_string(command) +
+           "\t0\t0\t0\t0\t" + at + "\t1\n";
+  };
+  const auto read = [&](const std::string& rows) {
+    return parsed_plan("QGC WPL 110\n" + row(0, 0, 16, "48\t11\t0") + rows);
+  };
+  const std::string up = row(1, 3, 22, "0\t0\t50"), low = row(1, 3, 16, "48\t11\t0");
+  const FlightPlan descends = read(up + row(2, 3, 16, "48\t11.001\t0") + row(3, 3, 16, "48\t11.002\t40"));
+  ASSERT_EQ(descends.not_judged.size(), 1u);
+  expect_wording(descends.not_judged);
+  EXPECT_EQ(descends.home->height_m, 0);
+  EXPECT_EQ(descends.items.size(), 3u);
+  for (const int command : {17, 18, 19, 82}) {
+    EXPECT_EQ(read(up + row(2, 3, command, "48\t11.001\t0")).not_judged.size(), 1u) << command;
+  }
+  EXPECT_EQ(read(up + row(2, 10, 16, "48\t11.001\t0")).not_judged.size(), 1u) << "above another ground";
+  EXPECT_EQ(read(low + row(2, 0, 16, "48\t11.001\t0")).not_judged.size(), 1u) << "above another level";
+  EXPECT_EQ(read(row(1, 0, 16, "48\t11\t0") + up).not_judged.size(), 1u) << "from the home";
+  EXPECT_TRUE(read(low + row(2, 3, 16, "48\t11.001\t0")).not_judged.empty());
+  EXPECT_TRUE(read(up + row(2, 3, 21, "48\t11.001\t0")).not_judged.empty()) << "it lands";
+  EXPECT_TRUE(read(row(1, 3, 22, "0\t0\t0") + row(2, 3, 16, "48\t11.001\t40")).not_judged.empty()) << "it takes off";
+  const FlightPlan stays = read(row(1, 3, 16, "48\t11\t50") + row(2, 3, 17, "0\t0\t0"));
+  EXPECT_TRUE(stays.not_judged.empty());
+  EXPECT_EQ(stays.items[1].position.height_m, 50);
+  // Also of a plan that does not name the autopilot, or the vehicle.
+  for (const auto& [autopilot, vehicle, count] : {std::tuple(0, 2, 1u), {3, 0, 1u}, {0, 1, 0u}, {12, 0, 0u}}) {
+    EXPECT_EQ(plan_for(autopilot, vehicle, {waypoint(48, 11, 50), waypoint(48.001, 11, 0)}).not_judged.size(), count)
+        << autopilot << ", " << vehicle;
+  }
 }
 
 TEST(ReadFlightPlan, TellsVersionsThatItDoesNotKnow) {
@@ -734,6 +812,16 @@ TEST(ReadFlightPlan, TakesNoFieldForAnotherColumns) {
   expect_error([] { parsed_plan("lon,lat,msl,hold_s\n11.1,48.1,530\n"); }, ErrorCode::plan_syntax, "line 2");
   EXPECT_EQ(parsed_plan("lon,lat,msl,hold_s\n11.1,48.1,530,,\n").items.at(0).hold_s, 0);
   expect_error([] { parsed_plan("x,y,z,hold_s,hold_s\n1,2,3,4,5\n"); }, ErrorCode::plan_syntax, "line 1");
+}
+
+TEST(ReadFlightPlan, RefusesTwoColumnsOfOneMeaning) {
+  const auto refuse = [](const std::string& header) { return [header] { parsed_plan(header + "\n48,11,500,7\n"); }; };
+  expect_error(refuse("lat,lon,msl,latitude"), ErrorCode::conflicting_keys, "line 1");
+  for (const std::string header : {"lat,lon,msl,LAT", "lat,lon,long,msl", "lat,lng,speed,speed_kn"}) {
+    expect_code(refuse(header), ErrorCode::conflicting_keys, "line 1");
+  }
+  expect_code([] { parsed_plan("x,y,z,yaw,heading\n1,2,3,4,5\n"); }, ErrorCode::conflicting_keys, "line 1");
+  EXPECT_EQ(parsed_plan("lat,lon,msl,agl\n48,11,500,7\n").items.at(0).position.height_m, 500);
 }
 
 TEST(ReadFlightPlan, TakesUnitsThatAColumnCanHave) {

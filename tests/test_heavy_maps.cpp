@@ -63,14 +63,26 @@ std::map<std::string, std::string> ways_of_untagged_relations(const OsmiumMap& m
   return relation_of;
 }
 
-TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
-  std::map<std::string, const CityRecord*> records;
-  for (const CityRecord& record : city_.report.records) {
-    if (!is_building(record)) continue;
-    EXPECT_TRUE(records.emplace(record.object.source_id, &record).second)
-        << record.object.source_id << " is told of twice";
-    EXPECT_EQ(record.fate != Fate::written, !record.reason.empty()) << record.object.source_id;
+/// Buildings, and what stands in, that are built, passed over or lost; each building once.
+std::map<std::string, ObjectKind> told_of(const City& city) {
+  std::map<std::string, ObjectKind> told;
+  const auto tell = [&](const SceneObject& object) {
+    const bool is_one = object.kind == ObjectKind::building || object.kind == ObjectKind::building_part;
+    if (!is_one && object.kind != ObjectKind::stand_in) return;
+    const bool is_new = told.emplace(object.source_id, object.kind).second;
+    EXPECT_TRUE(is_new || !is_one) << object.source_id << " is told of twice";
+  };
+  for (const CityRecord& record : city.report.records) tell(record.object);
+  for (const CityPassedOver& one : city.report.passed_over) tell(one.object);
+  for (const LedgerEntry& entry : city.scene.ledger) {
+    const bool is_group = entry.reason.find("outlines and parts") != std::string::npos;
+    if (!entry.stand_in && !is_group) tell(entry.object);
   }
+  return told;
+}
+
+TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
+  std::map<std::string, ObjectKind> records = told_of(city_);
   const std::map<std::string, std::string> untagged = ways_of_untagged_relations(map_);
   std::set<std::string> stood_for;  // relations
   Counts counts;
@@ -82,8 +94,8 @@ TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
     }
     const auto found = records.find(object.id);
     if (found != records.end()) {
-      EXPECT_EQ(found->second->object.kind, says_part(object.tags) ? ObjectKind::building_part : ObjectKind::building)
-          << object.id;
+      const ObjectKind kind = says_part(object.tags) ? ObjectKind::building_part : ObjectKind::building;
+      EXPECT_TRUE(found->second == kind || found->second == ObjectKind::stand_in) << object.id;
       records.erase(found);
       ++counts["told of"];
       continue;
@@ -96,7 +108,8 @@ TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
     stood_for.insert(relation->second);
     ++counts["ways that untagged multipolygons stand for"];
   }
-  for (const auto& [id, record] : records) {
+  std::erase_if(records, [](const auto& entry) { return entry.second == ObjectKind::stand_in; });  // of other things
+  for (const auto& [id, kind] : records) {
     EXPECT_TRUE(stood_for.contains(id)) << id << " is not a building that osmium-tool sees";
     ++counts["untagged multipolygons"];
   }
@@ -189,12 +202,24 @@ bool is_underground(const ExportedArea& area) { return tag(area.tags, "location"
 /// What one record should say, and whether it does.
 class Comparison {
  public:
-  explicit Comparison(const OsmiumMap& map) : map_(map), parts_(map) {
+  Comparison(const OsmiumMap& map, const City& city) : map_(map), parts_(map) {
+    for (const LedgerEntry& entry : city.scene.ledger) entries_[entry.object.source_id] = &entry;
     for (const auto& [id, relation] : map.relations) {
       if (tag(relation.tags, "type") != "multipolygon") continue;
       if (!says_building(relation.tags) && !says_part(relation.tags)) continue;
       for (const ListedObject::Member& member : relation.members) of_relations_.insert(member.id);
     }
+  }
+
+  /// One that is not built.
+  void compare(const CityPassedOver& one) {
+    ++records_;
+    ++excluded_["passed over, " + one.reason];
+    const auto found = map_.areas.find(one.object.source_id);
+    if (found == map_.areas.end()) return;  // a relation that osmium-tool makes no area of
+    const PlainFrame frame = frame_about(found->second.polygons);
+    EXPECT_TRUE(may_pass_over(one, found->second, in_metres(found->second.polygons, frame), frame))
+        << one.object.source_id << " is passed over: " << one.reason;
   }
 
   void compare(const CityRecord& record) {
@@ -204,16 +229,16 @@ class Comparison {
     const ExportedArea& area = found->second;
     const PlainFrame frame = frame_about(area.polygons);
     const PlainPolygons plain = in_metres(area.polygons, frame);
-    if (record.fate == Fate::skipped) {
-      ++excluded_["skipped, " + record.reason];
-      EXPECT_TRUE(may_skip(record, area, plain, frame)) << record.object.source_id << " is skipped: " << record.reason;
-      return;
-    }
     EXPECT_FALSE(is_underground(area)) << record.object.source_id;
     ++compared_;
-    EXPECT_TRUE(!area.is_mended || record.fate == Fate::repaired)
+    EXPECT_TRUE(!area.is_mended || entries_.contains(record.object.source_id))
         << record.object.source_id << " lacks nodes, is not closed or crosses itself";
     compare_area(record, area, frame);
+    const auto entry = entries_.find(record.object.source_id);
+    if (entry != entries_.end() && entry->second->reason.find('=') != std::string::npos) {
+      ++categories_["of tags that are no plain numbers or names"];  // the oracle takes them as untagged
+      return;
+    }
     const std::string outline = parts_.outline_of(record.object.source_id);
     compare_heights(record, expected_heights(area.tags, outline.empty() ? nullptr : &map_.areas.at(outline).tags));
   }
@@ -239,9 +264,9 @@ class Comparison {
       ++excluded_["osmium-tool knows no untagged multipolygons"];
       return;
     }
-    EXPECT_NE(record.fate, Fate::written) << record.object.source_id << ": osmium-tool makes no area of it";
-    ++excluded_[std::string(is_point ? "a point, " : "no area for osmium-tool, ") +
-                (record.fate == Fate::skipped ? "skipped" : "repaired")];
+    EXPECT_TRUE(entries_.contains(record.object.source_id))
+        << record.object.source_id << ": osmium-tool makes no area of it";
+    ++excluded_[is_point ? "a point" : "no area for osmium-tool"];
   }
 
   /// How much of a building its parts cover: those on the ground, or all.
@@ -251,7 +276,7 @@ class Comparison {
     const TagMap& tags = map_.areas.at(building).tags;
     for (const std::string& part : parts_.parts_of(building)) {
       const ExportedArea& area = map_.areas.at(part);
-      if (is_underground(area)) continue;
+      if (is_underground(area) || area.is_mended) continue;  // what is guessed covers nothing
       // A lift house stands on what is built; under a roof on posts nothing is.
       const ExpectedHeights heights = expected_heights(area.tags, &tags);
       const bool is_on_posts = heights.because.find("stands on posts") != std::string::npos;
@@ -261,14 +286,14 @@ class Comparison {
     return covering.empty() ? 0 : covered_area(plain, covering);
   }
 
-  bool may_skip(const CityRecord& record, const ExportedArea& area, const PlainPolygons& plain,
-                const PlainFrame& frame) const {
+  bool may_pass_over(const CityPassedOver& one, const ExportedArea& area, const PlainPolygons& plain,
+                     const PlainFrame& frame) const {
     // A ring that says what its multipolygon says as well.
-    if (is_underground(area) || of_relations_.contains(record.object.source_id)) return true;
+    if (is_underground(area) || of_relations_.contains(one.object.source_id)) return true;
+    if (one.reason.starts_with("it bounds ")) return true;  // of a relation that is untagged
     const double whole = area.is_mended ? covered_area(plain, {plain}) : plain_area(plain);
     const double width = whole / longest_side(plain);
-    return whole < 0.05 || width < 0.01 ||
-           covered_by_parts(record.object.source_id, plain, frame, false) > 0.89 * whole;
+    return whole < 0.05 || width < 0.01 || covered_by_parts(one.object.source_id, plain, frame, false) > 0.89 * whole;
   }
 
   void compare_area(const CityRecord& record, const ExportedArea& area, const PlainFrame& frame) {
@@ -278,8 +303,7 @@ class Comparison {
     double expected = whole, allowed = 0.05 + 0.01 * whole;
     if (!parts_.parts_of(record.object.source_id).empty()) {
       const double all = covered_by_parts(record.object.source_id, plain, frame, false);
-      EXPECT_LT(all, 0.91 * whole) << record.object.source_id << " is built, though its parts cover it";
-      expected = whole - covered_by_parts(record.object.source_id, plain, frame, true);
+      expected = whole - (all > 0.9 * whole ? all : covered_by_parts(record.object.source_id, plain, frame, true));
       // Left-overs below 1 m2 are not built.
       allowed += 1 + 0.02 * whole;
       ++categories_["area less its parts'"];
@@ -288,7 +312,10 @@ class Comparison {
       ++categories_[area.is_mended ? "area of an outline that lacks nodes, is not closed or crosses itself"
                                    : "area of the outline"];
     }
-    EXPECT_NEAR(record.footprint_m2, expected, allowed) << record.object.source_id;
+    EXPECT_GE(record.footprint_m2, expected - allowed) << record.object.source_id;
+    // What stands in for an outline that is at fault may be larger.
+    if (entries_.contains(record.object.source_id)) return;
+    EXPECT_LE(record.footprint_m2, expected + allowed) << record.object.source_id;
   }
 
   void compare_heights(const CityRecord& record, const ExpectedHeights& expected) {
@@ -311,14 +338,16 @@ class Comparison {
   std::size_t records_ = 0, compared_ = 0;
   double worst_area_ = 0;
   std::set<std::string> of_relations_;  // ways
+  std::map<std::string, const LedgerEntry*> entries_;
   Counts excluded_, categories_;
 };
 
 TEST_P(HeavyMaps, HeightsAndAreasFollowFromTagsAndCorners) {
-  Comparison comparison(map_);
+  Comparison comparison(map_, city_);
   for (const CityRecord& record : city_.report.records) {
     if (is_building(record)) comparison.compare(record);
   }
+  for (const CityPassedOver& one : city_.report.passed_over) comparison.compare(one);
   comparison.print(GetParam());
 }
 
@@ -395,7 +424,7 @@ Tally count_solids(const City& city, const std::string& map) {
   }
   Tally tally;
   for (const CityRecord& record : city.report.records) {
-    if (!is_building(record) || record.fate == Fate::skipped) continue;
+    if (!is_building(record)) continue;
     ++tally.built;
     const auto found = object_of.find(record.object.source_id);
     if (found == object_of.end()) {
@@ -405,10 +434,12 @@ Tally count_solids(const City& city, const std::string& map) {
     const Piece& piece = pieces[found->second];
     const bool is_solid = is_closed(piece) && least_volume(piece) > 0;
     tally.solid += is_solid;
-    tally.open += record.fate == Fate::open_surface;
-    EXPECT_TRUE(is_solid || record.fate == Fate::open_surface)
-        << map << ": " << record.object.source_id << " is not a solid";
-    if (!is_solid) std::cout << "  no solid: " << record.object.source_id << ", " << record.reason << "\n";
+    const bool is_told =
+        !is_solid && std::any_of(city.scene.ledger.begin(), city.scene.ledger.end(), [&](const LedgerEntry& entry) {
+          return entry.object == record.object && entry.instead.find("open") != entry.instead.npos;
+        });
+    tally.open += is_told;
+    EXPECT_TRUE(is_solid || is_told) << map << ": " << record.object.source_id << " is not a solid";
     double low = INFINITY, high = -INFINITY;
     for (const Vec3& corner : piece.corners) {
       low = std::min(low, corner.z());

@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "app/ledger.h"
+#include "support/internals.h"
 #include "support/map_text.h"
+#include "support/random.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/city.h"
@@ -112,6 +117,54 @@ TEST_F(LedgerTest, AnotherCourtyardStaysOpenBesideOneThatIsAtFault) {
   expect_block(scene, "relation/1");
   EXPECT_TRUE(covers(scene, "relation/1", 20, 1));
   EXPECT_FALSE(covers(scene, "relation/1", -15, 1));
+}
+
+TEST_F(LedgerTest, AnOuterRingInsideAnotherOneIsNoCourtyard) {
+  MapText map;
+  const long outer = map.box(-30, -30, 30, 30, {}), other = map.box(-10, -10, 10, 10, {});
+  map.relation({{"way", outer, "outer"}, {"way", other, "outer"}}, kBlock);
+  const Scene scene = build(map);
+  expect_block(scene, "relation/1");
+  EXPECT_TRUE(covers(scene, "relation/1", 0, 1));
+  testing::expect_wording(entry_of(scene, "relation/1").reason);
+}
+
+TEST_F(LedgerTest, AGuessedPartOpensNoHoleInItsBuilding) {
+  MapText map;
+  map.box(-30, -30, 30, 30, {{"building", "yes"}, {"height", "40"}});
+  const long a = map.node(-20, -20), b = map.node(20, -20), c = map.node(20, 20);
+  map.way({a, b, c, 99, a}, {{"building:part", "yes"}, {"height", "3"}});
+  CityOptions warn;
+  warn.missing = MissingPolicy::warn;
+  for (const CityOptions& options : {CityOptions(), warn}) {
+    const Scene scene = build(map, options);
+    expect_block(scene, "way/1");
+    EXPECT_TRUE(covers(scene, "way/1", 0, 1));
+  }
+}
+
+TEST_F(LedgerTest, ABuildingRelationTellsOfMembersThatAreNotThere) {
+  MapText map;
+  const long part = map.box(-5, -5, 5, 5, {{"building:part", "yes"}, {"height", "40"}});
+  map.relation({{"way", 99, "outline"}, {"way", part, "part"}}, {{"type", "building"}, {"building", "yes"}});
+  const Scene scene = build(map);
+  const LedgerEntry& entry = entry_of(scene, "relation/1");
+  EXPECT_FALSE(entry.stand_in);
+  ASSERT_TRUE(entry.box);
+  EXPECT_NEAR(entry.box->max.x(), 5, 0.05);
+  testing::expect_wording(entry.reason);
+}
+
+TEST_F(LedgerTest, OfAnOutlineWithOneCornerASquareStandsIn) {
+  MapText map;
+  const long only = map.node(0, 0);
+  const long first = map.way({only, 98}, {}), second = map.way({99, only}, {});
+  map.relation({{"way", first, "outer"}, {"way", second, "outer"}}, kBlock);
+  map.box(200, -5, 210, 5, {{"building", "yes"}});
+  const Scene scene = build(map);
+  const Box box = box_of(scene, "relation/1");
+  ASSERT_FALSE(box.empty());
+  EXPECT_NEAR(box.max.x() - box.min.x(), 20, 0.05);
 }
 
 TEST_F(LedgerTest, RingsAreClosedWhateverTheRelationIs) {
@@ -278,7 +331,8 @@ TEST_F(LedgerTest, OfTwoBottomsTheLowerCounts) {
 TEST_F(LedgerTest, ClearanceIsKeptFromLinesOverhead) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building", "yes"}});
-  const long a = map.node(50, -50, {{"power", "tower"}, {"height", "45"}}), b = map.node(50, 50, {{"power", "tower"}});
+  const MapText::TagList tower = {{"power", "tower"}, {"height", "45"}};
+  const long a = map.node(50, -50, tower), b = map.node(50, 50, {{"power", "tower"}, {"height", "~40 m"}});
   map.way({a, b}, {{"power", "line"}});
   map.line({{-50, -50}, {-50, 50}}, {{"power", "minor_line"}, {"location", "underground"}});
   const Scene scene = build(map);
@@ -289,6 +343,8 @@ TEST_F(LedgerTest, ClearanceIsKeptFromLinesOverhead) {
   CityOptions options;
   options.occluders.lines = false;
   EXPECT_TRUE(build(map, options).overhead.empty());
+  map.way({a, map.node(150, 50, {{"power", "tower"}})}, {{"power", "line"}});
+  EXPECT_NEAR(bounding_box(build(map).overhead).max.z(), 60, 1e-6) << "one of its supports does not say how high it is";
 }
 
 // ---- who is told
@@ -301,6 +357,61 @@ std::string town_mission(const std::string& more) {
 std::size_t count(const std::vector<Warning>& warnings, WarningCode code) {
   return static_cast<std::size_t>(
       std::count_if(warnings.begin(), warnings.end(), [&](const Warning& one) { return one.code == code; }));
+}
+
+TEST_F(LedgerTest, StandInsAreAsLargeAsTheTagsSay) {
+  MapText map;
+  map.node(0, 0, {{"generator:source", "wind"}, {"height:hub", "160"}, {"rotor:diameter", "236"}});
+  map.node(500, 0, {{"generator:source", "wind"}, {"height:hub", "100"}});
+  map.node(1000, 0, {{"man_made", "crane"}, {"height", "1600"}});
+  map.line({{1200, 0}, {1220, 0}, {1220, 20}, {1200, 20}}, {{"man_made", "storage_tank"}});
+  map.area({{1300, 0}, {1320, 0}, {1320, 20}, {1300, 20}}, {{"aerialway", "station"}, {"height", "15"}});
+  const Scene scene = build(map);
+  const Box turbine = box_of(scene, "node/1"), other = box_of(scene, "node/2"), crane = box_of(scene, "node/3");
+  EXPECT_NEAR(turbine.max.z(), 278, 1e-6);
+  EXPECT_GE(turbine.max.x() - turbine.min.x(), 236);
+  EXPECT_NEAR(other.max.z(), 140, 1e-6) << "a rotor that is not said";
+  EXPECT_NEAR(crane.max.z(), 1500, 1e-6);
+  EXPECT_TRUE(entry_of(scene, "node/3").may_be_larger);
+  EXPECT_TRUE(covers(scene, "way/1", 1210, 11)) << "a tank whose outline is open";
+  EXPECT_TRUE(covers(scene, "way/2", 1310, 11)) << "closed, and no wall";
+}
+
+TEST_F(LedgerTest, WhatWasThereOrIsPlannedDoesNotTakeAwayWhatStands) {
+  MapText map;
+  map.node(0, 0, {{"power", "tower"}, {"height", "60"}, {"planned:voltage", "380000"}});
+  map.node(20, 0, {{"man_made", "crane"}, {"height", "80"}, {"demolished:building", "yes"}});
+  map.area({{40, 0}, {60, 0}, {60, 20}, {40, 20}},
+           {{"landuse", "forest"}, {"boundary", "protected_area"}, {"height", "25"}});
+  map.node(80, 0, {{"demolished:man_made", "crane"}, {"height", "80"}});
+  map.node(90, 0, {{"man_made", "crane"}, {"height", "80"}, {"status", "planned"}});
+  const Scene scene = build(map);
+  EXPECT_FALSE(box_of(scene, "node/1").empty());
+  EXPECT_FALSE(box_of(scene, "node/2").empty());
+  EXPECT_FALSE(box_of(scene, "way/1").empty());
+  EXPECT_EQ(scene.ledger.size(), 3U);
+}
+
+TEST_F(LedgerTest, RoofsThatHaveNoModelAreHeldByABox) {
+  MapText map;
+  map.box(0, 0, 20, 10, {{"building", "yes"}, {"height", "12"}, {"roof:height", "4"}, {"roof:shape", "cross_gabled"}});
+  map.box(40, 0, 60, 10, {{"building", "yes"}, {"building:levels", "3"}, {"roof:shape", "sawtooth"}});
+  map.box(80, 0, 100, 10,
+          {{"building", "yes"}, {"building:levels", "3"}, {"roof:shape", "gabled"}, {"roof:height", "~5"}});
+  const Scene scene = build(map);
+  const auto volume_of = [&](const std::string& id) {
+    Mesh mesh{scene.mesh.vertices, {}};
+    for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+      if (scene.objects[scene.object_of[i]].source_id == id) mesh.triangles.push_back(scene.mesh.triangles[i]);
+    }
+    return enclosed_volume(mesh);
+  };
+  EXPECT_NEAR(volume_of("way/1"), 20 * 10 * 12, 5);
+  const double top_m = box_of(scene, "way/2").max.z();
+  EXPECT_GT(top_m, 10) << "three storeys, and a roof of the usual pitch";
+  EXPECT_NEAR(volume_of("way/2"), 20 * 10 * top_m, 5);
+  EXPECT_NEAR(box_of(scene, "way/3").max.z(), 14, 1e-6);
+  for (const char* id : {"way/1", "way/2", "way/3"}) testing::expect_wording(entry_of(scene, id).instead);
 }
 
 TEST_F(LedgerTest, MissionsWarnOfWhatLiesWithinReachAlone) {
@@ -347,6 +458,52 @@ TEST_F(LedgerTest, ATargetInAStandInIsToldWhatLeavesItOut) {
   for (const Warning& warning : warnings) {
     if (warning.code == WarningCode::target_inside) testing::expect_wording(warning.text);
   }
+}
+
+// ---- a flight with many legs
+
+Box drawn_box(testing::Random& random, double wide) {
+  Box box;
+  box.extend(random.point(-100, 100));
+  box.extend(box.min + random.point(0, wide));
+  return box;
+}
+
+TEST(LedgerNear, AgreesWithAllBoxesOneAfterAnother) {
+  testing::Random random(12);
+  Scene scene;
+  for (int i = 0; i < 300; ++i) scene.ledger.push_back({{"thing"}, "", "", drawn_box(random, 20)});
+  for (const std::size_t boxes : {0U, 1U, 16U, 17U, 700U}) {
+    SCOPED_TRACE(boxes);
+    app::Reach reach{{}, 25};
+    Vec3 at = Vec3::Zero();
+    for (std::size_t i = 0; i < boxes; ++i) {
+      const Vec3 from = std::exchange(at, at + random.point(-10, 10));
+      reach.boxes.push_back({from.cwiseMin(at), from.cwiseMax(at)});
+    }
+    const auto is_near = [&](const LedgerEntry& entry) {
+      return std::any_of(reach.boxes.begin(), reach.boxes.end(), [&](const Box& box) {
+        const Vec3 apart = (entry.box->min - box.max).cwiseMax(box.min - entry.box->max);
+        return apart.cwiseMax(0.0).norm() <= reach.within_m;
+      });
+    };
+    const auto near = std::count_if(scene.ledger.begin(), scene.ledger.end(), is_near);
+    const auto warning = app::incomplete_warning(scene, {reach}, reach.boxes, "the flight");
+    ASSERT_EQ(warning.has_value(), near > 0);
+    EXPECT_EQ(warning ? std::stol(warning->text) : 0, near);
+    EXPECT_TRUE(boxes < 700 || near > 0);
+  }
+}
+
+TEST(LedgerNear, AsksForEachEntryWhetherToGoOn) {
+  const core::ProgressReporter::AskAlways always;
+  Scene scene;
+  scene.ledger.assign(50, {{"thing"}, "", "", Box{Vec3::Zero(), Vec3::Ones()}});
+  std::size_t asked = 0;
+  const Progress stop = [&](std::string_view, double) { return ++asked < 20; };
+  testing::expect_code([&] { app::incomplete_warning(scene, {}, {}, "the flight", core::ProgressReporter(stop)); },
+                       ErrorCode::cancelled);
+  EXPECT_EQ(asked, 20U);
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/local_frame.h"
@@ -119,6 +121,24 @@ TEST(LocateFlight, RefusesPlansOfAnotherPlace) {
   expect_error([&] { locate(-33, 151); }, ErrorCode::too_far_away, "item 2");
   options.farthest_m = 80e3;
   locate(48.5, 11);
+}
+
+// Their positions are near enough, and the ways to them are not.
+TEST(LocateFlight, RefusesCurvesThatLeadElsewhere) {
+  const auto locate = [](const std::vector<std::string>& items) {
+    return [items] { locate_flight(parsed_plan(plan(items)), in_munich()); };
+  };
+  const std::string south = waypoint(48.3, 11, 5, 0), north = waypoint(48.44, 11, 5, 0);
+  const auto circle = [](const std::string& radius) { return simple(18, 0, "[1, 0, " + radius + ", 0, 48.4, 11, 5]"); };
+  locate({south, circle("1000")})();
+  expect_error(locate({south, circle("10000")}), ErrorCode::too_far_away, "item 2");
+  expect_code(locate({south, simple(34, 0, "[10000, 0, 0, 6.2, 48.4, 11, 5]")}), ErrorCode::too_far_away, "item 2");
+  const auto arc = [](const std::string& angle) { return simple(36, 0, "[" + angle + ", 0, 0, 0, 48.2, 11, 5]"); };
+  locate({waypoint(48, 11, 5, 0), arc("180")})();
+  expect_code(locate({waypoint(48, 11, 5, 0), arc("330")}), ErrorCode::too_far_away, "item 2");
+  const std::string at = "[0, 0, 0, 0, 48.44, 11.1, 5]";
+  locate({south, north, simple(16, 0, at)})();
+  expect_code(locate({south, north, simple(82, 0, at)}), ErrorCode::too_far_away, "item 3");
 }
 
 TEST(LocateFlight, FollowsPositionsOfTheFrame) {
@@ -380,7 +400,9 @@ TEST(LocateFlight, FliesArcs) {
     const double share = i / 200.0, angle = std::numbers::pi + share * 15 * std::numbers::pi;
     ASSERT_LT(distance_to_flight(helix, {20 * std::cos(angle), 20 * std::sin(angle), 10 + 80 * share}), 0.05) << i;
   }
-  expect_error([&] { arc(35000, {20, 0, 10}, {.chord_error_m = 1e-9}); }, ErrorCode::work_too_large);
+  LocateOptions fine;
+  fine.chord_error_m = 1e-9;
+  expect_error([&] { arc(35000, {20, 0, 10}, fine); }, ErrorCode::work_too_large);
 }
 
 // The frame of the scene bends it by nothing that counts, and ground legs keep their height.
@@ -409,6 +431,24 @@ TEST(LocateFlight, FliesArcsOnTheEarthAndOverGround) {
   options.ground = &slope;
   const Flight over = locate_flight(low, options).flight;
   EXPECT_LT(distance_to_flight(over, {0, 20, 119.0 / 2 + 10}), 0.3);
+}
+
+// To a height above ground from one that is not: even in the scene, as a straight leg would be.
+TEST(LocateFlight, FliesArcsToHeightsAboveGround) {
+  FlightPlan plan = in_scene({{-20, 0, 10}, {20, 0, 10}});
+  plan.items[1].position.datum = HeightDatum::ground;
+  plan.items[1].follows_ground = true;
+  plan.items[1].arc_deg = 180;
+  const Ground slope{0, std::make_shared<const Mesh>(
+                            Mesh{{{-99, -99, 0}, {99, -99, 0}, {99, 99, 99}, {-99, 99, 99}}, {{0, 1, 2}, {0, 2, 3}}})};
+  LocateOptions options;
+  options.ground = &slope;
+  const Flight flight = locate_flight(plan, options).flight;
+  EXPECT_LT(distance_to_flight(flight, {0, 20, (10 + 99.0 / 2 + 10) / 2}), 0.05);
+  for (std::size_t i = 0; i < flight.leg_count(); ++i) {
+    EXPECT_GT(flight.leg(i).to.z(), flight.leg(i).from.z()) << "no steps: " << i;
+    EXPECT_LT(flight.leg(i).to.z() - flight.leg(i).from.z(), 5) << i;
+  }
 }
 
 /// The cubic of Bezier that has these ends and tangents, by de Casteljau's halving of its control points.
@@ -455,6 +495,44 @@ TEST(LocateFlight, FliesSplines) {
     const Vec3 p = cubic_at({100, 0, 0}, {100, 5, 0}, {scale * 100, 0, 0}, {-scale * 100, 0, 0}, i / 100.0);
     ASSERT_LT(distance_to_flight(flight, p), 0.05) << i;
   }
+}
+
+// The tangents of a spline follow from the items before and behind it, whose heights may not be measured alike.
+TEST(LocateFlight, NamesSplinesBetweenHeightsOfTwoKinds) {
+  const Ground ground{0, nullptr};
+  LocateOptions options;
+  options.ground = &ground;
+  FlightPlan level = in_scene({{0, 0, 10}, {40, 0, 10}, {60, 30, 20}, {20, 60, 30}, {-30, 60, 30}});
+  level.file = "a.plan";
+  for (std::size_t i = 0; i < level.items.size(); ++i) level.items[i].place = "a.plan: item " + std::to_string(i + 1);
+  level.items[2].is_spline = true;
+  FlightPlan low = level;
+  for (PlanItem& item : low.items) {
+    item.position.datum = HeightDatum::ground;
+    item.follows_ground = true;
+  }
+  const auto told = [&](const FlightPlan& plan) { return locate_flight(plan, options).flight.not_judged; };
+  EXPECT_TRUE(told(level).empty());
+  EXPECT_TRUE(told(low).empty());
+  for (const auto& [all, other] : {std::pair(level, low), std::pair(low, level)}) {
+    for (std::size_t i = 0; i < all.items.size(); ++i) {
+      FlightPlan mixed = all;
+      mixed.items[i].position.datum = other.items[i].position.datum;
+      mixed.items[i].follows_ground = false;
+      mixed.not_judged = {"a.plan: item 9: a loop"};
+      const std::vector<std::string> names = told(mixed);
+      ASSERT_EQ(names.size(), i < 4 ? 2u : 1u) << i;  // the last one is beside no spline
+      EXPECT_EQ(names[0], mixed.not_judged[0]);
+      if (i == 4) continue;
+      EXPECT_EQ(names[1].find("a.plan: item 3: "), 0u) << names[1];
+      if (i == 0) expect_wording(names);
+    }
+  }
+  // Where the vehicle stops it comes from nowhere, and goes nowhere.
+  FlightPlan stops = level;
+  stops.items[0].position.datum = stops.items[3].position.datum = HeightDatum::ground;
+  stops.items[1].hold_s = stops.items[2].hold_s = 1;
+  EXPECT_TRUE(told(stops).empty());
 }
 
 TEST(LocateFlight, KeepsWhatIsNotJudged) {

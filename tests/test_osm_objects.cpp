@@ -275,6 +275,18 @@ TEST(OsmMultipolygons, JoinPiecesOfRings) {
   expect_problem(repeated, way_id(11), Kind::repeated_outline, true, "it bounds relation/20, which stands for it");
 }
 
+TEST(OsmMultipolygons, AnInnerMemberOutsideIsBuiltAndTold) {
+  const std::string far = osm_node(31, 8.01, 47) + osm_node(32, 8.011, 47) + osm_node(33, 8.011, 47.001);
+  const std::string ways =
+      kNodes + far + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5)) + osm_way(13, {31, 32, 33, 31});
+  const Extract extract =
+      extract_of(ways + osm_relation(20, {"way 11 outer", "way 12 inner", "way 13 inner"}, kMultipolygon + kBuilding));
+  expect_problem(extract, relation_id(20), Kind::wrong_role, false, "its inner way/13 lies outside of its outer ones");
+  EXPECT_EQ(extract.problems.size(), 1u);
+  ASSERT_EQ(extract.areas.size(), 1u);
+  EXPECT_EQ(extract.areas[0].polygons.size(), 2u);
+}
+
 TEST(OsmMultipolygons, SayWhatIsBroken) {
   const std::string tags = kMultipolygon + kBuilding;
   const Extract extract = extract_of(

@@ -205,6 +205,11 @@ TEST_P(OsmRealMap, BuildingsHaveTheShapesThatOsmiumGivesThem) {
     }
     ++compared;
     const Shape ours = shape_of(*area);
+    const Problem* const told = find_problem(extract_, id);
+    if (told != nullptr && told->kind == Problem::Kind::wrong_role) {  // osmium-tool nests by where rings lie
+      EXPECT_GE(ours.area, shape.area) << text(id);
+      continue;
+    }
     EXPECT_EQ(ours.polygons, shape.polygons) << text(id);
     EXPECT_EQ(ours.rings, shape.rings) << text(id);
     EXPECT_NEAR(ours.area, shape.area, 1e-9 * shape.area + 1e-15) << text(id);

@@ -255,7 +255,7 @@ TEST_F(PlanMissionTour, SaysWhereItCannotKeepTheTube) {
       "100]}]}\n";
   const Mission flat = mission("home: [-20, -20, 0], clearance: 4", band);
   expect_code([&] { plan_mission_tour(flat); }, ErrorCode::limits_empty, "mission.yaml:9:");
-  const Mission thin = mission("home: [-20, -20, 0], clearance: 4, tube: 0.5", band);
+  const Mission thin = mission("home: [-20, -20, 0], clearance: 4, tube: 0.5, view: {margin: 0.5}", band);
   EXPECT_TRUE(plan_mission_tour(thin, {.with_bound = false}).is_complete());
   EXPECT_TRUE(says(plan_mission_tour(mission("home: [-20, -20, 0]", apart), {.with_bound = false})));
   EXPECT_FALSE(says(plan_mission_tour(mission("home: [-20, -20, 0], tube: 0", apart), {.with_bound = false})));

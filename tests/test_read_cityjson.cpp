@@ -458,8 +458,57 @@ TEST(ReadCityJson, RaisesFootprintsToTheirHeight) {
   EXPECT_NEAR(std::abs(enclosed_volume(holder)), 120, 1e-9);
   EXPECT_EQ(bounding_box(holder).max, Vec3(12, 22, 60));
   testing::expect_wording(told(mesh));
-  building["type"] = "Road";
-  EXPECT_TRUE(read(file).ledger.empty());
+}
+
+TEST(ReadCityJson, TellsOfFootprintsOfAllThatDoesNotLieOnTheGround) {
+  json file = document();
+  json& object = file["CityObjects"]["b1"];
+  object["geometry"] = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
+  const auto holders = [&](const char* type, bool has_height) {
+    object["type"] = type;
+    object["attributes"] = has_height ? json{{"measuredHeight", 30}} : json::object();
+    std::vector<bool> are_held;
+    for (const auto& [entry, holder] : read(file).ledger) are_held.push_back(!holder.triangles.empty());
+    return are_held;
+  };
+  for (const char* type : {"OtherConstruction", "BuildingInstallation", "Tunnel", "PlantCover", "CityFurniture"}) {
+    EXPECT_EQ(holders(type, false), std::vector<bool>{false}) << type;
+    EXPECT_EQ(holders(type, true), std::vector<bool>{true}) << type;
+  }
+  for (const char* type : {"Road", "Railway", "TransportSquare", "Waterway", "WaterBody", "LandUse", "TINRelief"}) {
+    EXPECT_EQ(holders(type, false), std::vector<bool>{}) << type;
+    EXPECT_EQ(holders(type, true), std::vector<bool>{true}) << type;
+  }
+}
+
+// measuredHeight is in metres, whatever z is in.
+TEST(ReadCityJson, RaisesFootprintsByMetresWhereHeightsAreInFeet) {
+  testing::TemporaryDirectory folder;
+  json file = document();
+  file["transform"]["translate"] = {500000, 5500000, 100};
+  json& building = file["CityObjects"]["b1"];
+  building["geometry"] = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
+  building["attributes"]["measuredHeight"] = 30;
+  file["CityObjects"]["gone"] = {{"type", "Bridge"},
+                                 {"geographicalExtent", {500000, 5500000, 0, 500009, 5500009, 100}}};
+  const auto expect_height = [&](const SceneReadOptions& options, double z, double extent_m) {
+    testing::write_bytes(folder / "a.city.json", file.dump());
+    const Scene scene = read_scene(folder / "a.city.json", options);
+    ASSERT_EQ(scene.ledger.size(), 2u);
+    EXPECT_NEAR(scene.ledger[0].box->min.z(), z, 1e-6);
+    EXPECT_NEAR(scene.ledger[0].box->max.z(), z + 30, 1e-6);
+    EXPECT_EQ(scene.ledger[0].height_m, 30);
+    EXPECT_NEAR(bounding_box(scene.mesh).max.z(), z + 30, 1e-6);
+    EXPECT_NEAR(*scene.ledger[1].height_m, extent_m, 1e-6);
+  };
+  constexpr double kFoot = 1200.0 / 3937;
+  expect_height({}, 100, 100);
+  expect_height({.crs = "EPSG:25832+6360"}, 100 * kFoot, 100 * kFoot);
+  file["metadata"]["referenceSystem"] = "EPSG:25832+6360";
+  expect_height({}, 100 * kFoot, 100 * kFoot);
+  expect_height({.scale = 0.5}, 50 * kFoot, 50 * kFoot);
+  expect_height({.crs = "EPSG:25832"}, 100, 100);
+  expect_height({.crs = "none"}, 100, 100);
 }
 
 TEST(ReadCityJson, HoldsOpenShellsByTheBoxOfTheirOpenEdges) {

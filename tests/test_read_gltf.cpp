@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "support/mesh_reading.h"
@@ -409,6 +410,41 @@ TEST(ReadGltf, PutsWhatIsNotBuiltIntoTheLedger) {
   EXPECT_EQ(mesh.ledger[3].entry.box->max, Vec3(51, 1, 0));
   gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = json::array({2});  // a coarser form of what is built
   EXPECT_EQ(read(gltf).ledger.size(), 3u);
+}
+
+// A box about a part of what is missing would say that the rest is nowhere.
+TEST(ReadGltf, PlacesWhatOtherScenesHaveOnlyAsAWhole) {
+  json gltf = document();
+  gltf["meshes"].push_back(json::parse(R"({"primitives": [{"attributes": {"NORMAL": 0}}]})"));
+  gltf["nodes"].push_back({{"name", "spare"}, {"mesh", 0}, {"translation", {50, 0, 0}}});
+  ASSERT_TRUE(read(gltf).ledger.at(0).entry.box);
+  EXPECT_EQ(read(gltf).ledger[0].entry.box->max, Vec3(51, 1, 0));
+  const json instanced = {{"mesh", 0}, {"extensions", {{"EXT_mesh_gpu_instancing", json::object()}}}};
+  const json garbled = {{"mesh", 77}}, unplaced = {{"mesh", 1}};
+  for (const json& node : {instanced, garbled, unplaced}) {
+    gltf["nodes"][2] = node;
+    const RawMesh mesh = read(gltf);
+    ASSERT_EQ(mesh.ledger.size(), 1u) << node;
+    EXPECT_EQ(mesh.ledger[0].entry.what, "2 nodes with meshes") << node;
+    EXPECT_FALSE(mesh.ledger[0].entry.box) << node;
+  }
+}
+
+TEST(ReadGltf, PointsOfWhichOneIsNowhereAreNotHeldByABox) {
+  json gltf = document();
+  std::string bytes = square();
+  for (int i = 0; i < 3; ++i) bytes += bytes_of(std::numeric_limits<float>::quiet_NaN());
+  gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 60}, {"byteLength", 12}});
+  gltf["accessors"].push_back({{"bufferView", 2}, {"componentType", 5126}, {"count", 1}, {"type", "VEC3"}});
+  gltf["meshes"].push_back(json::parse(R"({"primitives": [{"attributes": {"POSITION": 0}, "mode": 0},
+    {"attributes": {"POSITION": 2}, "mode": 0}]})"));
+  gltf["nodes"].push_back({{"name", "cloud"}, {"mesh", 1}});
+  gltf["scenes"][0]["nodes"] = {0, 1};
+  const RawMesh mesh = read_as("a.gltf", embedded(gltf, bytes).dump());
+  ASSERT_EQ(mesh.ledger.size(), 1u);
+  EXPECT_EQ(mesh.ledger[0].entry.what, "5 points");
+  EXPECT_FALSE(mesh.ledger[0].entry.box);
+  EXPECT_TRUE(mesh.ledger[0].holder.triangles.empty());
 }
 
 }  // namespace

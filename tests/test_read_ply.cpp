@@ -199,5 +199,21 @@ TEST(ReadPly, PutsElementsThatReferToVerticesIntoTheLedger) {
   EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 1, 9));
 }
 
+// Lists of whole numbers may be polygons, whatever they are called.
+TEST(ReadPly, PutsElementsWithListsIntoTheLedger) {
+  const RawMesh mesh = read_as(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nelement polygon 1\nproperty list uchar int vertices\n"
+      "element patch 2\nproperty list uchar int numbers\nelement camera 1\nproperty list uchar float weights\n"
+      "element none 0\nproperty list uchar int indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 9\n3 0 1 2\n3 0 1 3\n3 0 1 3\n1 2\n1 0.5\n");
+  ASSERT_EQ(mesh.ledger.size(), 2u);
+  EXPECT_EQ(mesh.ledger[0].entry.what, "1 of \"polygon\"");
+  EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 1, 9));
+  EXPECT_EQ(mesh.ledger[1].entry.what, "2 of \"patch\"");
+  EXPECT_FALSE(mesh.ledger[1].entry.box);
+}
+
 }  // namespace
 }  // namespace vantage::internal::io

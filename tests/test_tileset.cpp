@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -599,15 +600,137 @@ TEST(Tileset, ACoarserTileHoldsThePlaceOfAFinerOne) {
   EXPECT_EQ(read.scene.objects.size(), 2u);
 }
 
-TEST(Tileset, HoldsThePlaceOfCloudsOfPoints) {
+/// Two points, at (11, 2, 3) and (14, 5, 6).
+std::string two_points() {
   std::string points;
   for (const float value : {1.f, 2.f, 3.f, 4.f, 5.f, 6.f}) points += testing::bytes_of(value);
+  return testing::pnts({{"POINTS_LENGTH", 2}, {"RTC_CENTER", {10, 0, 0}}, {"POSITION", {{"byteOffset", 0}}}}, points);
+}
+
+// What is missing in files that are read is another thing.
+TEST(Tileset, ACoarserTileHoldsThePlaceOfFilesAlone) {
+  json root = tile_json(50, "coarse.cmpt");
+  root["refine"] = "REPLACE";
+  json fine = tile_json(0);
+  fine["contents"] = {{{"uri", "cloud.pnts"}}, {{"uri", "gone.glb"}}};
+  root["children"] = json::array({fine});
+  Tileset tiles(tileset_json(root));
+  tiles.add("coarse.cmpt", cmpt({b3dm(box_glb({{}})), two_points()}));
+  tiles.add("cloud.pnts", two_points());
+  const TilesetScene read = tiles.read();
+  std::map<std::string, LedgerEntry> ledger = ledger_of(read);
+  ASSERT_EQ(ledger.size(), 3u);
+  for (const char* id : {"cloud.pnts", "coarse.cmpt"}) {
+    ASSERT_TRUE(ledger[id].stand_in) << id;
+    EXPECT_EQ(read.scene.objects[*ledger[id].stand_in].kind, ObjectKind::stand_in) << id;
+    EXPECT_EQ(ledger[id].instead, "its box") << id;
+  }
+  ASSERT_TRUE(ledger["gone.glb"].stand_in);
+  EXPECT_EQ(read.scene.objects[*ledger["gone.glb"].stand_in], (SceneObject{"house", "coarse.cmpt", ObjectKind::other}));
+}
+
+/// The same on the earth, within 100 m of its place.
+TilesetScene read_on_earth(Tileset& tiles, json root) {
+  root["transform"] = testing::transform_at(52, 4.4);
+  tiles.add("tileset.json", tileset_json(std::move(root)).dump());
+  TilesetOptions options;
+  options.center_deg = {52, 4.4};
+  options.radius_m = 100;
+  return tiles.read(options);
+}
+
+TEST(Tileset, TheLedgerKeepsWhatReachesIntoTheCircle) {
+  json root = tile_json(10, "", 5000);
+  root["refine"] = "ADD";
+  json across = tile_json(0, "across.glb", 60), beyond = tile_json(0, "beyond.glb", 60);
+  const double half = std::sqrt(0.5);  // an eighth of a turn: a corner of its upright box is within, and nothing of it
+  across["transform"] = {half, half, 0, 0, -half, half, 0, 0, 0, 0, 1, 0, 150, 150, 0, 1};
+  beyond["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 180, 0, 0, 1};
+  root["children"] = json::array({tile_json(0, "a.glb", 60), across, beyond});
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  const TilesetScene read = read_on_earth(tiles, root);
+  EXPECT_EQ(read.report.holes, 2u);
+  ASSERT_EQ(read.scene.ledger.size(), 1u);
+  EXPECT_EQ(read.scene.ledger[0].object.source_id, "across.glb");
+  ASSERT_EQ(read.scene.ledger[0].stand_in, 1u);
+  EXPECT_EQ(read.scene.objects[1].kind, ObjectKind::stand_in);
+}
+
+TEST(Tileset, OfACoarserTileAnObjectWithinTheCircleHoldsThePlace) {
+  json root = tile_json(50, "coarse.glb", 5000);
+  root["refine"] = "REPLACE";
+  root["children"] = json::array({tile_json(0, "fine.glb", 60)});
+  Tileset tiles(tileset_json(root));
+  const auto coarse_with = [&](double near_m) {
+    const json nodes = {{{"children", {1, 2}}},
+                        {{"mesh", 0}, {"name", "far"}, {"translation", {250, 0, 0}}},
+                        {{"mesh", 0}, {"name", "near"}, {"translation", {near_m, 0, 0}}}};
+    tiles.add("coarse.glb", box_glb({{}}, "", {{"nodes", nodes}}));
+  };
+  coarse_with(20);
+  const TilesetScene read = read_on_earth(tiles, root);
+  ASSERT_EQ(read.scene.ledger.size(), 1u);
+  ASSERT_EQ(read.scene.ledger[0].stand_in, 0u);
+  EXPECT_EQ(read.scene.objects[0].name, "near");
+  // Nothing of it is there.
+  root["children"].push_back(tile_json(0, "other.glb", 60));
+  tiles.add("other.glb", box_glb({{}}));
+  coarse_with(250);
+  const TilesetScene without = read_on_earth(tiles, root);
+  ASSERT_EQ(without.scene.ledger.size(), 1u);
+  EXPECT_FALSE(without.scene.ledger[0].stand_in);
+  EXPECT_TRUE(without.scene.ledger[0].instead.empty());
+}
+
+// The numbers of objects in a file that vantage wrote are its own.
+TEST(Tileset, TheLedgersOfTilesNameObjectsOfTheScene) {
+  Scene two;
+  two.mesh.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 9), Vec3(1, 0, 9), Vec3(0, 1, 9)};
+  two.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  two.object_of = {0, 1};
+  two.objects = named({"first", "second"});
+  LedgerEntry entry{{"", "way/7"}, "building", "no height"};
+  entry.box = Box{Vec3(0, 0, 0), Vec3(1, 2, 9)};
+  entry.stand_in = 1;
+  entry.instead = "a roof";
+  two.ledger = {entry};
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = json::array({tile_json(0, "a.glb"), tile_json(0, "b.glb")});
+  root["children"][1]["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 30, 0, 0, 1};
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  write_scene(two, tiles.path() / "b.glb");
+  const TilesetScene read = tiles.read();
+  ASSERT_EQ(read.scene.ledger.size(), 1u);
+  const LedgerEntry& told = read.scene.ledger[0];
+  ASSERT_TRUE(told.stand_in);
+  EXPECT_EQ(read.scene.objects.at(*told.stand_in).name, "second");
+  EXPECT_EQ(told.instead, "a roof");
+  ASSERT_TRUE(told.box);
+  EXPECT_LT((told.box->min - Vec3(30, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((told.box->max - Vec3(31, 2, 9)).norm(), 1e-6);
+}
+
+// A region is a place on the earth: in a tileset that is nowhere it says nothing.
+TEST(Tileset, RegionsHoldNoPlaceOffTheEarth) {
+  json root = tile_json(0, "all.cmpt");
+  root["boundingVolume"] = {{"region", {0.1, 0.9, 0.1001, 0.9001, 0, 100}}};
+  Tileset tiles(tileset_json(root));
+  const json packed = {{"POINTS_LENGTH", 2}, {"extensions", {{"3DTILES_draco_point_compression", json::object()}}}};
+  tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), testing::pnts(packed, "")}));
+  TilesetOptions options;
+  options.crs = "none";
+  const TilesetScene read = tiles.read(options);
+  ASSERT_EQ(read.scene.ledger.size(), 1u);
+  EXPECT_FALSE(read.scene.ledger[0].box);
+  EXPECT_FALSE(read.scene.ledger[0].stand_in);
+}
+
+TEST(Tileset, HoldsThePlaceOfCloudsOfPoints) {
   Tileset tiles(tileset_json(tile_json(0, "all.cmpt", 1000)));
-  tiles.add("all.cmpt",
-            testing::cmpt(
-                {b3dm(box_glb({{}})),
-                 testing::pnts({{"POINTS_LENGTH", 2}, {"RTC_CENTER", {10, 0, 0}}, {"POSITION", {{"byteOffset", 0}}}},
-                               points)}));
+  tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), two_points()}));
   const TilesetScene read = tiles.read();
   const LedgerEntry entry = ledger_of(read)["all.cmpt"];
   EXPECT_EQ(read.report.holes, 0u) << read.report.first_hole;

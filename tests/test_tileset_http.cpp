@@ -315,6 +315,13 @@ TEST(TilesetHttp, ShowsNoKeysAndNoPasswords) {
            {"https://a.example/t.json%3fkey=secret", "https://a.example/t.json"},
            {"https://a.example/t.json;token=secret", "https://a.example/t.json"},
            {"https://me:secret@a.example", "https://a.example"},
+           {"https://me:top;secret@a.example/tileset.json", "https://a.example/tileset.json"},
+           {"https://me:secret%3F@a.example/x", "https://a.example/x"},
+           {"https://me:secret%23%40a.example/x;token=1", "https://a.example/x"},
+           {"https://me:top?secret@a.example/x", "https://"},
+           {"https://a.example?user=me@b.example&key=secret", "https://"},
+           {"https://a.example/x?user=me@b.example&key=secret", "https://a.example/x"},
+           {"a.json?from=https://me:secret@a.example", "a.json"},
            {"HTTPS://me:secret@a.example/t.json?key=1", "HTTPS://a.example/t.json"},
            {"ftp://me:secret@a.example/t.json?key=1", "ftp://a.example/t.json"},
            {"a@b/c.json", "a@b/c.json"}}) {

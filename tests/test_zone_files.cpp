@@ -260,6 +260,17 @@ TEST(ZoneFiles, ReadsAreasOfDocks) {
          "features[0]");
 }
 
+TEST(ZoneFiles, AnAreaThatCannotBeReadIsNoFenceOfTheOneBefore) {
+  const std::string fence =
+      "{\"type\": \"Feature\", \"id\": \"a\", \"geofence_type\": \"dfence\", \"geometry\": " + polygon() +
+      ", \"properties\": {}}";
+  const ZoneList list = parsed(collection(fence + ", 5"));
+  ASSERT_EQ(list.zones.size(), 1u);
+  EXPECT_EQ(list.zones[0].is_inclusion, std::optional(true));
+  ASSERT_EQ(list.unread.size(), 1u);
+  EXPECT_FALSE(list.unread[0].zone.is_inclusion);
+}
+
 TEST(ZoneFiles, ReadsNumbersThatAreText) {
   const std::string circle =
       "{\"type\": \"Point\", \"coordinates\": [\"11\", \"48\"], \"extent\": {\"subType\": \"Circle\", \"radius\": "
@@ -580,6 +591,21 @@ TEST(ZoneFiles, FencesGoWhereTheyBelong) {
   const std::string both = "keep_in: [{file: fence.plan}]\n  keep_out: [{file: fence.plan}]";
   EXPECT_TRUE(mission.resolve(both).notes.empty());  // all of it is taken
   EXPECT_EQ(mission.resolve(narrowed).navigation.keep_in[0].min_z_m, 5);
+}
+
+TEST(ZoneFiles, FencesOfTheOtherUseThatCannotBeReadAreCounted) {
+  const ZoneMission mission;
+  const auto fence = [](const std::string& type, const std::string& geometry) {
+    return "{\"type\": \"Feature\", \"geofence_type\": \"" + type + "\", \"geometry\": " + geometry +
+           ", \"properties\": {}}";
+  };
+  const std::string open = "{\"type\": \"Polygon\", \"coordinates\": [[[11, 48], [11.1, 48], [11.1, 48.1]]]}";
+  mission.write("fences.json", collection(fence("dfence", polygon()) + ", " + fence("nfz", open)));
+  const Mission kept = mission.resolve("keep_in: [{file: fences.json, heights: any}]");
+  EXPECT_EQ(kept.navigation.keep_in.size(), 1u);
+  ASSERT_EQ(kept.notes.size(), 1u);
+  EXPECT_EQ(kept.notes[0].code, WarningCode::zones_left_out);
+  expect_wording(kept.notes[0].text);
 }
 
 TEST(ZoneFiles, CirclesAreInscribedToStayInAndCircumscribedToStayOutOf) {

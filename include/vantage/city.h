@@ -160,52 +160,38 @@ VANTAGE_API void set_city_option(CityOptions& options, const std::string& name, 
 /// Switches off one of `occluder_switches()`. Throws Error(input) for another word.
 VANTAGE_API void leave_out(Occluders& occluders, const std::string& kind, const std::string& where);
 
-/// What became of an object that was read and wanted.
-enum class Fate { written, repaired, open_surface, skipped };
-
-/// "written", "repaired", "open_surface", "skipped".
-VANTAGE_API const char* name_of(Fate fate);
-
 /// On something that is drawn or tagged in another way than it should be.
 struct CityRemark {
   std::string text;  ///< "height=concrete: taken as untagged"
   std::string sort;  ///< the same for all remarks of a sort: "height: taken as untagged"
 };
 
+/// An object that is built. What of the map is not built as it stands is in Scene::ledger.
 struct CityRecord {
   SceneObject object;    ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
   std::string building;  ///< of a building part: `source_id` of the building that it belongs to, where it has one
-  Fate fate = Fate::written;
-  std::string reason;               ///< of all but `written`; the report counts by it
   std::vector<CityRemark> remarks;  ///< on its tags
   double ground_m = 0;              ///< z it stands on
   double base_m = 0, top_m = 0;     ///< lowest and highest z
   double footprint_m2 = 0;
 };
 
-/// What was read and what became of it. Per kind: read = written + repaired + open_surface + skipped.
+/// An object that is wanted and not built, though nothing is missing: it is underground, or others stand for it.
+struct CityPassedOver {
+  SceneObject object;
+  std::string reason;
+};
+
 struct CityReport {
   Georeference georeference;
   std::vector<CityRecord> records;
+  std::vector<CityPassedOver> passed_over;
   std::size_t outside = 0;             ///< left out because of the region
   std::array<double, 4> bounds_deg{};  ///< west, south, east, north of all that the file holds; west > east: across
                                        ///< the antimeridian
   std::vector<std::string> notes;      ///< on the file and the terrain: voids filled, missing references, not sorted
   double read_seconds = 0, build_seconds = 0;  ///< checking is part of building
 };
-
-/// What became of the objects of one kind.
-struct CityTally {
-  std::size_t read = 0;
-  std::map<Fate, std::size_t> fates;
-};
-
-/// By name_of(ObjectKind).
-VANTAGE_API std::map<std::string, CityTally> tally_by_kind(const CityReport& report);
-
-/// Of what was not simply written, by fate and reason: how many, and the `source_id` of the first.
-VANTAGE_API std::map<std::pair<Fate, std::string>, std::pair<std::size_t, std::string>> reasons(
-    const CityReport& report);
 
 struct City {
   /// One object per solid: that of its record; then the ground, of ObjectKind::ground. Another one of that kind follows

@@ -142,7 +142,7 @@ struct FlightCheck {
   std::vector<std::string> failures;  ///< what is required and does not hold, a sentence each
   /// Flight::not_judged: what is flown besides. Then failures may be of legs that are not flown so.
   std::vector<std::string> not_judged;
-  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each
+  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each; with Mission::notes
 
   bool passes() const { return failures.empty() && not_judged.empty(); }
 };

@@ -243,6 +243,7 @@ PyFlightCheck check(const PyMission& mission, const PyFlight& flight, double tub
     options.prepared = mission.prepared(told);
     return check_flight(*mission, *flight, options, told);
   });
+  for (const auto& [code, text] : flight.notes) made.notes.push_back(text);
   return {mission, std::make_shared<const FlightCheck>(std::move(made))};
 }
 

@@ -167,6 +167,22 @@ def test_volumes_as_zarr(scene, tmp_path):
     assert zipfile.ZipFile(tmp_path / "a" / name).testzip() is None
 
 
+def test_workers_know_what_the_scene_lacks(scene, tmp_path):
+    from vantage.batch import _scenes
+
+    lack = (("crane", "node/1", 1), "man_made=crane", "nothing tells how wide it is", [40, 0, 0, 42, 2, 40], 40.0, None, "",
+            False, [])
+    known = vt.Scene.from_arrays(scene.vertices, scene.faces, object_of=scene.object_of, objects=scene.objects,
+                                 attribution="\u00a9 somebody", _ledger=[lack])
+    copy = _scenes._of_bytes(_scenes.to_bytes(known), "")
+    assert copy.ledger == known.ledger and copy.ledger and copy.attribution == known.attribution
+    report = batch.run(triangles(1), known, tmp_path, max_range=60, workers=1)
+    assert "scene-incomplete" in report.table().iloc[0]["notes"]
+    assert known.hash == scene.hash
+    error = refused(triangles(1), scene, tmp_path, max_range=60, workers=1)
+    assert error.code == "folder-in-use" and "ledger" in error.problem
+
+
 # ---- results of something else
 
 

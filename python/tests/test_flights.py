@@ -84,6 +84,19 @@ def test_what_cannot_be_followed_is_not_judged(tmp_path):
     assert "not judged" in repr(check) and "NAV_PAYLOAD_PLACE" in check._repr_html_()
 
 
+def test_checks_say_what_their_plans_leave_out(tmp_path):
+    placed = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]],
+                                  georeference=vt.Georeference(48.0, 11.0))
+    mission = vt.Mission.of(placed, SQUARE, max_range=90)
+    rows = ["QGC WPL 110", "0 1 0 16 0 0 0 0 48 11 500 1", "1 0 3 16 0 0 0 0 48 11 30 1",
+            "2 0 2 31010 0 0 0 0 0 0 0 1", "3 0 3 16 0 0 0 0 48.0001 11.0001 30 1"]
+    (tmp_path / "a.waypoints").write_text("\n".join(rows) + "\n")
+    check = vt.check(mission, tmp_path / "a.waypoints", home_z_m=0)
+    told = [note.text for note in check.flight.notes]
+    assert any("31010" in text for text in told)
+    assert set(told) <= set(check.notes) and check.to_dict()["notes"] == check.notes
+
+
 def test_each_target_is_judged_by_itself():
     """Whatever `combine` says, also of a mission that was made one of several, and with meshes that are in memory."""
     squares = [SQUARE, [[-60, 0, 0], [-50, 0, 0], [-50, 10, 0], [-60, 10, 0]]]

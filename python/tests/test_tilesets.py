@@ -108,6 +108,18 @@ def test_keys_are_not_written_into_results():
     request = _scenes.request_of("https://example.org/a/tileset.json?key=SECRET")
     assert request == {"tiles": "https://example.org/a/tileset.json?key=SECRET"}
     assert _scenes.shown_request(request) == {"tiles": "https://example.org/a/tileset.json"}
+    for address, shown in {  # as in TilesetHttp.ShowsNoKeysAndNoPasswords
+            "https://me:secret@a.example:8/t@1.osm?key=1#x": "https://a.example:8/t@1.osm",
+            "https://me%3Asecret%40a.example/t.osm%3fkey=1": "https://a.example/t.osm",
+            "https://me:top;secret@a.example/t.osm;token=1": "https://a.example/t.osm",
+            "https://me:secret%3F@a.example/x": "https://a.example/x",
+            "https://me:top?secret@a.example/x": "https://",
+            "https://a.example?user=me@b.example&key=secret": "https://",
+            "sftp://me:secret@a.example/t.osm": "sftp://a.example/t.osm",
+            "zip://t.osm::https://me:secret@a.example/t.zip?key=1": "zip://t.osm::https://a.example/t.zip",
+            "/data/me@home/t;1.osm": "/data/me@home/t;1.osm"}.items():
+        for key in ("osm", "mesh", "raster", "tiles", "terrain"):
+            assert _scenes.shown_request({key: address, "radius": 9}) == {key: shown, "radius": 9}
 
 
 def test_ground_from_a_raster(tileset, tmp_path):

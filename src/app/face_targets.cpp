@@ -47,7 +47,10 @@ struct MapObjects {
     if (!loaded.city) return;
     for (const CityRecord& record : loaded.city->records) {
       if (!record.building.empty()) parts[record.building].push_back(record.object.source_id);
-      if (record.fate == Fate::skipped) skipped.emplace(record.object.source_id, record.reason);
+    }
+    for (const CityPassedOver& one : loaded.city->passed_over) not_built.emplace(one.object.source_id, one.reason);
+    for (const LedgerEntry& entry : loaded.scene.ledger) {
+      if (!entry.stand_in && !entry.object.source_id.empty()) not_built.emplace(entry.object.source_id, entry.reason);
     }
     // Of a building whose parts have its name the building counts.
     std::unordered_map<std::string, std::string> building_of;
@@ -58,17 +61,18 @@ struct MapObjects {
       const bool is_part = building != building_of.end() && !building->second.empty();
       named.push_back({object.name, is_part ? building->second : object.source_id});
     }
-    for (const CityRecord& record : loaded.city->records) {
-      const bool has_parts = parts.contains(record.object.source_id);
-      if (has_parts && !record.object.name.empty()) named.push_back({record.object.name, record.object.source_id});
-    }
+    const auto add_whole = [&](const SceneObject& object) {
+      if (parts.contains(object.source_id) && !object.name.empty()) named.push_back({object.name, object.source_id});
+    };
+    for (const CityRecord& record : loaded.city->records) add_whole(record.object);
+    for (const CityPassedOver& one : loaded.city->passed_over) add_whole(one.object);
   }
 
-  bool knows(const std::string& id) const { return of.contains(id) || parts.contains(id) || skipped.contains(id); }
+  bool knows(const std::string& id) const { return of.contains(id) || parts.contains(id) || not_built.contains(id); }
 
   std::unordered_map<std::string, Objects> of;
   std::unordered_map<std::string, std::vector<std::string>> parts;  // of a building
-  std::unordered_map<std::string, std::string> skipped;             // why it is not built
+  std::unordered_map<std::string, std::string> not_built;           // why it is not built
   std::vector<NamedId> named;
 };
 
@@ -105,8 +109,8 @@ Objects of_map(const Mission& mission, const std::string& asked) {
   std::sort(found.begin(), found.end());
   if (!found.empty()) return found;
   const std::string& place = mission.as_written.places.target;
-  const auto skipped = map.skipped.find(id);
-  const std::string reason = skipped == map.skipped.end() ? "" : skipped->second;
+  const auto not_built = map.not_built.find(id);
+  const std::string reason = not_built == map.not_built.end() ? "" : not_built->second;
   if (!reason.empty()) {
     throw Error(ErrorCode::object_missing, id + " of the map is not built: " + reason, place,
                 "name another object, or give the target's vertices");

@@ -208,6 +208,8 @@ void GeoJsonReader::read_features(const json& features, const std::string& key) 
     const std::string place = indexed_place("", key.c_str(), i);
     feature_ = i;
     names_.clear();
+    properties_ = nullptr;
+    is_inclusion_.reset();
     guarded(place, "", [&] { read_feature(features[i], place, i); });
   }
 }

@@ -25,34 +25,28 @@ Json record_json(const CityRecord& record) {
   if (!record.object.name.empty()) json["name"] = record.object.name;
   json["kind"] = name_of(record.object.kind);
   if (!record.building.empty()) json["building"] = record.building;
-  json["fate"] = name_of(record.fate);
-  if (!record.reason.empty()) json["reason"] = record.reason;
   for (const CityRemark& remark : record.remarks) json["remarks"].push_back(remark.text);
-  if (record.fate != Fate::skipped) {
-    json["ground_m"] = record.ground_m;
-    json["base_m"] = record.base_m;
-    json["top_m"] = record.top_m;
-    json["footprint_m2"] = record.footprint_m2;
-  }
+  json["ground_m"] = record.ground_m;
+  json["base_m"] = record.base_m;
+  json["top_m"] = record.top_m;
+  json["footprint_m2"] = record.footprint_m2;
   return json;
 }
 
 void add_city(Json& json, const CityReport& report) {
-  for (const auto& [kind, tally] : tally_by_kind(report)) {
-    Json counts;
-    counts["read"] = tally.read;
-    for (const Fate fate : {Fate::written, Fate::repaired, Fate::open_surface, Fate::skipped}) {
-      const auto entry = tally.fates.find(fate);
-      counts[name_of(fate)] = entry == tally.fates.end() ? 0 : entry->second;
-    }
-    json["kinds"][kind] = counts;
-  }
-  for (const auto& [key, found] : reasons(report)) json["reasons"][name_of(key.first)][key.second] = found.first;
+  std::map<std::string, std::size_t> kinds;
+  for (const CityRecord& record : report.records) ++kinds[name_of(record.object.kind)];
+  json["kinds"] = kinds;
   json["outside"] = report.outside;
   json["map_bounds_deg"] = report.bounds_deg;  // west, south, east, north
   json["seconds"] = {{"read", report.read_seconds}, {"build", report.build_seconds}};
   json["records"] = Json::array();
   for (const CityRecord& record : report.records) json["records"].push_back(record_json(record));
+  json["passed_over"] = Json::array();
+  for (const CityPassedOver& one : report.passed_over) {
+    json["passed_over"].push_back(
+        {{"object", one.object.source_id}, {"kind", name_of(one.object.kind)}, {"reason", one.reason}});
+  }
 }
 
 Json number_json(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
@@ -341,6 +335,7 @@ std::string json_text(const VerifyReport& report, const ProofReport* proof) {
   json["seed"] = report.seed;
   json["lift_m"] = report.lift_m;
   json["rounding_m"] = report.rounding_m;
+  json["scene_incomplete"] = report.scene_incomplete.empty() ? Json(nullptr) : Json(report.scene_incomplete);
   json["proof"] = proof ? json_of(*proof) : Json();
   return dumped(json, 2);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "core/format.h"
 
@@ -14,11 +15,44 @@ constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
 double distance(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm(); }
 
-double nearest(const Box& box, const std::vector<Box>& others) {
-  double least = kNowhere;
-  for (const Box& other : others) least = std::min(least, distance(box, other));
-  return least;
-}
+/// Boxes of a list, and boxes round ever more of them: one look tells that all of these are far away. Flights have a
+/// million legs, and ledgers of cities many thousand entries.
+class BoxLevels {
+ public:
+  explicit BoxLevels(std::vector<Box> boxes) : levels_{std::move(boxes)} {
+    while (levels_.back().size() > 1) {
+      const std::vector<Box>& below = levels_.back();
+      std::vector<Box> above((below.size() + kOfOne - 1) / kOfOne);
+      for (std::size_t i = 0; i < below.size(); ++i) above[i / kOfOne].extend(below[i]);
+      levels_.push_back(std::move(above));
+    }
+  }
+
+  /// Infinite without boxes.
+  double nearest(const Box& box) const {
+    double least = kNowhere;
+    look(box, levels_.size() - 1, 0, least);
+    return least;
+  }
+
+ private:
+  static constexpr std::size_t kOfOne = 16;
+
+  void look(const Box& box, std::size_t level, std::size_t begin, double& least) const {
+    const std::size_t end = std::min(begin + kOfOne, levels_[level].size());
+    for (std::size_t i = begin; i < end; ++i) {
+      const double away = distance(box, levels_[level][i]);
+      if (!(away < least)) continue;
+      if (level == 0) {
+        least = away;
+      } else {
+        look(box, level - 1, i * kOfOne, least);
+      }
+    }
+  }
+
+  std::vector<std::vector<Box>> levels_;
+};
 
 struct Near {
   const LedgerEntry* entry = nullptr;
@@ -38,12 +72,20 @@ std::string ledger_text(const LedgerEntry& entry) {
   return text;
 }
 
-std::optional<Warning> incomplete_warning(const Scene& scene, const std::vector<Box>& targets, double range_m,
-                                          const std::vector<Box>& paths, const std::string& path) {
+std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach> reaches, std::vector<Box> paths,
+                                          const std::string& path, const core::ProgressReporter& progress) {
+  if (scene.ledger.empty()) return std::nullopt;
+  progress.begin("looking at what the scene lacks");
+  std::vector<std::pair<BoxLevels, double>> within;
+  for (Reach& reach : reaches) within.emplace_back(BoxLevels(std::move(reach.boxes)), reach.within_m);
+  const BoxLevels along(std::move(paths));
   std::vector<Near> near;
   for (const LedgerEntry& entry : scene.ledger) {
-    if (entry.box && !(nearest(*entry.box, targets) <= range_m)) continue;
-    near.push_back({&entry, entry.box ? nearest(*entry.box, paths) : 0});
+    progress.check();
+    const bool is_near = !entry.box || std::any_of(within.begin(), within.end(), [&](const auto& reach) {
+      return reach.first.nearest(*entry.box) <= reach.second;
+    });
+    if (is_near) near.push_back({&entry, entry.box ? along.nearest(*entry.box) : 0});
   }
   if (near.empty()) return std::nullopt;
   const auto held = static_cast<std::size_t>(

@@ -280,7 +280,10 @@ std::vector<Attempt> run_each(const Mission& mission, const RunOptions& options,
     for_each.scene_hash = options.scene_hash.empty() ? scene_hash(mission.scene()) : options.scene_hash;
     const double prepare_seconds = stopwatch.lap();
     std::vector<PreparedViews> prepared(count);
+    const internal::core::ProgressReporter asking(progress);
+    asking.begin("targets");
     for (std::size_t i = 0; i < count; ++i) {
+      asking.tick();
       try {
         prepared[i] = prepare_views(one_volume(mission, i), scene);
       } catch (const TargetError& error) {

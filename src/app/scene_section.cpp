@@ -166,7 +166,7 @@ class SceneParser {
       }
     }
     if (const YamlNode* partial = take("partial", {Kind::map}, "maps")) {
-      city.partial = truth(*partial, "scene.partial");
+      city.partial = reader_.flag(*partial, "scene.partial");
     }
     const YamlNode* const defaults = take("defaults", {Kind::map}, "maps");
     if (!defaults) return;
@@ -206,13 +206,6 @@ class SceneParser {
     frame.origin_deg = parse_lat_lon(needed("origin"), reader_, "scene.frame.origin");
     frame.ground_m = four_numbers(needed("ground"), "scene.frame.ground", "write metres: [west, south, east, north]");
     frame.reach_m = reader_.number(needed("reach"), "scene.frame.reach");
-  }
-
-  bool truth(const YamlNode& node, const std::string& what) const {
-    const std::string word = reader_.text(node, what);
-    if (word == "true" || word == "false") return word == "true";
-    reader_.fail(ErrorCode::unknown_choice, node, what + " must be true or false, not " + in_quotes(word),
-                 "write true or false");
   }
 
   std::array<double, 4> four_numbers(const YamlNode& node, const std::string& what, const char* form) const {

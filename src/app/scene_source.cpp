@@ -9,10 +9,10 @@
 #include <system_error>
 #include <utility>
 
-#include "app/ledger.h"
 #include "app/providers/maps.h"
 #include "app/scene_lookups.h"
 #include "app/scene_warnings.h"
+#include "io/object_text.h"
 
 namespace vantage {
 namespace {
@@ -124,14 +124,8 @@ std::vector<std::string> notes_of(const LoadedScene& loaded) {
 
 LoadedScene load_scene(const SceneSource& source, const Progress& progress) {
   LoadedScene loaded = loaded_scene(source, progress);
-  const std::vector<LedgerEntry>& ledger = loaded.scene.ledger;
-  if (missing_of(source) == MissingPolicy::refuse && !ledger.empty()) {
-    throw Error(
-        ErrorCode::scene_incomplete,
-        std::to_string(ledger.size()) +
-            " things cannot be built as the file has them; the first: " + internal::app::ledger_text(ledger.front()),
-        source.file.string(),
-        "mend the file ('vantage inspect' lists all), or let stand-ins hold their place with scene.missing: block");
+  if (missing_of(source) == MissingPolicy::refuse) {
+    internal::io::refuse_incomplete(loaded.scene.ledger, source.file.string());
   }
   if (source.attribution.empty()) return loaded;
   loaded.scene.attribution = source.attribution;

@@ -12,13 +12,16 @@
 #include "app/triangle_runs.h"
 #include "common/known_data.h"
 #include "core/format.h"
+#include "core/progress_reporter.h"
 #include "geo/local_frame.h"
 #include "geo/longitudes.h"
+#include "target/fresnel_zone.h"
 #include "vantage/mission.h"
 
 namespace vantage {
 namespace {
 
+using internal::app::Reach;
 using Vec2 = Eigen::Vector2d;
 
 std::string metres(double length) { return std::to_string(std::lround(std::ceil(length))) + " m"; }
@@ -160,8 +163,40 @@ std::optional<Warning> incomplete(const Mission& mission, const Volume* volume) 
   }
   Box lines = volume != nullptr ? bounding_box(volume->mesh) : Box{};
   for (const Box& corner : targets) lines.extend(corner);
-  return internal::app::incomplete_warning(mission.scene(), targets, range_limit_m(mission.sensor), {lines},
-                                           "the sight lines");
+  return internal::app::incomplete_warning(mission.scene(), {{std::move(targets), range_limit_m(mission.sensor)}},
+                                           {lines}, "the sight lines");
+}
+
+/// Round each leg of a flight, and its end.
+std::vector<Box> leg_boxes(const std::vector<Vec3>& positions) {
+  std::vector<Box> legs;
+  for (const Vec3& position : positions) {
+    if (!legs.empty()) legs.back().extend(position);
+    legs.push_back({position, position});
+  }
+  return legs;
+}
+
+/// How far from a flight what stands counts: it may hide, or it must be kept away from. Targets that are volumes may
+/// have no range; what else they ask for still counts.
+double kept_m(const Mission& mission, double clearance_m) {
+  const double range = range_limit_m(mission.sensor);
+  if (std::isfinite(range)) clearance_m = std::max(clearance_m, range);
+  const auto& clearance = mission.navigation.clearance;
+  return clearance ? std::max(clearance_m, clearance->distance_m) : clearance_m;
+}
+
+/// The boxes round a link's point and each leg hold all of its lines; the zone of a radio link is an ellipsoid round
+/// them.
+Reach reach_of(const FlightLink& link, std::vector<Box> legs, double tube_radius_m) {
+  double farthest = 0;
+  for (Box& leg : legs) {
+    leg.extend(link.point);
+    farthest = std::max(farthest, (leg.max - leg.min).norm());
+  }
+  if (!link.radio) return {std::move(legs), tube_radius_m};
+  const double excess = internal::target::zone_excess_m(*link.radio) + 2 * tube_radius_m;  // as LegViews judges a tube
+  return {std::move(legs), std::sqrt(excess * (2 * farthest + excess)) / 2};
 }
 
 constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
@@ -194,14 +229,11 @@ std::optional<Warning> large_pixel(const Sensor& sensor) {
 
 }  // namespace
 
-std::vector<Warning> beyond_data_warnings(const Mission& mission, std::span<const Vec3> positions) {
+std::vector<Warning> beyond_data_warnings(const Mission& mission, const FlownPlaces& flown, const Progress& progress) {
   std::vector<Vec2> points;
-  std::vector<Box> legs;
-  for (const Vec3& position : positions) {
-    points.emplace_back(position.head<2>());
-    legs.push_back({position, position});
-    if (legs.size() > 1) legs[legs.size() - 2].extend(position);
-  }
+  for (const Vec3& position : flown.positions) points.emplace_back(position.head<2>());
+  for (const Vec3& place : flown.seen) points.emplace_back(place.head<2>());
+  for (const FlightLink& link : flown.links) points.emplace_back(link.point.head<2>());
   std::vector<Warning> warnings;
   const Shortfall shortfall = of(mission, points);
   if (shortfall.metres > kTolerance) {
@@ -210,9 +242,11 @@ std::vector<Warning> beyond_data_warnings(const Mission& mission, std::span<cons
                             shortfall.known + ": what stands out there hides nothing, and nothing keeps clear of it; " +
                             shortfall.fix});
   }
-  const double range = range_limit_m(mission.sensor);
-  auto missing =
-      internal::app::incomplete_warning(mission.scene(), legs, std::isfinite(range) ? range : 0, legs, "the flight");
+  const std::vector<Box> legs = leg_boxes(flown.positions);
+  std::vector<Reach> reaches = {{legs, flown.tube_radius_m + kept_m(mission, flown.clearance_m)}};
+  for (const FlightLink& link : flown.links) reaches.push_back(reach_of(link, legs, flown.tube_radius_m));
+  auto missing = internal::app::incomplete_warning(mission.scene(), std::move(reaches), legs, "the flight",
+                                                   internal::core::ProgressReporter(progress));
   if (missing) warnings.push_back(std::move(*missing));
   return warnings;
 }

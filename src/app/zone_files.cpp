@@ -490,7 +490,11 @@ bool FileZones::add_one(const ListedZone& listed, bool has_none, std::vector<Zon
 void FileZones::add_to(std::vector<Zone>& zones) {
   const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file, progress_);
   for (const UnreadZone& unread : list.unread) {
-    if (is_for_use(unread.zone)) skip(unread.zone, unread.fault);
+    if (is_for_use(unread.zone)) {
+      skip(unread.zone, unread.fault);
+    } else {
+      ++left_.other_fences;
+    }
   }
   bool has_any = false;
   for (const ListedZone& listed : list.zones) {

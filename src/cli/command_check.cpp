@@ -198,11 +198,11 @@ int run_check(const CheckArguments& options) {
   const FlightPlan plan = read_plan_argument(options, progress.callback());
   const Mission mission = resolve_mission(file, progress.callback());
   const LocatedPlan located = locate_plan_argument(options, plan, mission);
-  const FlightCheck check = check_flight(mission, located.flight, asked, progress.callback());
+  FlightCheck check = check_flight(mission, located.flight, asked, progress.callback());
+  for (const auto* of_plan : {&plan.notes, &located.notes}) {
+    for (const Warning& one : *of_plan) check.notes.push_back(one.text);
+  }
   if (!options.common.quiet) {
-    notes(mission.notes);
-    notes(plan.notes);
-    notes(located.notes);
     for (const std::string& text : check.notes) note(text);
   }
   const Georeference* georeference = mission.scene().georeference ? &*mission.scene().georeference : nullptr;

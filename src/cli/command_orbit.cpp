@@ -140,6 +140,7 @@ std::vector<NamedOrbits> orbits_of(const TargetVolumes& volumes, const OrbitOpti
     }
     describer = describer ? ViewDescriber(target.mission, *describer) : ViewDescriber(target.mission);
     one.orbits = find_orbits(target.mission, target.volume, volumes.scene, *describer, options, progress);
+    tell_of_volume(target.volume, one.orbits.notes);
   }
   return result;
 }
@@ -193,7 +194,6 @@ int run_orbit(const OrbitArguments& arguments) {
     if (!arguments.output_file.empty()) {
       write_orbit(found.front().orbits, volumes.targets.front().mission, arguments);
     }
-    if (!arguments.common.quiet) tell_of_targets(volumes);
   }
   print(arguments.json ? json_text(found) : text_of_orbits(found));
   bool has_all = true;

@@ -97,6 +97,7 @@ std::vector<NamedStandpoints> standpoints_of(const TargetVolumes& volumes, const
     }
     describer = describer ? ViewDescriber(target.mission, *describer) : ViewDescriber(target.mission);
     one.standpoints = find_standpoints(target.mission, target.volume, volumes.scene, *describer, options, progress);
+    tell_of_volume(target.volume, one.standpoints.notes);
   }
   return result;
 }
@@ -114,7 +115,6 @@ int run_stand(const StandArguments& arguments) {
     const TargetVolumes volumes =
         compute_targets(file, arguments.target, arguments.common.threads, progress.callback());
     found = standpoints_of(volumes, options, progress.callback());
-    if (!arguments.common.quiet) tell_of_targets(volumes);
   }
   print(arguments.json ? json_text(found) : text_of(found));
   bool has_all = true;

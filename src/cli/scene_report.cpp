@@ -11,15 +11,6 @@
 namespace vantage::cli {
 namespace {
 
-void add_tally(TextTable& table, const std::string& kind, const CityTally& tally) {
-  std::string remark;
-  for (const auto& [fate, number] : tally.fates) {
-    const std::string word = fate == Fate::open_surface ? "written open" : name_of(fate);
-    remark += (remark.empty() ? "" : ", ") + count(number) + " " + word;
-  }
-  table.row(kind, count(tally.read), remark);
-}
-
 std::map<std::string, std::pair<std::size_t, std::string>> remarks(const CityReport& report) {
   std::map<std::string, std::pair<std::size_t, std::string>> found;
   for (const CityRecord& record : report.records) {
@@ -36,14 +27,13 @@ void add_city(TextTable& table, const CityReport& report) {
   const auto& [west, south, east, north] = report.bounds_deg;
   table.row("the map holds", "latitude " + fixed(south, 5) + " to " + fixed(north, 5), "");
   table.row("", "longitude " + fixed(west, 5) + " to " + fixed(east, 5), west > east ? "across the antimeridian" : "");
-  table.heading("what was read");
-  for (const auto& [kind, tally] : tally_by_kind(report)) add_tally(table, kind, tally);
+  table.heading("what is built");
+  std::map<std::string, std::size_t> kinds, passed_over;
+  for (const CityRecord& record : report.records) ++kinds[name_of(record.object.kind)];
+  for (const auto& [kind, number] : kinds) table.row(kind, count(number), "");
+  for (const CityPassedOver& one : report.passed_over) ++passed_over[one.reason];
+  for (const auto& [reason, number] : passed_over) table.row("passed over", count(number), reason);
   if (report.outside > 0) table.row("outside the area", count(report.outside), "left out");
-  const auto why = reasons(report);
-  if (!why.empty()) table.heading("what was not simply written");
-  for (const auto& [key, found] : why) {
-    table.row(name_of(key.first), count(found.first), key.second + ", first " + found.second);
-  }
   const auto said = remarks(report);
   if (!said.empty()) table.heading("tags that are not as they should be");
   for (const auto& [kind, found] : said) table.row("", count(found.first), found.second);

@@ -47,12 +47,10 @@ TargetVolumes compute_targets(const MissionFile& file, const std::string& name, 
   return result;
 }
 
-void tell_of_targets(const TargetVolumes& volumes) {
-  for (const TargetVolume& target : volumes.targets) {
-    for (const Warning& warning : target.volume.notes) {
-      note((volumes.targets.size() > 1 ? target.name + ": " : "") + warning.text);
-    }
-  }
+void tell_of_volume(const Volume& volume, std::vector<std::string>& notes) {
+  std::vector<std::string> texts;
+  for (const Warning& warning : volume.notes) texts.push_back(warning.text);
+  notes.insert(notes.begin(), texts.begin(), texts.end());
 }
 
 }  // namespace vantage::cli

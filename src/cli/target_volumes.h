@@ -36,7 +36,7 @@ inline constexpr const char* kClearanceHelp =
 /// `navigation` keeps farther away. Throws Error(input) for what is no length of at least 0.
 void keep_clearance(MissionFile& file, const std::string& typed);
 
-/// What is to be known of them, a line each on standard error.
-void tell_of_targets(const TargetVolumes& volumes);
+/// What is to be known of a volume, before what is to be known of what was found in it.
+void tell_of_volume(const Volume& volume, std::vector<std::string>& notes);
 
 }  // namespace vantage::cli

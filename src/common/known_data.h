@@ -1,20 +1,30 @@
 // Where a scene's data end.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/mission.h"
+#include "vantage/progress.h"
 
 namespace vantage {
 
-/// For a flight: range_beyond_data where positions (scene frame) lie more than a metre beyond the map, the raster or
+/// What is asked of a flight; scene frame.
+struct FlownPlaces {
+  std::vector<Vec3> positions;    ///< of its points, in order
+  std::vector<Vec3> seen;         ///< of what it must see
+  std::vector<FlightLink> links;  ///< which it must keep
+  double tube_radius_m = 0;       ///< with the flight's chord error: all must hold so near to it
+  double clearance_m = 0;         ///< from the scene; that of Mission::navigation counts besides
+};
+
+/// For a flight: range_beyond_data where it, or what it must see, lies more than a metre beyond the map, the raster or
 /// the ground of the mission's scene: of what stands between them nothing is known there. Nothing is said of other
 /// meshes, which may be all that there is. And scene_incomplete where something of the scene's ledger lies within range
-/// of the flight. `positions`: those of the flight in order, and of what it must see. The mission is resolved.
-VANTAGE_API std::vector<Warning> beyond_data_warnings(const Mission& mission, std::span<const Vec3> positions);
+/// or clearance of the flight, or between it and the point of a link. The mission is resolved. Throws Error(cancelled).
+VANTAGE_API std::vector<Warning> beyond_data_warnings(const Mission& mission, const FlownPlaces& flown,
+                                                      const Progress& progress = {});
 
 }  // namespace vantage

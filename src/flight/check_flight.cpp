@@ -209,13 +209,12 @@ FlightCheckOptions filled(const Mission& mission, FlightCheckOptions options) {
   return options;
 }
 
-/// All that must be known round the flight: its points, its targets, its links.
-std::vector<Vec3> places_of(const FlightCheck& check) {
-  std::vector<Vec3> places = check.positions;
+/// All that must be known round the flight.
+FlownPlaces places_of(const FlightCheck& check, const Mission& mission, const FlightCheckOptions& options) {
+  FlownPlaces places{check.positions, {}, mission.links, check.tube_radius_m, options.clearance_m.value_or(0)};
   for (const TargetCheck& target : check.targets) {
-    for (const std::vector<Vec3>& part : target.parts) places.insert(places.end(), part.begin(), part.end());
+    for (const std::vector<Vec3>& part : target.parts) places.seen.insert(places.seen.end(), part.begin(), part.end());
   }
-  for (const LinkCheck& link : check.links) places.push_back(link.point);
   return places;
 }
 
@@ -450,7 +449,10 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
       nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
   check.failures = failures_of(check, options);
   check.not_judged = flight.not_judged;
-  for (const Warning& note : beyond_data_warnings(mission, places_of(check))) check.notes.push_back(note.text);
+  for (const Warning& note : mission.notes) check.notes.push_back(note.text);
+  for (const Warning& note : beyond_data_warnings(mission, places_of(check, mission, options), progress)) {
+    check.notes.push_back(note.text);
+  }
   return check;
 }
 

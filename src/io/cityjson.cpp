@@ -2,6 +2,7 @@
 // objects. Semantics, textures and materials are passed over, and so are points and lines. See docs/scene.md.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/format.h"
+#include "geo/local_frame.h"
 #include "io/cityjson_document.h"
 #include "io/cityjson_surfaces.h"
 #include "io/json_text.h"
@@ -56,10 +58,11 @@ std::string type_of(const Json& object, const Trail& trail) {
 class CityJsonReader {
  public:
   CityJsonReader(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
-                 const std::string& lod)
+                 const std::string& lod, const std::string& crs)
       : source_(source),
         progress_(progress),
         limits_(limits),
+        asked_crs_(crs),
         trail_(source),
         builder_(source, MeshFormat::cityjson, MeshBuilder::PlaceUnit::byte, limits),
         surfaces_(builder_, trail_, limits) {
@@ -169,6 +172,7 @@ class CityJsonReader {
     }
     Box box;
     for (std::size_t i = before; i < builder_.triangle_count(); ++i) {
+      progress_.tick();
       for (const std::uint32_t corner : builder_.triangle(i)) box.extend(builder_.vertex(corner));
     }
     if (asked_ && !meets_lod(chosen, *asked_)) {
@@ -188,15 +192,28 @@ class CityJsonReader {
     });
   }
 
-  /// "measuredHeight" in units of the file.
-  std::optional<double> height_of(const Json& object) const {
+  /// "measuredHeight", in metres.
+  static std::optional<double> height_of(const Json& object) {
     const auto attributes = object.find("attributes");
     if (attributes == object.end() || !attributes->is_object()) return std::nullopt;
     const auto height = attributes->find("measuredHeight");
     if (height == attributes->end() || !height->is_number()) return std::nullopt;
     const double metres = height->get<double>();
-    return metres > 0 && metres < core::kMaxCoordinate ? std::optional(metres / limits_.unit_m) : std::nullopt;
+    return metres > 0 && metres < core::kMaxCoordinate ? std::optional(metres) : std::nullopt;
   }
+
+  /// Metres in one unit of z, as to_scene_frame takes it: negative where z is a depth.
+  double unit_m() {
+    const std::string& crs = asked_crs_.empty() ? header_.crs : asked_crs_;
+    if (crs.empty() || crs == "none") return limits_.unit_m;
+    if (!vertical_unit_m_) {
+      const geo::CoordinateSystem system(crs, asked_crs_.empty() ? crs_place() : "crs of " + source_.file().string());
+      vertical_unit_m_ = system.vertical_unit_m().value_or(1);
+    }
+    return *vertical_unit_m_ * limits_.unit_m;
+  }
+
+  std::string crs_place() const { return source_.file().string() + ", metadata, referenceSystem"; }
 
   /// "geographicalExtent"; an empty box where it is missing or makes no sense: the object is in the ledger all the
   /// same.
@@ -238,7 +255,7 @@ class CityJsonReader {
     entry.object = identity_of(id, object);
     entry.what = type_of(object, trail_);
     entry.reason = std::move(reason);
-    if (const auto height = height_of(object)) entry.height_m = *height * limits_.unit_m;
+    entry.height_m = height_of(object);
     return entry;
   }
 
@@ -251,28 +268,36 @@ class CityJsonReader {
       ledger_.push_back({std::move(entry), {}});
       return;
     }
-    if (!entry.height_m) entry.height_m = (extent.max.z() - extent.min.z()) * limits_.unit_m;
+    if (!entry.height_m) entry.height_m = std::abs((extent.max.z() - extent.min.z()) * unit_m());
     Missing missing = held_by_box(std::move(entry), extent);
     missing.entry.instead = "the box of its extent";
     ledger_.push_back(std::move(missing));
   }
 
-  /// A building, bridge or tree of which the file has only the footprint: raised to its height, where that is stated.
+  /// Whether a type lies on the ground, so that its footprint is all of it (CityJSON 2.0, chapter 2).
+  static bool is_flat(std::string_view type) {
+    constexpr std::array<std::string_view, 7> kFlat = {"Road",    "Railway",   "TransportSquare", "Waterway",
+                                                       "LandUse", "WaterBody", "TINRelief"};
+    return std::find(kFlat.begin(), kFlat.end(), type) != kFlat.end();
+  }
+
+  /// An object of which the file has only the footprint: raised to its height, where that is stated.
   void tell_footprint(const std::string& id, const Json& object, std::size_t first, Box box) {
     LedgerEntry entry = entry_of(id, object, "the file has only its footprint (LoD 0)");
-    if (entry.object.kind == ObjectKind::other) return;
-    const auto height = height_of(object);
-    if (!height) {
+    if (!entry.height_m && is_flat(entry.what)) return;
+    if (!entry.height_m) {
       entry.reason += ", and no measuredHeight";
       entry.box = Box{box.min, Vec3(box.max.x(), box.max.y(), std::numeric_limits<double>::infinity())};
       ledger_.push_back({std::move(entry), {}});
       return;
     }
+    const double height = *entry.height_m / unit_m();
     Missing missing{std::move(entry), {}};
     auto& [vertices, triangles] = missing.holder;
     for (std::size_t i = first; i < builder_.triangle_count(); ++i) {
+      progress_.tick();
       const auto at = static_cast<std::uint32_t>(vertices.size());
-      for (const double up : {0.0, *height}) {
+      for (const double up : {0.0, height}) {
         for (const std::uint32_t corner : builder_.triangle(i)) {
           vertices.push_back(builder_.vertex(corner) + Vec3(0, 0, up));
         }
@@ -285,7 +310,7 @@ class CityJsonReader {
         triangles.push_back({a, b + 3, a + 3});
       }
     }
-    box.max.z() += *height;
+    (height > 0 ? box.max : box.min).z() += height;
     missing.entry.box = box;
     missing.entry.instead = core::format("its footprint, {:.4g} m high", *missing.entry.height_m);
     ledger_.push_back(std::move(missing));
@@ -394,7 +419,10 @@ class CityJsonReader {
     placement.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.data());
     placement.pretranslate(vertices.position(place));
     header_.template_vertices.begin_instance();
+    const std::size_t before = builder_.triangle_count();
+    builder_.make_room(header_.template_vertices.size(), largest_instance_, progress_);
     read_surfaces(template_of(geometry), header_.template_vertices, placement);
+    largest_instance_ = std::max(largest_instance_, builder_.triangle_count() - before);
     const std::size_t room = limits_.repeated_triangles + source_.bytes().size() / 3;
     if (builder_.triangle_count() > room) {
       trail_.fail_as(ErrorCode::mesh_too_large,
@@ -465,7 +493,7 @@ class CityJsonReader {
     }
     RawMesh mesh = builder_.finish();
     mesh.crs = header_.crs;
-    mesh.crs_place = source_.file().string() + ", metadata, referenceSystem";
+    mesh.crs_place = crs_place();
     if (asked_) {
       const std::string missing = " no geometry of LoD " + lod_text(*asked_) + ": the nearest is taken";
       other_lod_.note(mesh.notes, "CityObject has", "CityObjects have", missing);
@@ -481,14 +509,16 @@ class CityJsonReader {
   const MeshSource& source_;
   const core::ProgressReporter& progress_;
   const core::ReadLimits& limits_;
+  const std::string& asked_crs_;
   Trail trail_;
   MeshBuilder builder_;
   cityjson::SurfaceBuilder surfaces_;
   std::optional<double> asked_;
 
   Header header_;
+  std::optional<double> vertical_unit_m_;  // of the coordinate system, when it is needed
   std::set<double> found_lods_;
-  std::size_t objects_ = 0;
+  std::size_t objects_ = 0, largest_instance_ = 0;  // triangles of an instance of a template
   Finding other_lod_, empty_, no_surfaces_;
   std::vector<cityjson::SurfaceBuilder::Fault> own_faults_;
   std::vector<Missing> ledger_;
@@ -520,9 +550,9 @@ bool is_cityjson(std::string_view bytes) {
 }
 
 RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
-                      const std::string& lod) {
+                      const std::string& lod, const std::string& crs) {
   progress.begin("parse CityJSON");
-  return CityJsonReader(source, progress, limits, lod).read();
+  return CityJsonReader(source, progress, limits, lod, crs).read();
 }
 
 }  // namespace vantage::internal::io

@@ -281,7 +281,6 @@ class GltfReader {
     mesh.georeference = georeference();
     mesh.rounding_m = rounding();
     mesh.ledger = ledger();
-    for (Missing& missing : stated_ledger()) mesh.ledger.push_back(std::move(missing));
     if (hidden_ > 0) {
       mesh.notes.push_back(core::count_text(hidden_, "node is hidden", "nodes are hidden") +
                            " by the file (KHR_node_visibility), with all below: not built");
@@ -294,6 +293,7 @@ class GltfReader {
     std::vector<Missing> ledger;
     for (const Unbuilt& unbuilt : unbuilt_) ledger.push_back(told(unbuilt));
     if (elsewhere_) ledger.push_back({*elsewhere_, {}});
+    for (Missing& missing : stated_ledger()) ledger.push_back(std::move(missing));
     return ledger;
   }
 
@@ -507,7 +507,7 @@ class GltfReader {
     if (attributes == primitive.end() || !attributes->is_object()) document_.fail("a primitive has no \"attributes\"");
     const auto position_index = document_.whole(*attributes, "POSITION");
     if (!position_index) {  // the specification allows it; there is nothing to draw
-      count_unbuilt(placed, Kind::unplaced, 1, {});
+      count_unbuilt(placed, Kind::unplaced, 1, std::nullopt);
       return;
     }
     if (mode < kTriangleList || mode > kTriangleFan) {
@@ -561,14 +561,16 @@ class GltfReader {
     Kind kind;
     std::uint64_t count = 0;  // of points, or of primitives
     Box box = {};
+    bool is_placed = true;  // all of it
   };
 
-  void count_unbuilt(const Placed& placed, Kind kind, std::uint64_t count, const Box& box) {
+  void count_unbuilt(const Placed& placed, Kind kind, std::uint64_t count, const std::optional<Box>& box) {
     const auto [entry, is_new] = unbuilt_number_.try_emplace({&placed.node, kind}, unbuilt_.size());
     if (is_new) unbuilt_.push_back({&placed.node, &placed.mesh, kind});
     Unbuilt& unbuilt = unbuilt_[entry->second];
     unbuilt.count += count;
-    unbuilt.box.extend(box);
+    unbuilt.is_placed = unbuilt.is_placed && box;
+    if (box) unbuilt.box.extend(*box);
   }
 
   /// Points are held by their box; lines are as thin as nothing.
@@ -585,7 +587,7 @@ class GltfReader {
       entry.what = core::count_text(unbuilt.count, "primitive without positions", "primitives without positions");
       entry.reason = "the file does not say where it is";
     }
-    if (unbuilt.box.empty()) return {std::move(entry), {}};
+    if (!unbuilt.is_placed || unbuilt.box.empty()) return {std::move(entry), {}};
     if (unbuilt.kind == Kind::points) return held_by_box(std::move(entry), unbuilt.box);
     entry.box = unbuilt.box;
     return {std::move(entry), {}};
@@ -598,7 +600,8 @@ class GltfReader {
     count_unbuilt(placed, mode == 0 ? Kind::points : Kind::lines, positions.count(), box_of(pose));
   }
 
-  Box box_of(const Pose& pose) {
+  /// Nothing where a coordinate is not finite.
+  std::optional<Box> box_of(const Pose& pose) {
     checked_points_ += pose.count();
     const std::uint64_t room = limits_.repeated_triangles + document_.buffer_bytes();
     if (checked_points_ > room) {
@@ -609,7 +612,8 @@ class GltfReader {
     for (std::uint64_t i = 0; i < pose.count(); ++i) {
       progress_.tick(visited_, nodes_);
       const Vec3 point = pose.at(i);
-      if (point.allFinite()) box.extend(point);
+      if (!point.allFinite()) return std::nullopt;
+      box.extend(point);
     }
     return box;
   }
@@ -633,38 +637,51 @@ class GltfReader {
     }
   }
 
-  /// Meshes that only other scenes than the default one have, or none.
+  /// Meshes that only other scenes than the default one have, or none, and where, if all of them can be placed.
   void tell_other_scenes(const std::vector<bool>& seen) {
     LedgerEntry entry;
     std::size_t count = 0;
-    Box box;
+    std::optional<Box> box = Box{};
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const Json& node = document_.item("nodes", i);
       if (seen[i] || !node.contains("mesh")) continue;
       if (count++ == 0) entry.object.name = clean_name(document_.text(node, "name"));
-      try {
-        const Json& mesh = document_.item("meshes", document_.required_whole(node, "mesh"));
-        for (const Json& primitive : document_.array(mesh, "primitives")) box.extend(box_of_unseen(i, mesh, primitive));
-      } catch (const Error& error) {
-        if (error.code() == ErrorCode::cancelled) throw;  // what is garbled there hides nothing
-      }
+      if (box) box = with_unseen(*box, i);
     }
     if (count == 0) return;
     entry.what = core::count_text(count, "node with a mesh", "nodes with meshes");
     entry.reason = "not in the default scene of the file, but in another one or in none";
-    if (!box.empty()) entry.box = box;
+    if (box && !box->empty()) entry.box = box;
     elsewhere_ = std::move(entry);
   }
 
-  /// Of a primitive of a node that the default scene does not have.
-  Box box_of_unseen(std::uint64_t number, const Json& mesh, const Json& primitive) {
-    if (!primitive.is_object()) return {};
+  /// A box grown by the mesh of a node that the default scene does not have; nothing where that cannot be placed. What
+  /// is garbled there is no error.
+  std::optional<Box> with_unseen(Box box, std::uint64_t number) {
+    const Json& node = document_.item("nodes", number);
+    try {
+      if (document_.extension(node, "EXT_mesh_gpu_instancing")) return std::nullopt;
+      const Json& mesh = document_.item("meshes", document_.required_whole(node, "mesh"));
+      for (const Json& primitive : document_.array(mesh, "primitives")) {
+        const auto own = box_of_unseen(number, mesh, primitive);
+        if (!own) return std::nullopt;
+        box.extend(*own);
+      }
+      return box;
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled) throw;
+      return std::nullopt;
+    }
+  }
+
+  std::optional<Box> box_of_unseen(std::uint64_t number, const Json& mesh, const Json& primitive) {
+    if (!primitive.is_object()) return std::nullopt;
     const auto attributes = primitive.find("attributes");
     const bool has_any = attributes != primitive.end() && attributes->is_object();
     const auto positions = has_any ? document_.whole(*attributes, "POSITION") : std::nullopt;
-    if (!positions || document_.draco(primitive)) return {};
+    if (!positions || document_.draco(primitive)) return std::nullopt;
     const Accessor accessor = document_.accessor(*positions);
-    if (accessor.components() != 3) return {};
+    if (accessor.components() != 3) return std::nullopt;
     return box_of(poses_.of(document_.item("nodes", number), mesh, primitive, accessor, poses_.world_of(number)));
   }
 

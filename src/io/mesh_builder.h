@@ -17,6 +17,19 @@
 
 namespace vantage::internal::io {
 
+/// Room for more values: it grows as a vector does, but asks `progress` while millions move.
+template <class T>
+void make_room(std::vector<T>& values, std::size_t more, const core::ProgressReporter& progress) {
+  if (more <= values.capacity() - values.size()) return;
+  std::vector<T> grown;
+  grown.reserve(std::max(2 * values.capacity(), values.size() + more));
+  for (const T& value : values) {
+    progress.tick();
+    grown.push_back(value);
+  }
+  values = std::move(grown);
+}
+
 /// Makes a RawMesh. Places are lines or bytes of the file, for messages.
 class MeshBuilder {
  public:
@@ -34,6 +47,13 @@ class MeshBuilder {
     mesh_.vertices.reserve(vertices);
     mesh_.triangles.reserve(triangles);
     mesh_.object_of.reserve(triangles);
+  }
+
+  /// Room for what comes next, where a small file repeats much.
+  void make_room(std::size_t vertices, std::size_t triangles, const core::ProgressReporter& progress) {
+    io::make_room(mesh_.vertices, vertices, progress);
+    io::make_room(mesh_.triangles, triangles, progress);
+    io::make_room(mesh_.object_of, triangles, progress);
   }
 
   const Vec3& vertex(std::uint32_t index) const { return mesh_.vertices[index]; }

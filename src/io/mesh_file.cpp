@@ -59,7 +59,7 @@ MeshFormat mesh_format(const MeshSource& source) {
 }
 
 RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
-                 const std::string& lod) {
+                 const std::string& lod, const std::string& crs) {
   try {
     switch (mesh_format(source)) {
       case MeshFormat::obj:
@@ -71,7 +71,7 @@ RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progres
       case MeshFormat::gltf:
         return read_gltf(source, progress, limits);
       case MeshFormat::cityjson:
-        return read_cityjson(source, progress, limits, lod);
+        return read_cityjson(source, progress, limits, lod, crs);
     }
   } catch (const std::bad_alloc&) {
     source.fail(ErrorCode::out_of_memory, "there is not enough memory to read the mesh",
@@ -80,12 +80,11 @@ RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progres
   throw Error(ErrorCode::internal_defect, "a mesh format without a reader", source.file().string(), "");
 }
 
-RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const core::ReadLimits& limits,
-                       const std::string& lod) {
-  core::ProgressReporter progress(callback, file.string());
+RawMesh read_mesh_file(const std::filesystem::path& file, const core::ProgressReporter& progress,
+                       const core::ReadLimits& limits, const std::string& lod, const std::string& crs) {
   try {
     const MeshSource source = load_mesh_source(file, progress, limits);
-    RawMesh mesh = read_any(source, progress, limits, lod);
+    RawMesh mesh = read_any(source, progress, limits, lod, crs);
     if (mesh.format == MeshFormat::stl) {
       Sidecar beside = read_sidecar(source, progress);
       mesh.georeference = std::move(beside.georeference);
@@ -103,11 +102,12 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
 
 namespace vantage {
 
-Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
+Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& callback) {
+  const internal::core::ProgressReporter progress(callback, file.string());
   internal::core::ReadLimits limits;
   if (options.scale > 0) limits.unit_m = options.scale;
   limits.both_diagonals = options.missing == MissingPolicy::block;
-  internal::io::RawMesh raw = internal::io::read_mesh_file(file, progress, limits, options.lod);
+  internal::io::RawMesh raw = internal::io::read_mesh_file(file, progress, limits, options.lod, options.crs);
   const bool was_projected = !raw.crs.empty() || !options.crs.empty();
   SceneReadOptions used = options;
   if (raw.axes) {
@@ -117,8 +117,8 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
       raw.notes.push_back("the file says \"" + internal::io::axes_text(*raw.axes) + "\": taken so");
     }
   }
-  internal::io::to_scene_frame(raw, used, file);
-  internal::io::apply_policy(raw, options.missing, file);
+  internal::io::to_scene_frame(raw, used, file, progress);
+  internal::io::apply_policy(raw, options.missing, file, progress);
   Scene result;
   result.mesh.vertices = std::move(raw.vertices);
   result.mesh.triangles = std::move(raw.triangles);

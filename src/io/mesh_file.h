@@ -11,7 +11,6 @@
 #include "io/axes_text.h"
 #include "io/mesh_source.h"
 #include "vantage/geometry.h"
-#include "vantage/progress.h"
 #include "vantage/scene.h"
 
 namespace vantage::internal::io {
@@ -46,14 +45,15 @@ struct RawMesh {
 };
 
 /// Reads a file of any known format, compressed or not. Throws as read_scene does.
-/// `lod`: as SceneReadOptions::lod.
-RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progress = {},
-                       const core::ReadLimits& limits = {}, const std::string& lod = {});
+/// `lod`, `crs`: as in SceneReadOptions.
+RawMesh read_mesh_file(const std::filesystem::path& file, const core::ProgressReporter& progress = {},
+                       const core::ReadLimits& limits = {}, const std::string& lod = {}, const std::string& crs = {});
 
 /// Moves a mesh from its file's axes and unit into the scene frame: z up, scaled, about the origin where it has a
 /// place. glTF is y up and CityJSON z up whatever the options say. Fills in `georeference`. Boxes of the ledger that
 /// cannot be moved are dropped, their entries are not. Throws Error(input) if a coordinate is then beyond
 /// kMaxCoordinate, and for places as read_scene does.
-void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file);
+void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file,
+                    const core::ProgressReporter& progress = {});
 
 }  // namespace vantage::internal::io

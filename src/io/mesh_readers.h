@@ -14,16 +14,16 @@ MeshFormat mesh_format(const MeshSource& source);
 
 /// Reads a file of whichever format it is.
 RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {},
-                 const std::string& lod = {});
+                 const std::string& lod = {}, const std::string& crs = {});
 
 RawMesh read_obj(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
 RawMesh read_ply(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
 RawMesh read_stl(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
 RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress,
                   const core::ReadLimits& limits = {});
-/// `lod`: as SceneReadOptions::lod.
+/// `lod`, `crs`: as in SceneReadOptions. The coordinate system says what a metre of height is in the file.
 RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress,
-                      const core::ReadLimits& limits = {}, const std::string& lod = {});
+                      const core::ReadLimits& limits = {}, const std::string& lod = {}, const std::string& crs = {});
 
 /// Whether some JSON object in the text has the type "CityJSON" or "CityJSONFeature".
 bool is_cityjson(std::string_view bytes);

@@ -223,9 +223,11 @@ Missing held_by_box(LedgerEntry entry, const Box& box) {
   return {std::move(entry), box_mesh(box)};
 }
 
-void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file) {
+void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file,
+                  const core::ProgressReporter& progress) {
   Box built;
   for (const Triangle& triangle : mesh.triangles) {
+    progress.tick();
     for (const std::uint32_t vertex : triangle) built.extend(mesh.vertices[vertex]);
   }
   const std::size_t objects = mesh.objects.size();
@@ -237,6 +239,7 @@ void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::pa
     }
     const Mesh holder = std::exchange(missing.holder, {});
     const bool is_near = std::all_of(holder.vertices.begin(), holder.vertices.end(), [&](const Vec3& vertex) {
+      progress.tick();
       return ((vertex - built.min).array() > -kTooFarM).all() && ((vertex - built.max).array() < kTooFarM).all();
     });
     if (policy != MissingPolicy::block || holder.triangles.empty() || !is_near) {
@@ -248,8 +251,12 @@ void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::pa
     missing.entry.stand_in = static_cast<std::uint32_t>(mesh.objects.size());
     mesh.objects.push_back({missing.entry.object.name, missing.entry.object.source_id, ObjectKind::stand_in});
     if (display_name(mesh.objects.back()).empty()) mesh.objects.back().name = missing.entry.what;
+    make_room(mesh.vertices, holder.vertices.size(), progress);
+    make_room(mesh.triangles, holder.triangles.size(), progress);
+    make_room(mesh.object_of, holder.triangles.size(), progress);
     mesh.vertices.insert(mesh.vertices.end(), holder.vertices.begin(), holder.vertices.end());
     for (Triangle triangle : holder.triangles) {
+      progress.tick();
       for (std::uint32_t& corner : triangle) corner += first;
       mesh.triangles.push_back(triangle);
       mesh.object_of.push_back(*missing.entry.stand_in);
@@ -266,11 +273,11 @@ void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string
   const LedgerEntry& first = ledger.front();
   const std::string name = display_name(first.object);
   throw Error(ErrorCode::scene_incomplete,
-              core::count_text(ledger.size(), "thing that the source says stands there is",
-                               "things that the source says stand there are") +
-                  " not built as they stand; the first: " + (name.empty() ? first.what : in_quotes(name)) + ": " +
-                  first.reason,
-              where, "mend the source, or take them as they can be built with 'missing: block' or 'missing: warn'");
+              core::count_text(ledger.size(), "thing is not built as the source has it",
+                               "things are not built as the source has them") +
+                  "; the first: " + (name.empty() ? first.what : in_quotes(name)) + ": " + first.reason,
+              where,
+              "mend the source ('vantage inspect' lists all), or let stand-ins hold their place with 'missing: block'");
 }
 
 std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {

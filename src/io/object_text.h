@@ -52,7 +52,8 @@ Missing held_by_box(LedgerEntry entry, const Box& box);
 /// As `policy` says, of a mesh in the scene frame: the holders become objects of the kind stand_in, or what they would
 /// hold is held by nothing. One that lies more than 100 km from all triangles is not built: its numbers are wrong.
 /// Throws Error(scene_incomplete) for MissingPolicy::refuse where there is any entry.
-void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file);
+void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file,
+                  const core::ProgressReporter& progress = {});
 
 /// Throws Error(scene_incomplete), naming how many and the first, where there is any entry.
 void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string& where);

@@ -19,9 +19,10 @@ geo::LonLat lonlat(const std::array<double, 2>& latitude_longitude) {
 
 std::string as_in(const std::filesystem::path& file) { return "as in " + file.filename().string(); }
 
-Box bounds_of(const RawMesh& mesh) {
+Box bounds_of(const RawMesh& mesh, const core::ProgressReporter& progress) {
   Box box;
   for (const Triangle& triangle : mesh.triangles) {
+    progress.tick();
     for (const std::uint32_t vertex : triangle) box.extend(mesh.vertices[vertex]);
   }
   return box;
@@ -42,12 +43,15 @@ std::string short_name(const std::string& name) {
 /// Moves the boxes and outlines of the ledger, and what is to stand in. One that lies where the move has no value is
 /// dropped.
 template <typename Move>
-void move_ledger(RawMesh& mesh, const Move& move) {
+void move_ledger(RawMesh& mesh, const Move& move, const core::ProgressReporter& progress) {
   for (auto& [entry, holder] : mesh.ledger) {
     if (!entry.box) continue;
     Box box;
     try {
-      for (Vec3& vertex : holder.vertices) vertex = move(vertex);
+      for (Vec3& vertex : holder.vertices) {
+        progress.tick();
+        vertex = move(vertex);
+      }
       for (const Vec3& corner : box_mesh(*entry.box).vertices) {
         Vec3 finite = corner;
         if (!std::isfinite(corner.z())) finite.z() = 0;
@@ -66,7 +70,8 @@ void move_ledger(RawMesh& mesh, const Move& move) {
       const bool is_place = box.min.head<2>().allFinite() && box.max.head<2>().allFinite();
       if (is_place) entry.box = box;
       if (!is_place) entry.box.reset();
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::cancelled) throw;
       entry.box.reset();
     }
     if (entry.box) continue;
@@ -76,14 +81,15 @@ void move_ledger(RawMesh& mesh, const Move& move) {
 }
 
 /// x and y from the coordinate system `text` into the local frame.
-void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
+void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file,
+             const core::ProgressReporter& progress) {
   const bool is_asked = !options.crs.empty();
   const std::string& text = is_asked ? options.crs : mesh.crs;
   const geo::CoordinateSystem system(text, is_asked ? "crs of " + file.string() : mesh.crs_place);
   if (is_asked && !mesh.crs.empty() && mesh.crs != text) {
     mesh.notes.push_back("the file says that its coordinate system is " + mesh.crs + "; taken is " + system.name());
   }
-  const Box box = bounds_of(mesh);
+  const Box box = bounds_of(mesh, progress);
   const Vec3 middle = (box.min + box.max) / 2;
   const geo::LonLat centre = system.to_lonlat(middle.head<2>());
   const geo::LocalFrame frame(options.origin_deg ? lonlat(*options.origin_deg) : centre);
@@ -106,33 +112,39 @@ void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesyst
     const Eigen::Vector2d at = local(point.head<2>());
     return Vec3(at.x(), at.y(), point.z() * unit_m);
   };
-  for (Vec3& vertex : mesh.vertices) vertex = moved(vertex);
-  move_ledger(mesh, moved);
+  for (Vec3& vertex : mesh.vertices) {
+    progress.tick();
+    vertex = moved(vertex);
+  }
+  move_ledger(mesh, moved, progress);
   mesh.georeference =
       Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg,
                    system.vertical_name().empty() ? as_in(file) : system.vertical_name(), short_name(system.name())};
 }
 
 /// From the local frame that the file names into another.
-void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg, const std::filesystem::path& file) {
+void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg, const std::filesystem::path& file,
+             const core::ProgressReporter& progress) {
   geo::check_origin(lonlat(origin_deg), {mesh.georeference->longitude_deg, mesh.georeference->latitude_deg},
                     file.string());
   Georeference moved = *mesh.georeference;
   moved.latitude_deg = origin_deg[0];
   moved.longitude_deg = origin_deg[1];
   geo::move_origin(mesh.vertices, *mesh.georeference, moved);
-  move_ledger(mesh, [&](const Vec3& point) {
+  const auto move = [&](const Vec3& point) {
     std::vector<Vec3> one = {point};
     geo::move_origin(one, *mesh.georeference, moved);
     return one[0];
-  });
+  };
+  move_ledger(mesh, move, progress);
   mesh.georeference = moved;
 }
 
 /// A mesh that does not say where it lies is in the local frame about the origin.
-void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file) {
+void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file,
+            const core::ProgressReporter& progress) {
   const geo::LocalFrame frame(origin);  // checks the origin
-  const Box box = bounds_of(mesh);
+  const Box box = bounds_of(mesh, progress);
   const double farthest = std::max(box.min.head<2>().cwiseAbs().maxCoeff(), box.max.head<2>().cwiseAbs().maxCoeff());
   if (farthest > geo::kFarthestM) {
     throw Error(ErrorCode::crs_missing,
@@ -143,7 +155,8 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
   mesh.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, "", ""};
 }
 
-void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
+void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file,
+                const core::ProgressReporter& progress) {
   const bool is_nowhere = options.crs == "none";
   if (is_nowhere) mesh.georeference.reset();
   if (!is_nowhere && (!mesh.crs.empty() || !options.crs.empty())) {
@@ -151,36 +164,45 @@ void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::files
       throw Error(ErrorCode::not_applicable, "a coordinate system is given for a mesh that is in a local frame already",
                   "crs of " + file.string(), "leave crs out: the file says where it lies");
     }
-    project(mesh, options, file);
+    project(mesh, options, file, progress);
     return;
   }
-  for (Vec3& vertex : mesh.vertices) vertex *= options.scale;
-  move_ledger(mesh, [&](const Vec3& point) { return Vec3(point * options.scale); });
+  for (Vec3& vertex : mesh.vertices) {
+    progress.tick();
+    vertex *= options.scale;
+  }
+  const auto scaled = [&](const Vec3& point) { return Vec3(point * options.scale); };
+  move_ledger(mesh, scaled, progress);
   if (!options.origin_deg) return;
   if (mesh.georeference) {
-    move_to(mesh, *options.origin_deg, file);
+    move_to(mesh, *options.origin_deg, file, progress);
   } else {
-    put_at(mesh, lonlat(*options.origin_deg), file);
+    put_at(mesh, lonlat(*options.origin_deg), file, progress);
   }
 }
 
 }  // namespace
 
-void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
+void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file,
+                    const core::ProgressReporter& progress) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {
     throw Error(ErrorCode::value_out_of_range, "the scale of a mesh must be positive and finite", file.string(),
                 "give the length of the file's unit in metres");
   }
   const bool y_up = mesh.format == MeshFormat::gltf || (options.up == UpAxis::y && mesh.format != MeshFormat::cityjson);
   if (y_up) {
-    for (Vec3& v : mesh.vertices) v = Vec3(v.x(), -v.z(), v.y());
+    for (Vec3& v : mesh.vertices) {
+      progress.tick();
+      v = Vec3(v.x(), -v.z(), v.y());
+    }
     for (Missing& missing : mesh.ledger) {
       if (missing.entry.box) missing.entry.box = turned_up(*missing.entry.box);
       for (Vec3& v : missing.holder.vertices) v = Vec3(v.x(), -v.z(), v.y());
     }
   }
-  find_place(mesh, options, file);
+  find_place(mesh, options, file, progress);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    progress.tick();
     if (mesh.vertices[i].cwiseAbs().maxCoeff() <= core::kMaxCoordinate) continue;
     throw Error(ErrorCode::coordinate_too_large,
                 "vertex " + std::to_string(i) + " (counted from 0) is more than " +

@@ -1,6 +1,6 @@
 // PLY (G. Turk, The PLY Polygon File Format, Stanford 1994): ASCII and binary of either byte order. Read are the
 // elements "vertex" (x, y, z), "face" and "tristrips" (vertex_indices or vertex_index). Others are passed over; those
-// that refer to vertices, such as "edge", are in the ledger.
+// that may refer to vertices, such as "edge", are in the ledger.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -303,23 +303,32 @@ class PlyReader {
     }
   }
 
-  /// An element that is not built: in the ledger where it refers to vertices.
+  /// Whether a property says by its name that it is the numbers of vertices.
+  static bool refers_to_vertices(const Property& property) {
+    const std::string& name = property.name;
+    const bool is_list_of_them = property.is_list && (name == "vertices" || name == "indices" || name == "corners");
+    return (is_list_of_them || name.starts_with("vertex")) && ply::is_integer(property.type);
+  }
+
+  /// An element that is not built: in the ledger where it refers to vertices, or has lists that may.
   void other(const Element& element) {
-    const auto refers = [](const Property& property) {
-      return property.name.starts_with("vertex") && ply::is_integer(property.type);
-    };
     std::vector<std::int64_t> corners;
     rows(element, [&](const Property& property, std::size_t) {
-      if (!refers(property)) {
+      if (!refers_to_vertices(property)) {
         pass_over(property);
         return;
       }
       const std::uint64_t length = property.is_list ? list_length(property) : 1;
-      for (std::uint64_t i = 0; i < length; ++i) corners.push_back(values_.integer(property.type));
+      for (std::uint64_t i = 0; i < length; ++i) {
+        progress_.tick();
+        corners.push_back(values_.integer(property.type));
+      }
     });
-    if (element.count > 0 && std::any_of(element.properties.begin(), element.properties.end(), refers)) {
-      others_.emplace_back(&element, std::move(corners));
-    }
+    const bool may_refer =
+        std::any_of(element.properties.begin(), element.properties.end(), [](const Property& property) {
+          return refers_to_vertices(property) || (property.is_list && ply::is_integer(property.type));
+        });
+    if (element.count > 0 && may_refer) others_.emplace_back(&element, std::move(corners));
   }
 
   /// When all vertices are known.

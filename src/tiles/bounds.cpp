@@ -96,7 +96,7 @@ std::vector<Vec3> box_corners(const OrientedBox& box) {
 
 }  // namespace
 
-std::vector<Vec3> corners_of(const Volume& volume) {
+std::vector<Vec3> corners_of(const Volume& volume, World world) {
   constexpr double kWidest = 0.1;  // radians
   constexpr int kSteps = 16;       // between them the ellipsoid bulges by less than 1e-3 of a region's width
   if (const auto* const box = std::get_if<OrientedBox>(&volume)) return box_corners(*box);
@@ -104,7 +104,7 @@ std::vector<Vec3> corners_of(const Volume& volume) {
     return box_corners({ball->center, ball->radius * Eigen::Matrix3d::Identity()});
   }
   const auto* const region = std::get_if<EarthRegion>(&volume);
-  if (!region) return {};
+  if (!region || world != World::earth) return {};
   const double width = region->east - region->west + (region->east < region->west ? 2 * std::numbers::pi : 0);
   const double height = region->north - region->south;
   if (!(width >= 0 && width <= kWidest && height >= 0 && height <= kWidest && region->low <= region->high)) return {};

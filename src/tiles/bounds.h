@@ -43,16 +43,17 @@ Volume moved(const Volume& volume, const Transform& transform);
 /// Where a volume is: the middle and a distance that nothing of it is beyond. Nothing of Everywhere.
 std::optional<Sphere> around(const Volume& volume);
 
-/// Corners of a box that a volume lies in, as io::hexahedron takes them. None of Everywhere, and of regions that are
-/// more than a tenth of the earth's radius wide: nobody could see past them.
-std::vector<Vec3> corners_of(const Volume& volume);
-
 /// What a tileset's coordinates are.
 enum class World {
   earth,      ///< ECEF
   projected,  ///< x and y in a coordinate reference system
   nowhere     ///< metres of no known place
 };
+
+/// Corners of a box that a volume lies in, as io::hexahedron takes them. None of Everywhere, of regions that are more
+/// than a tenth of the earth's radius wide (nobody could see past them), and of those on the earth where the
+/// coordinates are not.
+std::vector<Vec3> corners_of(const Volume& volume, World world);
 
 /// A circle seen from above. Without one everything is in it.
 class Reach {

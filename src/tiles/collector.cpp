@@ -1,6 +1,7 @@
 #include "tiles/collector.h"
 
 #include <limits>
+#include <optional>
 
 #include "io/object_text.h"
 #include "vantage/error.h"
@@ -43,7 +44,9 @@ std::uint32_t Collector::add_points(const io::RawMesh& mesh, const Transform& in
   return static_cast<std::uint32_t>(first);
 }
 
-void Collector::add_missing(const io::RawMesh& mesh, const Transform& into_world, const std::string& where) {
+/// `own`: what the mesh's objects are called here.
+void Collector::add_missing(const io::RawMesh& mesh, const Transform& into_world, const std::vector<std::uint32_t>& own,
+                            const std::string& where) {
   constexpr std::size_t kMostMissing = 1'000'000;
   if (missing.size() + mesh.ledger.size() > kMostMissing) {
     throw Error(ErrorCode::region_invalid, "the tiles hold too much that cannot be built", where,
@@ -52,17 +55,22 @@ void Collector::add_missing(const io::RawMesh& mesh, const Transform& into_world
   for (const io::Missing& part : mesh.ledger) {
     MissingPart& added = missing.emplace_back(MissingPart{part.entry});
     added.is_held = !part.holder.triangles.empty();
-    if (!part.entry.box) continue;
-    for (const Vec3& corner : io::box_mesh(*part.entry.box).vertices) added.corners.push_back(into_world * corner);
+    added.entry.box.reset();  // in the coordinates of the file, as the outlines
+    added.entry.outlines.clear();
+    const std::optional<std::uint32_t>& holder = part.entry.stand_in;
+    added.entry.stand_in = holder && *holder < own.size() ? std::optional(own[*holder]) : std::nullopt;
+    const std::optional<Box>& box = part.entry.box;
+    if (!box || !box->min.allFinite() || !box->max.allFinite()) continue;  // an endless one has no corners to move
+    for (const Vec3& corner : io::box_mesh(*box).vertices) added.corners.push_back(into_world * corner);
   }
 }
 
 void Collector::add(const io::RawMesh& mesh, const Transform& into_world, const std::string& where) {
   const std::uint32_t first = add_points(mesh, into_world, where);
-  add_missing(mesh, into_world, where);
   const bool mirrored = into_world.linear().determinant() < 0;
   std::vector<std::uint32_t> own(mesh.objects.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = object(mesh.objects[i]);
+  add_missing(mesh, into_world, own, where);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     triangles.push_back(shifted(mesh.triangles[i], first, mirrored));
     object_of.push_back(own[mesh.object_of[i]]);
@@ -72,9 +80,9 @@ void Collector::add(const io::RawMesh& mesh, const Transform& into_world, const 
 void Collector::add_as(const SceneObject& whole, const io::RawMesh& mesh, const Transform& into_world,
                        const std::string& where) {
   const std::uint32_t first = add_points(mesh, into_world, where);
-  add_missing(mesh, into_world, where);
   const bool mirrored = into_world.linear().determinant() < 0;
   const std::uint32_t own = object(whole);
+  add_missing(mesh, into_world, std::vector<std::uint32_t>(mesh.objects.size(), own), where);
   for (const Triangle& triangle : mesh.triangles) {
     triangles.push_back(shifted(triangle, first, mirrored));
     object_of.push_back(own);

@@ -17,7 +17,11 @@ struct MissingPart {
   LedgerEntry entry;
   std::vector<Vec3> corners = {};  ///< of the box about it, as io::hexahedron takes them; empty where it is not known
   bool is_held = false;            ///< the box may stand in
+  bool is_hole = false;            ///< a file that cannot be read: a coarser tile may stand in
 };
+
+/// Coarser tiles that hold the place of finer ones: the first object of each, and its triangles, from and to.
+using CoarserTiles = std::map<std::uint32_t, std::pair<std::size_t, std::size_t>>;
 
 class Collector {
  public:
@@ -33,9 +37,11 @@ class Collector {
   std::vector<std::uint32_t> object_of;  ///< per triangle
   std::vector<SceneObject> objects;
   std::vector<MissingPart> missing;
+  CoarserTiles coarser;
 
  private:
-  void add_missing(const io::RawMesh& mesh, const Transform& into_world, const std::string& where);
+  void add_missing(const io::RawMesh& mesh, const Transform& into_world, const std::vector<std::uint32_t>& own,
+                   const std::string& where);
   std::uint32_t object(const SceneObject& object);
   std::uint32_t add_points(const io::RawMesh& mesh, const Transform& into_world, const std::string& where);
 

@@ -159,7 +159,8 @@ void ContentReader::read_points(const std::string& address, std::string_view byt
   part.entry.what = "cloud of " + std::to_string(count) + " points";
   part.entry.reason = "only surfaces are built";
   if (box.empty() || !box.min.allFinite() || !box.max.allFinite()) {
-    part.corners = corners_of(placement.bounds);
+    part.corners = corners_of(placement.bounds, placement.world);
+    part.entry.may_be_larger = true;  // contents stick out of their tiles
   } else {
     const Transform into_world = placement.into_world * Eigen::Translation3d(vector(about, 0));
     for (const Vec3& corner : io::box_mesh(box).vertices) part.corners.push_back(into_world * corner);

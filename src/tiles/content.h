@@ -19,6 +19,7 @@ struct Placement {
   Transform into_world;          ///< of the tile
   GltfUp gltf_up = GltfUp::y;    ///< of its glTF
   Volume bounds = Everywhere{};  ///< in the world
+  World world = World::earth;
 };
 
 class ContentReader {

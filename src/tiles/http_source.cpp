@@ -93,17 +93,23 @@ bool is_http(std::string_view text) {
 }
 
 std::string without_query(std::string_view url) {
-  std::string shown(url.substr(0, url.find_first_of("?#")));
-  const std::size_t scheme = shown.find("://");
-  if (scheme == std::string::npos) return shown;
-  // ";" begins parameters of the path; what is escaped means the same to some servers.
-  for (const std::string_view mark : {";", "%3f", "%3F", "%23", "%3b", "%3B"})
-    shown.resize(std::min(shown.size(), shown.find(mark)));
+  const std::size_t scheme = url.find("://");
+  if (scheme == std::string_view::npos || scheme > url.find_first_of("?#")) {
+    return std::string(url.substr(0, url.find_first_of("?#")));
+  }
+  std::string shown(url);
   const std::size_t host = scheme + 3;
+  // The user and the password first: what ends an address may be part of them.
   for (const std::string_view mark : {"%40", "@"}) {
     const std::size_t at = shown.substr(0, shown.find('/', host)).rfind(mark);
-    if (at != std::string::npos && at >= host) shown.erase(host, at + mark.size() - host);
+    if (at == std::string::npos || at < host) continue;
+    // Of a query with an "@" and of a password with a "?" the parts that may be shown are not the same ones.
+    if (shown.find_first_of("?#", host) < at) return shown.substr(0, host);
+    shown.erase(host, at + mark.size() - host);
   }
+  // ";" begins parameters of the path; what is escaped means the same to some servers.
+  for (const std::string_view mark : {"?", "#", ";", "%3f", "%3F", "%23", "%3b", "%3B"})
+    shown.resize(std::min(shown.size(), shown.find(mark)));
   return shown;
 }
 

@@ -54,7 +54,8 @@ bool is_on_earth(const Vec3& point) {
 }
 
 /// Turns the points into the frame that touches the ellipsoid.
-Georeference put_on_earth(Collector& collected, const TilesetOptions& options, const std::filesystem::path& file) {
+Georeference put_on_earth(Collector& collected, const TilesetOptions& options, const std::filesystem::path& file,
+                          const core::ProgressReporter& progress) {
   const Vec3 middle = middle_of(collected);
   if (!is_on_earth(middle)) {
     throw Error(ErrorCode::not_georeferenced,
@@ -64,7 +65,10 @@ Georeference put_on_earth(Collector& collected, const TilesetOptions& options, c
   }
   const geo::LonLat origin = options.center_deg ? lon_lat(*options.center_deg) : geo::from_ecef(middle).place;
   const geo::TangentFrame frame(origin);
-  for (Vec3& vertex : collected.vertices) vertex = frame.to_local(vertex);
+  for (Vec3& vertex : collected.vertices) {
+    progress.tick();
+    vertex = frame.to_local(vertex);
+  }
   for (MissingPart& part : collected.missing) {
     for (Vec3& corner : part.corners) corner = frame.to_local(corner);
   }
@@ -127,10 +131,10 @@ Reach reach_of(World world, const Volume& root, const TilesetOptions& options, c
               "give a center inside, the latitude first" + where_it_is);
 }
 
-Scene placed_scene(World world, Collector&& collected, const TilesetOptions& options,
-                   const std::filesystem::path& file) {
+Scene placed_scene(World world, Collector&& collected, const TilesetOptions& options, const std::filesystem::path& file,
+                   const core::ProgressReporter& progress) {
   std::optional<Georeference> place;
-  if (world == World::earth) place = put_on_earth(collected, options, file);
+  if (world == World::earth) place = put_on_earth(collected, options, file, progress);
   if (world == World::nowhere && options.crs.empty() && is_on_earth(middle_of(collected))) {
     throw Error(ErrorCode::not_georeferenced,
                 "the root of the tileset has no bounding volume on the earth, but what it holds lies there",
@@ -140,8 +144,8 @@ Scene placed_scene(World world, Collector&& collected, const TilesetOptions& opt
   SceneReadOptions read;
   if (world == World::projected) read.crs = options.crs;
   if (world == World::projected) read.origin_deg = options.center_deg;
-  io::to_scene_frame(raw, read, file);
-  io::apply_policy(raw, options.missing, file);
+  io::to_scene_frame(raw, read, file, progress);
+  io::apply_policy(raw, options.missing, file, progress);
   Scene scene;
   scene.mesh.vertices = std::move(raw.vertices);
   scene.mesh.triangles = std::move(raw.triangles);

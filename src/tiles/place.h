@@ -18,8 +18,8 @@ World world_of(const Volume& root, const TilesetOptions& options);
 Reach reach_of(World world, const Volume& root, const TilesetOptions& options, const std::filesystem::path& file);
 
 /// The collected mesh in the scene frame, with its georeference. Throws Error(input).
-Scene placed_scene(World world, Collector&& collected, const TilesetOptions& options,
-                   const std::filesystem::path& file);
+Scene placed_scene(World world, Collector&& collected, const TilesetOptions& options, const std::filesystem::path& file,
+                   const core::ProgressReporter& progress);
 
 /// How far the frame of a scene on the earth is from the ellipsoid: rim_drop_m and rim_shift_m of the report, at the
 /// corners of the scene.

@@ -54,15 +54,40 @@ std::shared_ptr<const TilesetDocument> root_document(TileSource& source, const c
   return std::make_shared<TilesetDocument>(address, source.shown(address), text, progress, limits);
 }
 
-/// Leaves out the objects that lie wholly beyond the radius: coarse tiles reach far beyond it. Returns how many.
-std::size_t keep_within(Scene& scene, double radius_m) {
+/// The new numbers of what stands in. Of a coarser tile whose first object is left out it is the first that is not.
+void number_stand_ins(Scene& scene, std::vector<std::uint32_t> new_index, const CoarserTiles& coarser) {
+  for (const auto& [first, tile] : coarser) {
+    for (std::size_t i = tile.first; i < tile.second && new_index[first] == kNoObject; ++i) {
+      new_index[first] = new_index[scene.object_of[i]];
+    }
+  }
+  for (LedgerEntry& entry : scene.ledger) {
+    if (!entry.stand_in) continue;
+    entry.stand_in = new_index[*entry.stand_in];
+    if (entry.stand_in != kNoObject) continue;
+    entry.stand_in.reset();
+    entry.instead.clear();
+  }
+}
+
+/// Leaves out the objects that lie wholly beyond the radius, as coarse tiles reach far beyond it, and what is missing
+/// there. Returns how many objects.
+std::size_t keep_within(Scene& scene, double radius_m, const CoarserTiles& coarser) {
+  const auto is_box_near = [&](const Box& box) {
+    const Eigen::Vector2d nearest = Eigen::Vector2d::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
+    return nearest.norm() <= radius_m;
+  };
   const auto is_near = [&](const Triangle& triangle) {
     Box box;
     for (const std::uint32_t corner : triangle) box.extend(scene.mesh.vertices[corner]);
-    const Eigen::Vector2d nearest = Eigen::Vector2d::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
-    return nearest.norm() <= radius_m;  // of the box: no triangle within is missed
+    return is_box_near(box);  // of the box: no triangle within is missed
   };
+  std::erase_if(scene.ledger, [&](const LedgerEntry& entry) { return entry.box && !is_box_near(*entry.box); });
   std::vector<std::uint32_t> new_index(scene.objects.size(), kNoObject);
+  for (const LedgerEntry& entry : scene.ledger) {  // what is held may stick out of what holds it
+    const bool is_own = entry.stand_in && scene.objects[*entry.stand_in].kind == ObjectKind::stand_in;
+    if (is_own && entry.box) new_index[*entry.stand_in] = 0;
+  }
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     std::uint32_t& kept = new_index[scene.object_of[i]];
     if (kept == kNoObject && is_near(scene.mesh.triangles[i])) kept = 0;
@@ -73,10 +98,7 @@ std::size_t keep_within(Scene& scene, double radius_m) {
     new_index[i] = static_cast<std::uint32_t>(objects.size());
     objects.push_back(std::move(scene.objects[i]));
   }
-  for (LedgerEntry& entry : scene.ledger) {
-    if (entry.stand_in) entry.stand_in = new_index[*entry.stand_in];
-  }
-  std::erase_if(scene.ledger, [](const LedgerEntry& entry) { return entry.stand_in == kNoObject; });  // beyond, too
+  number_stand_ins(scene, new_index, coarser);
   const std::size_t left_out = scene.objects.size() - objects.size();
   scene.objects = std::move(objects);
   std::vector<std::uint32_t> new_vertex(scene.mesh.vertices.size(), kNoObject);
@@ -164,8 +186,9 @@ TilesetScene read(TileSource& source, const std::filesystem::path& file, const T
   Walk(source, collected, {reach, options.detail_m, world, options.missing}, result.report, progress, limits)
       .run(document);
   if (collected.triangles.empty()) fail_for_nothing(result.report, reach.is_limited(), file.string());
-  result.scene = placed_scene(world, std::move(collected), options, file);
-  if (options.radius_m) result.report.objects_outside = keep_within(result.scene, *options.radius_m);
+  const CoarserTiles coarser = std::move(collected.coarser);
+  result.scene = placed_scene(world, std::move(collected), options, file, progress);
+  if (options.radius_m) result.report.objects_outside = keep_within(result.scene, *options.radius_m, coarser);
   if (result.scene.mesh.triangles.empty()) fail_for_nothing(result.report, reach.is_limited(), file.string());
   if (world == World::earth) measure_frame(result.scene, result.report);
   if (options.ground_m) add_ground(result.scene, *options.ground_m, options.radius_m);

@@ -101,9 +101,9 @@ void Walk::count_hole(const Error& error, const std::string& id, const Volume& b
   part.entry.reason = error.problem();
   part.entry.instead = "the box of its tile";
   part.entry.may_be_larger = true;  // contents stick out of their tiles
-  const bool is_elsewhere = std::holds_alternative<EarthRegion>(bounds) && world_ != World::earth;
-  if (!is_elsewhere) part.corners = corners_of(bounds);
+  part.corners = corners_of(bounds, world_);
   part.is_held = !part.corners.empty();
+  part.is_hole = true;
   collector_.missing.push_back(std::move(part));
   if (report_.holes == 0) {
     report_.first_hole = error.where().empty() ? error.problem() : error.where() + ": " + error.problem();
@@ -150,12 +150,13 @@ std::string Walk::read_description(const std::string& address) {
   return text;
 }
 
-/// The parts from `first` on that are missing, where a coarser tile can hold their place.
+/// The files from `first` on that cannot be read, where a coarser tile can hold their place.
 void Walk::hold_by_coarser(std::size_t first, const std::shared_ptr<Coarser>& coarser) {
   const std::optional<std::uint32_t> object = keep_coarser(coarser);
   if (!object) return;
   for (std::size_t i = first; i < collector_.missing.size(); ++i) {
     MissingPart& part = collector_.missing[i];
+    if (!part.is_hole) continue;  // what is missing in files that are read, the coarser one too
     part.is_held = false;
     part.entry.stand_in = object;
     part.entry.instead = "a coarser tile";
@@ -181,6 +182,7 @@ std::optional<std::uint32_t> Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
         [&](const ContentName&, const Error&) { ++unread; });
     if (unread > 0 || report_.contents == contents || collector_.triangles.size() == triangles) continue;
     tile->object = collector_.object_of[triangles];
+    collector_.coarser.try_emplace(*tile->object, triangles, collector_.triangles.size());
     ++report_.coarser_kept;
     report_.largest_error_m = std::max(report_.largest_error_m, tile->here.error_m);
     return tile->object;
@@ -300,7 +302,7 @@ void Walk::read_content(const Visit& visit, const Here& here, const std::string&
   if (is_tileset_text(bytes)) {
     wait_for(visit, here, address, true);
   } else {
-    read_mesh(address, bytes, {here.into_world, visit.trail->document->gltf_up(), visit.bounds});
+    read_mesh(address, bytes, {here.into_world, visit.trail->document->gltf_up(), visit.bounds, world_});
   }
 }
 
@@ -345,7 +347,7 @@ void Walk::visit_external(const Visit& visit) {
     const std::string text = read_description(address);
     if (!is_tileset_text(text)) {
       if (!visit.is_taken) refuse("the file is no tileset, though its name says so", "name it as what it is");
-      read_mesh(address, text, {visit.parent, visit.trail->document->gltf_up(), visit.bounds});
+      read_mesh(address, text, {visit.parent, visit.trail->document->gltf_up(), visit.bounds, world_});
       return;
     }
     core::ReadLimits limits = limits_;

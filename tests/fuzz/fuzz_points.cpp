@@ -43,7 +43,7 @@ Written answered(const std::filesystem::path& file, const cli::TableOptions& opt
   cli::PointFrame frame{.bounds = {Vec3(-500, -500, 0), Vec3(500, 500, 90)}};
   if (has_place) {
     frame.place = Georeference{48, 11, "", ""};
-    frame.sea_level_m = -520;
+    frame.zero_m = -520;
     frame.ground.emplace(Ground{1.5});
   }
   for (const std::vector<cli::Row>* rows = &reader.next(); !rows->empty(); rows = &reader.next()) {

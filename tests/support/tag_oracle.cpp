@@ -58,14 +58,15 @@ std::optional<double> one_length(const std::string& text) {
   return known == units.end() ? std::nullopt : std::optional(decimal(match[1]) * known->second);
 }
 
-std::optional<double> largest(const std::string& list, const Parse& parse) {
+/// Or the smallest.
+std::optional<double> largest(const std::string& list, const Parse& parse, bool is_least = false) {
   std::optional<double> most;
   std::istringstream stream(list);
   for (std::string one; std::getline(stream, one, ';');) {
     if (one.find_first_not_of(" \t") == std::string::npos) continue;
     const std::optional<double> value = parse(one);
     if (!value) return std::nullopt;
-    most = std::max(most.value_or(*value), *value);
+    most = is_least ? std::min(most.value_or(*value), *value) : std::max(most.value_or(*value), *value);
   }
   return most;
 }
@@ -128,8 +129,10 @@ class Tagged {
   }
 
   double read_bottom() {
-    if (const auto bottom = first({"min_height"}, length_of, 0, kHighest)) return *bottom;
-    const auto level = first({"building:min_level"}, number_of, 0, kMostLevels);
+    const auto lowest_length = [](const std::string& list) { return largest(list, one_length, true); };
+    const auto lowest_number = [](const std::string& list) { return largest(list, one_number, true); };
+    if (const auto bottom = first({"min_height"}, lowest_length, 0, kHighest)) return *bottom;
+    const auto level = first({"building:min_level"}, lowest_number, 0, kMostLevels);
     if (!level) return 0;
     min_level_ = *level;
     const double body = height_.value_or(0) - roof_.value_or(0);

@@ -28,7 +28,8 @@ RESULTS = "results.parquet"
 REPORT = "report.json"
 
 _MEANING = {"version": "another version of vantage", "scene_hash": "another scene", "targets_hash": "other targets",
-            "mission_hash": "another sensor, or other limits", "volumes": "another choice of volumes"}
+            "mission_hash": "another sensor, other limits, or a scene with another ledger",
+            "volumes": "another choice of volumes"}
 """What differs, by the key."""
 
 
@@ -44,7 +45,8 @@ def check_packages(volumes: str | None, has_geometries: bool) -> None:
 def keys(table: Table, scene: Scene, asked: Mapping[str, Any], volumes: str | None, shard_rows: int) -> dict[str, str]:
     """What tells the results of one run from those of another; all are texts."""
     place = scene.georeference
-    frame = [None if place is None else list(place), scene._core.sea_level_m]
+    # Besides the triangles, whose hash is the scene's: what results say of the scene.
+    frame = [None if place is None else list(place), scene._core.sea_level_m, scene._core.ledger_rows]
     mission = json.dumps([_plain(value) for value in asked.values()] + [frame], sort_keys=True)
     return {"version": version, "scene_hash": scene.hash, "mission_hash": hashlib.sha256(mission.encode()).hexdigest(),
             "targets_hash": table.hash, "volumes": volumes or "none", "shard_rows": str(shard_rows)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import threading
 import zipfile
 import zlib
@@ -64,11 +65,24 @@ def request_of(scene: AnyScene) -> dict[str, Any]:
 
 
 def shown_request(request: Mapping[str, Any]) -> dict[str, Any]:
-    """The same without what follows the path of a tileset's address: keys are not written into results."""
-    shown = dict(request)
-    if "://" in os.fspath(shown.get("tiles", "")):
-        shown["tiles"] = os.fspath(shown["tiles"]).partition("?")[0]
-    return shown
+    """The same with addresses as others may read them: keys and passwords are not written into results."""
+    return {key: _shown(os.fspath(value)) if key in _FILES else value for key, value in request.items()}
+
+
+def _shown(address: str) -> str:
+    """As without_query in src/tiles/http_source.cpp; of a chain of fsspec ("zip://a.osm::https://...") each part by itself."""
+    return "::".join(_shown_link(link) for link in re.split(r"::(?=[\w.+-]+://)", address))
+
+
+def _shown_link(address: str) -> str:
+    scheme, mark, rest = address.partition("://")
+    if not mark:
+        return address
+    host, slash, path = rest.partition("/")
+    shown = re.split("@|%40", host)[-1]
+    if shown != host and re.search("[?#].*(@|%40)", host):  # a query with an "@", or a password with a "?": which is it?
+        return scheme + mark
+    return scheme + mark + re.split("[?#;]|%3f|%23|%3b", shown + slash + path, flags=re.IGNORECASE)[0]
 
 
 def load(request: Mapping[str, Any], store: Store, progress: Progress = None) -> Scene:
@@ -109,10 +123,11 @@ def kept(request: Mapping[str, Any], scene_hash: str, store: Store) -> Scene:
 
 
 def to_bytes(scene: Scene) -> bytes:
-    """The triangles and their objects, as a file of numpy."""
+    """All that Scene.__reduce__ keeps but where it was loaded from, as a file of numpy."""
     place = scene.georeference
     about = {"objects": [list(one) for one in scene.objects], "georeference": None if place is None else list(place),
-             "sea_level": scene._core.sea_level_m}
+             "sea_level": scene._core.sea_level_m, "whole": scene._core.whole, "attribution": scene.attribution,
+             "ledger": scene._core.ledger_rows}
     out = io.BytesIO()
     np.savez(out, vertices=scene.vertices, faces=scene.faces, object_of=scene.object_of,
              about=np.frombuffer(json.dumps(about).encode(), np.uint8))
@@ -132,7 +147,8 @@ def _of_bytes(data: bytes, where: str) -> Scene:
             return Scene.from_arrays(arrays["vertices"], arrays["faces"], object_of=arrays["object_of"],
                                      objects=[SceneObject(*one) for one in about["objects"]],
                                      georeference=None if place is None else Georeference(*place),
-                                     sea_level=about["sea_level"])
+                                     sea_level=about["sea_level"], attribution=about["attribution"],
+                                     _whole=about["whole"], _ledger=about["ledger"])
     except (ValueError, KeyError, TypeError, OSError, EOFError, NotImplementedError, zlib.error, zipfile.BadZipFile) as error:
         raise input_error("file-changed", f"the scene of the run is damaged: {error}", where,
                           "start the run again, with the scene") from error

@@ -103,6 +103,7 @@ class PlanTable {
         fail_header("two columns are called " + in_quotes(titles[i]), place);
       }
     }
+    check_only_one(titles, place);
     const bool is_geographic = find(TableColumn::longitude) && find(TableColumn::latitude);
     is_in_scene_frame_ = !is_geographic;
     if (!is_geographic && !(find(TableColumn::x) && find(TableColumn::y) && find(TableColumn::z))) {
@@ -113,6 +114,18 @@ class PlanTable {
       return use.known.name == "curvesize" || use.known.name == "altitudemode";
     });
     if (is_litchi && height_ && height_->known.datum == HeightDatum::unknown) height_->known.datum = HeightDatum::home;
+  }
+
+  /// Which of two is meant, nobody knows. Of heights there may be several.
+  void check_only_one(const std::vector<std::string>& titles, const std::string& place) const {
+    for (const UsedColumn& use : uses_) {
+      const std::size_t first = find(use.known.column)->index;
+      if (use.known.column == TableColumn::height || use.index == first) continue;
+      source_.fail(
+          ErrorCode::conflicting_keys, place,
+          "the columns " + in_quotes(titles[first]) + " and " + in_quotes(titles[use.index]) + " mean the same",
+          "leave one of them out, or give another name to it");
+    }
   }
 
   /// If there are several heights, the first whose level is known.

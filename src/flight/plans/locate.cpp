@@ -13,6 +13,7 @@
 #include "flight/plans/arcs.h"
 #include "flight/plans/ground_profile.h"
 #include "flight/plans/levels.h"
+#include "flight/plans/plan_source.h"
 #include "geo/local_frame.h"
 #include "geo/on_globe.h"
 #include "vantage/error.h"
@@ -58,6 +59,7 @@ class Locator {
 
  private:
   void check_options() const;
+  double farthest_m() const { return std::min(options_.farthest_m, geo::kFarthestM); }
   Point local(const Point& horizontal, const std::string& where) const;
   Vec3 scene_of(const Vec3& at) const;
   double level_of(const Point& at, double scene_z) const;
@@ -70,12 +72,13 @@ class Locator {
   double stated_home_z(const std::string& where);
   double z_of(const PlanPosition& position, const Point& at, const std::string& where);
   Corner corner_of(std::size_t item);
-  void add(Corner corner) { corners_.push_back(std::move(corner)); }
+  void add(Corner corner);
   void add_waypoint(std::size_t index);
   void add_arc(std::size_t index);
   void add_spline(std::size_t index);
-  Vec3 spline_begin(std::size_t index, bool above_ground) const;
+  Vec3 spline_begin(std::size_t index, bool above_ground);
   Vec3 spline_end(std::size_t index, const Corner& from, const Corner& to, bool above_ground);
+  bool check_alike(std::size_t spline, const Corner& corner, bool above_ground);
   void add_curve(const std::vector<Vec3>& points, bool above_ground, const Corner& to);
   void add_takeoff(std::size_t index);
   void add_loiter(std::size_t index);
@@ -111,6 +114,7 @@ class Locator {
   std::vector<Corner> corners_;
   Vec3 spline_tangent_ = Vec3::Zero();  ///< at the end of the last spline
   LocatedPlan located_;
+  plans::NotJudged not_judged_{plan_.file, located_.flight.not_judged};
   std::size_t timed_circles_ = 0, level_returns_ = 0;
   bool has_curves_ = false, has_following_ = false;
   mutable double bent_m_ = 0;  // geodesics lie at most so far from their chords
@@ -136,10 +140,9 @@ Point Locator::local(const Point& horizontal, const std::string& where) const {
   if (!frame_) return horizontal;
   const geo::LonLat position{horizontal.x(), horizontal.y()};
   Point at = frame_->to_local(position);
-  const double farthest = std::min(options_.farthest_m, geo::kFarthestM);
-  if (at.norm() <= farthest) return at;
+  if (at.norm() <= farthest_m()) return at;
   const geo::LonLat swapped{horizontal.y(), horizontal.x()};
-  const bool is_swapped = std::abs(swapped.latitude_deg) <= 90 && frame_->to_local(swapped).norm() <= farthest;
+  const bool is_swapped = std::abs(swapped.latitude_deg) <= 90 && frame_->to_local(swapped).norm() <= farthest_m();
   fail(ErrorCode::too_far_away, where,
        "the plan is in another place: " + internal::core::number_text(std::round(at.norm() / 1000)) +
            " km from the scene",
@@ -317,6 +320,17 @@ Corner Locator::corner_of(std::size_t index) {
   return corner;
 }
 
+/// Circles and curves may lead farther than the positions of a plan.
+void Locator::add(Corner corner) {
+  const double away_m = corner.position.head<2>().norm();
+  if (frame_ && !(away_m <= farthest_m())) {
+    fail(ErrorCode::too_far_away, place(corner.item),
+         "the way to it leads " + internal::core::number_text(std::round(away_m / 1000)) + " km from the scene",
+         "correct its circle or its curve");
+  }
+  corners_.push_back(std::move(corner));
+}
+
 void Locator::add_waypoint(std::size_t index) {
   const PlanItem& item = plan_.items[index];
   if (corners_.empty() || (item.arc_deg == 0 && !item.is_spline)) return add(corner_of(index));
@@ -335,6 +349,8 @@ void Locator::add_curve(const std::vector<Vec3>& points, bool above_ground, cons
     if (i + 1 < points.size()) {
       corner.hold_s = 0;
       corner.position = points[i];
+      corner.follows_ground = above_ground;
+      corner.above_ground_m.reset();
       if (above_ground) {
         corner.above_ground_m = points[i].z();
         corner.position.z() = ground_z(points[i].head<2>(), place(to.item)) + points[i].z();
@@ -381,6 +397,8 @@ void Locator::add_arc(std::size_t index) {
 void Locator::add_spline(std::size_t index) {
   const Corner from = corners_.back(), to = corner_of(index);
   const bool above_ground = to.follows_ground && from.above_ground_m && to.above_ground_m;
+  check_alike(index, from, above_ground);
+  check_alike(index, to, above_ground);
   const Vec3 begin = with_height(from, above_ground), end = with_height(to, above_ground);
   Vec3 first = spline_begin(index, above_ground), last = spline_end(index, from, to, above_ground);
   spline_tangent_ = last;
@@ -394,14 +412,24 @@ void Locator::add_spline(std::size_t index) {
   add_curve(plans::spline_points(begin, end, first, last, arc_error_m()), above_ground, to);
 }
 
+/// Where a corner's height is not measured as those of the spline are, Copter takes tangents of its own: not judged,
+/// and false.
+bool Locator::check_alike(std::size_t spline, const Corner& corner, bool above_ground) {
+  if (corner.above_ground_m.has_value() == above_ground) return true;
+  not_judged_.name(place(spline),
+                   "it is a spline, and of the heights before and behind it some are above ground and some are not: "
+                   "give all of them in one frame");
+  return false;
+}
+
 /// How the vehicle comes from the item before: not at all where it stops there.
-Vec3 Locator::spline_begin(std::size_t index, bool above_ground) const {
+Vec3 Locator::spline_begin(std::size_t index, bool above_ground) {
   const PlanItem& before = plan_.items[index - 1];
   const bool stops = before.kind != PlanItemKind::waypoint || before.hold_s > 0 || corners_.size() < 2;
   if (stops) return Vec3::Zero();
   if (before.is_spline) return spline_tangent_;
   const Corner &from = corners_[corners_.size() - 2], &to = corners_.back();
-  if (above_ground && !from.above_ground_m) return Vec3::Zero();
+  if (!check_alike(index, from, above_ground)) return Vec3::Zero();
   return with_height(to, above_ground) - with_height(from, above_ground);
 }
 
@@ -416,7 +444,7 @@ Vec3 Locator::spline_end(std::size_t index, const Corner& from, const Corner& to
     next.position.z() = to.position.z();
     next.above_ground_m = to.above_ground_m;
   }
-  if (next.above_ground_m.has_value() != above_ground) return Vec3::Zero();
+  if (!check_alike(index, next, above_ground)) return Vec3::Zero();
   return with_height(next, above_ground) - with_height(after.is_spline ? from : to, above_ground);
 }
 
@@ -666,6 +694,7 @@ void Locator::add_following(const Corner& from, const Corner& to, bool is_last) 
 }
 
 LocatedPlan Locator::locate() {
+  located_.flight.not_judged = plan_.not_judged;
   for (std::size_t i = 0; i < plan_.items.size(); ++i) {
     switch (plan_.items[i].kind) {
       case PlanItemKind::waypoint:
@@ -700,7 +729,6 @@ LocatedPlan Locator::locate() {
   }
   located_.flight.chord_error_m =
       (has_curves_ ? options_.chord_error_m : 2 * bent_m_) + (has_following_ ? options_.ground_error_m : 0);
-  located_.flight.not_judged = plan_.not_judged;
   const auto home = home_position();
   if (home && known_home_z()) located_.home = scene_of({home->x(), home->y(), *known_home_z()});
   using internal::core::count_text;

@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -23,11 +22,11 @@ bool moves_nothing(const MissionItem& item) {
   constexpr int kGuidedEnable = 92, kParachute = 208;
   if (item.command == kGuidedEnable && item.parameters[0] == 0) return true;                         // off
   if (item.command == kParachute && item.parameters[0] >= 0 && item.parameters[0] < 2) return true;  // no release
-  constexpr std::array kCommands = {
-      112,  114,  180,  181,  182,  183,  184,  187,   188,   189,   194,   196,   198,   200,  202,  203,  204,
-      206,  207,  209,  211,  212,  214,  215,  218,   220,   221,   222,   223,   240,   241,  247,  530,  531,
-      532,  533,  534,  600,  2000, 2001, 2003, 2500,  2501,  2502,  2503,  2510,  2511,  2520, 3000, 4000, 4501,
-      5000, 5001, 5002, 5003, 5004, 5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
+  constexpr std::array kCommands = {112,  114,  180,  181,  182,   183,   184,   187,   188,   189,   194,  196,  198,
+                                    200,  202,  203,  204,  206,   207,   209,   211,   212,   214,   215,  220,  221,
+                                    222,  223,  240,  241,  247,   530,   531,   532,   533,   534,   600,  2000, 2001,
+                                    2003, 2500, 2501, 2502, 2503,  2510,  2511,  2520,  4000,  4501,  5000, 5001, 5002,
+                                    5003, 5004, 5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
   return std::find(kCommands.begin(), kCommands.end(), item.command) != kCommands.end();
 }
 
@@ -59,10 +58,12 @@ constexpr Mover kMovers[] = {{23, "NAV_LAND_LOCAL"},
                              {208, "DO_PARACHUTE"},
                              {210, "DO_INVERTED_FLIGHT"},
                              {213, "NAV_SET_YAW_SPEED"},
+                             {218, "DO_AUX_FUNCTION"},
                              {224, "DO_SET_MISSION_CURRENT"},
                              {252, "OVERRIDE_GOTO"},
                              {262, "DO_SET_STANDARD_MODE"},
                              {601, "DO_JUMP_TAG"},
+                             {3000, "DO_VTOL_TRANSITION"},
                              {4001, "GUIDED_SUBMODE_CIRCLE"},
                              {42702, "NAV_SCRIPT_TIME"},
                              {42703, "NAV_ATTITUDE_TIME"}};
@@ -75,11 +76,12 @@ bool is_given(double latitude, double longitude) {
 /// Runs one item after the other.
 class Runner {
  public:
-  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, bool zero_keeps_height, FlightPlan& plan)
+  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height, FlightPlan& plan)
       : mission_(mission),
         source_(source),
-        zero_keeps_height_(zero_keeps_height),
+        zero_height_(zero_height),
         plan_(plan),
+        not_judged_(source.name, plan.not_judged),
         jumps_left_(mission.size(), -1) {
     for (std::size_t i = 0; i < mission.size(); ++i) {
       if (mission[i].id >= 0) index_of_.emplace(mission[i].id, i);
@@ -97,10 +99,12 @@ class Runner {
   void come_to(const MissionItem& item);
   bool come_on_arc(const MissionItem& item);
   void leave_out(const MissionItem& item);
-  void not_judged(const MissionItem& item, const std::string& why);
+  void not_judged(const MissionItem& item, const std::string& why) { not_judged_.name(item.place, why); }
   std::optional<std::size_t> jump(std::size_t at);
   PlanItem& add(PlanItemKind kind, const MissionItem& item);
+  void take_zero_height(const PlanItem* before, bool is_here, const MissionItem& item, PlanItem& added);
   void keep_height(const PlanItem& before, const MissionItem& item, PlanItem& added);
+  void look_for_fences_and_rally_points();
   void add_notes();
   void note(WarningCode code, const std::string& text) { plan_.notes.push_back({code, source_.name + ": " + text}); }
   [[noreturn]] static void fail(ErrorCode code, const MissionItem& item, const std::string& problem,
@@ -110,8 +114,9 @@ class Runner {
 
   const std::vector<MissionItem>& mission_;
   const PlanSource& source_;
-  bool zero_keeps_height_;
+  ZeroHeight zero_height_;
   FlightPlan& plan_;
+  NotJudged not_judged_;
   std::unordered_map<long long, std::size_t> index_of_;
   std::vector<long long> jumps_left_;  // of each DO_JUMP; -1: not come to yet
   bool is_over_ = false;
@@ -122,7 +127,6 @@ class Runner {
   std::optional<PlanPosition> look_at_;
   // For notes.
   std::map<std::string, std::size_t> unknown_;
-  std::set<std::string> told_not_judged_;
   std::size_t splines_ = 0, old_arcs_ = 0, airspeeds_ = 0, unlimited_ = 0, climbs_ = 0, endless_jumps_ = 0,
               kept_heights_ = 0, not_flown_ = 0;
 };
@@ -146,7 +150,18 @@ void Runner::run() {
     ++at;
     if (is_over_) not_flown_ = mission_.size() - at;
   }
+  look_for_fences_and_rally_points();
   add_notes();
+}
+
+/// Wherever they are: also behind the return.
+void Runner::look_for_fences_and_rally_points() {
+  const auto count = [this](int first, int last) {
+    return std::count_if(mission_.begin(), mission_.end(),
+                         [&](const MissionItem& item) { return first <= item.command && item.command <= last; });
+  };
+  name_rally_points(static_cast<std::size_t>(count(kRallyPoint, kRallyPoint)), plan_);
+  if (count(kFencePolygonIn, kFenceCircleOut) > 0) note_fence(plan_);
 }
 
 PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
@@ -164,7 +179,7 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
       added.position.horizontal = before->position.horizontal;
     }
     const bool may_keep = kind == PlanItemKind::waypoint || kind == PlanItemKind::loiter;
-    if (zero_keeps_height_ && may_keep && added.position.height_m == 0 && before) keep_height(*before, item, added);
+    if (may_keep && added.position.height_m == 0) take_zero_height(before, is_here, item, added);
     added.follows_ground = added.position.datum == HeightDatum::ground && before &&
                            before->position.datum == HeightDatum::ground && item.frame != kGlobal;
   }
@@ -177,7 +192,20 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
   return added;
 }
 
-/// ArduPilot's Copter takes a height of 0 as that of where it comes from, in whatever frame.
+/// Where nobody knows which vehicle it is, that does not matter if the height before is 0, too. The first item comes
+/// from the home.
+void Runner::take_zero_height(const PlanItem* before, bool is_here, const MissionItem& item, PlanItem& added) {
+  const bool keeps = zero_height_ == ZeroHeight::keeps || (is_here && zero_height_ != ZeroHeight::flown);
+  if (keeps && before) keep_height(*before, item, added);
+  if (keeps || zero_height_ != ZeroHeight::unknown) return;
+  const PlanPosition kept = before ? before->position : PlanPosition{{0, 0}, 0, HeightDatum::home};
+  if (kept.height_m == 0 && kept.datum == added.position.datum) return;
+  not_judged(item,
+             "its height of 0 keeps the height before with ArduPilot's Copter, and is one to fly at with others: write "
+             "the height, or give a .plan that names the autopilot and the vehicle");
+}
+
+/// The height of where it comes from, in whatever frame.
 void Runner::keep_height(const PlanItem& before, const MissionItem& item, PlanItem& added) {
   if (before.kind == PlanItemKind::land || std::isnan(before.position.height_m)) return;
   const bool is_level = before.position.datum == added.position.datum ||
@@ -307,16 +335,6 @@ void Runner::leave_out(const MissionItem& item) {
   }
 }
 
-/// Once for each item, however often jumps come to it.
-void Runner::not_judged(const MissionItem& item, const std::string& why) {
-  if (!told_not_judged_.insert(item.place).second) return;
-  constexpr std::size_t kMostNamed = 20;
-  const std::size_t more = told_not_judged_.size() > kMostNamed ? told_not_judged_.size() - kMostNamed : 0;
-  if (more > 1) plan_.not_judged.pop_back();
-  plan_.not_judged.push_back(more > 0 ? source_.name + ": and " + core::count_text(more, "item", "items") + " more"
-                                      : item.place + ": " + why);
-}
-
 /// At the height before, and then straight down, or for a fixed wing on a slope.
 void Runner::land(const MissionItem& item) {
   PlanItem& added = add(PlanItemKind::land, item);
@@ -416,8 +434,7 @@ void Runner::add_notes() {
   };
   assume(splines_, "spline waypoint is", "spline waypoints are", " taken as the curves of ArduPilot's Copter");
   assume(old_arcs_, "arc has", "arcs have", " the angle in the second parameter instead of the first");
-  assume(kept_heights_, "item has", "items have",
-         " the height 0, which keeps the height before, as in ArduPilot's Copter");
+  assume(kept_heights_, "item has", "items have", " the height 0, which keeps the height before, as with ArduPilot");
   assume(airspeeds_, "speed is", "speeds are", " through the air, and taken as over ground");
   assume(unlimited_, "loiter has", "loiters have", " no end: one circle is taken, or a point, and then what follows");
   assume(climbs_, "climb in circles is", "climbs in circles are", " taken as one circle at the height that it ends at");
@@ -461,9 +478,24 @@ PlanPosition position_of(const MissionItem& item) {
   return position;
 }
 
-void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, bool zero_keeps_height,
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height,
                  FlightPlan& plan) {
-  Runner(mission, source, zero_keeps_height, plan).run();
+  Runner(mission, source, zero_height, plan).run();
+}
+
+void name_rally_points(std::size_t count, FlightPlan& plan) {
+  const auto returns = std::find_if(plan.items.begin(), plan.items.end(),
+                                    [](const PlanItem& item) { return item.kind == PlanItemKind::return_home; });
+  if (count == 0 || returns == plan.items.end()) return;
+  plan.not_judged.push_back(returns->place + ": the plan has " +
+                            core::count_text(count, "rally point", "rally points") +
+                            ", and the vehicle may return to one of them instead of the home");
+}
+
+void note_fence(FlightPlan& plan) {
+  plan.notes.push_back({WarningCode::plan_left_out,
+                        plan.file + ": its fence is not judged, only the mission's own zones are: name the file under "
+                                    "navigation.keep_in or navigation.keep_out of the mission"});
 }
 
 }  // namespace vantage::internal::flight::plans

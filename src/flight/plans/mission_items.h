@@ -40,6 +40,9 @@ enum MissionCommand : int {
   kImageStart = 2000,
   kVideoStart = 2500,
   kVideoStop = 2501,
+  kFencePolygonIn = 5001,
+  kFenceCircleOut = 5004,  ///< the last one of a fence
+  kRallyPoint = 5100,
 };
 
 /// MAV_FRAME. Those with INT have the same positions in units of 1e-7 degrees, in messages; files have degrees.
@@ -63,11 +66,25 @@ struct MissionItem {
   std::string place;
 };
 
+/// What a height of 0 is for a waypoint or a loiter.
+enum class ZeroHeight {
+  flown,       ///< a height as any other: PX4
+  keeps,       ///< that of the item before: ArduPilot's Copter
+  keeps_here,  ///< the same where the item has no position: ArduPilot's Plane
+  unknown,     ///< one of these: the plan does not say which vehicle flies it
+};
+
 /// Runs the mission from its first item to its last, jumps followed, into `plan`, whose vehicle and home are set.
-/// `zero_keeps_height`: a height of 0 means that of the item before, as ArduPilot's Copter has it. Throws Error(input)
-/// with the item's place.
-void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, bool zero_keeps_height,
+/// Throws Error(input) with the item's place.
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height,
                  FlightPlan& plan);
+
+/// Autopilots return to the nearest rally point instead of the home, if their settings say so: a plan that returns is
+/// not judged.
+void name_rally_points(std::size_t count, FlightPlan& plan);
+
+/// That the plan has a fence: a flight is judged by the zones of its mission alone.
+void note_fence(FlightPlan& plan);
 
 /// Where an item is, if its frame is one of the earth. Throws Error(input) for one that is not.
 PlanPosition position_of(const MissionItem& item);

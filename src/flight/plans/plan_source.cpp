@@ -148,6 +148,15 @@ PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& plac
   return item;
 }
 
+void NotJudged::name(const std::string& place, const std::string& why) {
+  if (!places_.insert(place).second) return;
+  constexpr std::size_t kMostNamed = 20;
+  const std::size_t more = places_.size() > kMostNamed ? places_.size() - kMostNamed : 0;
+  if (more > 1) texts_.pop_back();
+  texts_.push_back(more > 0 ? file_ + ": and " + core::count_text(more, "item", "items") + " more"
+                            : place + ": " + why);
+}
+
 void check_count(std::size_t items, const PlanSource& source) {
   if (items <= kMostPlanItems) return;
   source.fail(ErrorCode::value_out_of_range, "", "the plan has more than " + std::to_string(kMostPlanItems) + " items",

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,18 @@ void join_at_antimeridian(std::vector<PlanTrack>& tracks, std::size_t first);
 
 /// "2 surveys, 1 point" of what was counted, the names as they are.
 std::string counted(const std::map<std::string, std::size_t>& counts);
+
+/// Names what is not judged, each place once, however often jumps come to it: the first twenty, and how many more.
+class NotJudged {
+ public:
+  NotJudged(const std::string& file, std::vector<std::string>& texts) : file_(file), texts_(texts) {}
+  void name(const std::string& place, const std::string& why);
+
+ private:
+  const std::string& file_;
+  std::vector<std::string>& texts_;
+  std::set<std::string> places_;
+};
 
 /// Throws Error(value_out_of_range) for more items than are followed.
 void check_count(std::size_t items, const PlanSource& source);

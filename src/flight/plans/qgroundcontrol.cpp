@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/input.h"
-#include "core/text.h"
 #include "flight/plans/json_text.h"
 #include "flight/plans/mission_items.h"
 
@@ -71,11 +70,9 @@ class GroundStationPlan {
     for (std::size_t i = 0; i < items->size(); ++i) {
       add((*items)[i], source_.place("item " + std::to_string(i + 1)));
     }
-    constexpr double kArduPilot = 3;  // MAV_AUTOPILOT
-    const bool is_copter = plan_.vehicle == PlanVehicle::multirotor || plan_.vehicle == PlanVehicle::unknown;
-    const bool is_ardupilot = member_or_nan(*mission, "firmwareType", source_.place("mission")) == kArduPilot;
-    run_mission(items_, source_, is_ardupilot && is_copter, plan_);
+    run_mission(items_, source_, zero_height(*mission), plan_);
     look_for_rally_points(root);
+    look_for_fence(root);
     check_plan(plan_, source_);
     return std::move(plan_);
   }
@@ -93,18 +90,31 @@ class GroundStationPlan {
     read(mission, "mission", 2);
   }
 
-  /// Autopilots return to the nearest of these instead of the home, if their settings say so.
+  /// Autopilots of which nothing is known, and ArduPilot's other vehicles, have one rule or the other.
+  ZeroHeight zero_height(const json& mission) const {
+    constexpr double kArduPilot = 3, kPx4 = 12;  // MAV_AUTOPILOT
+    const double autopilot = member_or_nan(mission, "firmwareType", source_.place("mission"));
+    if (autopilot == kPx4) return ZeroHeight::flown;
+    if (plan_.vehicle == PlanVehicle::fixed_wing || plan_.vehicle == PlanVehicle::vtol) return ZeroHeight::keeps_here;
+    const bool is_copter = autopilot == kArduPilot && plan_.vehicle == PlanVehicle::multirotor;
+    return is_copter ? ZeroHeight::keeps : ZeroHeight::unknown;
+  }
+
   void look_for_rally_points(const json& root) {
     const auto rally = root.find("rallyPoints");
     if (rally == root.end() || !rally->is_object()) return;
     const auto points = rally->find("points");
-    const bool has_points = points != rally->end() && points->is_array() && !points->empty();
-    const auto returns = std::find_if(plan_.items.begin(), plan_.items.end(),
-                                      [](const PlanItem& item) { return item.kind == PlanItemKind::return_home; });
-    if (!has_points || returns == plan_.items.end()) return;
-    plan_.not_judged.push_back(returns->place + ": the plan has " +
-                               core::count_text(points->size(), "rally point", "rally points") +
-                               ", and the vehicle may return to one of them instead of the home");
+    if (points != rally->end() && points->is_array()) name_rally_points(points->size(), plan_);
+  }
+
+  void look_for_fence(const json& root) {
+    const auto fence = root.find("geoFence");
+    if (fence == root.end() || !fence->is_object()) return;
+    const auto has = [&](const char* key) {
+      const auto list = fence->find(key);
+      return list != fence->end() && list->is_array() && !list->empty();
+    };
+    if (has("polygons") || has("circles") || has("polygon")) note_fence(plan_);
   }
 
   void read_vehicle(const json& mission) {

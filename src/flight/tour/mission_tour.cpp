@@ -99,9 +99,12 @@ std::vector<MissionTourTarget> volumes_of(const Mission& mission, const Prepared
     const Mission seen = of_what_is_seen(mission, each);
     results = run_missions(volume_count(seen) == 1 ? one_volume(seen, 0) : seen, options, progress);
   }
+  const core::ProgressReporter asking(progress);
+  asking.begin("volumes of the tour");
   std::vector<MissionTourTarget> targets;
   std::size_t next = 0;
   for (const Mission& one : each) {
+    asking.tick();
     const bool is_given = is_volume(one);
     Volume volume = is_given ? volume_to_fly_through(one, progress) : std::move(results.at(next++).volume);
     if (volume.mesh.empty()) {
@@ -267,9 +270,10 @@ void check_is_seen_whole(const Mission& mission) {
 }
 
 void note_beyond_data(const Mission& mission, MissionTour& of) {
-  std::vector<Vec3> places;
-  for (const FlightPoint& point : of.tour.flight.points) places.push_back(point.position);
-  for (const MissionTourTarget& target : of.targets) places.push_back(target.centre);
+  const Flight& flight = of.tour.flight;
+  FlownPlaces places{{}, {}, {}, of.settings.tube_m + flight.chord_error_m, of.settings.clearance_m};
+  for (const FlightPoint& point : flight.points) places.positions.push_back(point.position);
+  for (const MissionTourTarget& target : of.targets) places.seen.push_back(target.centre);
   for (const Warning& note : beyond_data_warnings(mission, places)) of.notes.push_back(note.text);
 }
 
@@ -344,7 +348,10 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
     result.highest_takeoff_m = tour::room_above_m(*mission.home, *request.home, *request.airspace);
   }
   result.targets = volumes_of(mission, scene, options.threads, progress);
+  const core::ProgressReporter asking(progress);
+  asking.begin("volumes of the tour");
   for (const MissionTourTarget& target : result.targets) {
+    asking.tick();
     request.targets.push_back({target.name, target.volume, std::nullopt});
     if (!target.is_volume) request.targets.back().look_at = target.centre;
   }

@@ -423,7 +423,8 @@ class WingPlan {
           first = kNowhere;
           continue;
         }
-        if (first != kNowhere && !space_.can_follow(region, {way.points()[i - 1], way.points()[i]}, {})) first = i;
+        if (first != kNowhere && !space_.can_follow(region, {way.points()[i - 1], way.points()[i]}, Vec3::Zero()))
+          first = i;
         if (first == kNowhere || overlaps(way.station(first), station, taken)) first = i;
         // Chords are shorter than the curve: on the safe side.
         if (station - way.station(first) < space_.view_m()) continue;
@@ -508,7 +509,7 @@ class WingPlan {
     for (std::size_t i = visit.first_point; i < visit.last_point; ++i) {
       const Leg leg = flight.leg(i);
       if (!region.holds_leg(leg)) return false;
-      if (!space_.can_follow(static_cast<int>(visit.target), {leg.from, leg.to}, {})) return false;
+      if (!space_.can_follow(static_cast<int>(visit.target), {leg.from, leg.to}, Vec3::Zero())) return false;
     }
     return region.holds(flight.points[visit.first_point].position);
   }

@@ -115,9 +115,11 @@ class Picture {
     std::vector<double> outs;
     outs.reserve(all.aims.size());
     for (const KnownAim& known : all.aims) outs.push_back(out_by(known, positions));
-    const auto out_at = [&](int yaw, int pitch) {
-      return outs[static_cast<std::size_t>((yaw + yaws) % yaws * pitches + std::clamp(pitch, 0, pitches - 1))];
+    const auto index_of = [&](int yaw, int pitch) {
+      return static_cast<std::size_t>((yaw + yaws) % yaws) * static_cast<std::size_t>(pitches) +
+             static_cast<std::size_t>(std::clamp(pitch, 0, pitches - 1));
     };
+    const auto out_at = [&](int yaw, int pitch) { return outs[index_of(yaw, pitch)]; };
     const double deepest = kDeepest * distance_from(positions[0]);
     std::vector<std::pair<double, CameraAim>> found;
     for (int yaw = 0; yaw < yaws; ++yaw) {
@@ -126,7 +128,7 @@ class Picture {
         if (!(out < deepest)) continue;
         bool is_least = true;
         for (int i = 0; i < 9 && is_least; ++i) is_least = out <= out_at(yaw + i / 3 - 1, pitch + i % 3 - 1);
-        if (is_least) found.emplace_back(out, all.aims[static_cast<std::size_t>(yaw * pitches + pitch)].aim);
+        if (is_least) found.emplace_back(out, all.aims[index_of(yaw, pitch)].aim);
       }
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -6,6 +6,7 @@
 
 #include "common/input.h"
 #include "maps/city/footprint.h"
+#include "maps/city/interruption.h"
 #include "maps/city/region.h"
 #include "maps/city/structures.h"
 #include "maps/osm/extract.h"
@@ -162,6 +163,9 @@ std::vector<MapArea> read_areas(const std::filesystem::path& file, const AreaFil
       osm::read_extract(file, {internal::city::checked_region(filter.region), wanted}, progress);
   internal::city::check_complete(extract, file);
   internal::city::check_overlap(filter.region, extract, file);
+  const internal::core::ProgressReporter reporter(progress);
+  reporter.begin("outlines");
+  const internal::city::Interruption interruption(reporter);
   std::vector<MapArea> areas;
   for (const osm::Area& source : extract.areas) {
     if (auto area = area_of(source)) areas.push_back(std::move(*area));

@@ -35,6 +35,9 @@ class FormReader {
     if (!height && !levels_) {
       for (const std::size_t i : unheard_) remarks_[i].unsure = true;
     }
+    if (!height && !roof_m_) {
+      for (const std::size_t i : roof_unheard_) remarks_[i].unsure = true;
+    }
     read_bottom(height);
     if (height) {
       form_.top_m = *height;
@@ -113,12 +116,11 @@ class FormReader {
   void read_roof() {
     const std::string_view value = tags_.get(tags_.has("roof:shape") ? "roof:shape" : "building:roof:shape");
     if (!value.empty()) {
-      const std::optional<RoofName> name = parse_roof_shape(value);
-      if (!name) remark(TagFault::unknown_roof, "roof:shape", value, "taken as flat");
-      if (name && !name->same) {
-        remark(TagFault::other_roof, "roof:shape", value, std::string("built as ").append(text(name->shape)));
-      }
-      if (name) form_.roof = name->shape;
+      const std::optional<RoofShape> shape = parse_roof_shape(value);
+      if (!shape) remark(TagFault::unknown_roof, "roof:shape", value, "built as a box as high as its top");
+      if (!shape) remarks_.back().unsure = true;
+      form_.is_box = !shape;
+      form_.roof = shape.value_or(RoofShape::gabled);
     }
     read_roof_height();
     if (form_.roof == RoofShape::flat) return;
@@ -139,9 +141,16 @@ class FormReader {
   }
 
   void read_roof_height() {
-    roof_m_ = number({"roof:height", "building:roof:height"}, parse_length_m, kHighest);
+    const auto roughly = [&](std::string_view value) { return roughly_length_m(value, defaults_.roof_level_m); };
+    std::optional<double> levels;
+    for (const std::string_view key : {"roof:height", "building:roof:height"}) {
+      if (!roof_m_) roof_m_ = sized(key, parse_length_m, roughly, kHighest, " m");
+    }
+    for (const std::string_view key : {"roof:levels", "building:roof:levels"}) {
+      if (!levels) levels = sized(key, parse_levels, roughly_levels, kMostLevels, "");
+    }
+    roof_unheard_.swap(unheard_);
     if (roof_m_ && *roof_m_ == 0) form_.roof = RoofShape::flat;
-    const std::optional<double> levels = number({"roof:levels", "building:roof:levels"}, parse_levels, kMostLevels);
     if (!roof_m_ && levels && *levels > 0) roof_m_ = *levels * defaults_.roof_level_m;
     if (roof_m_ || form_.roof == RoofShape::flat) return;
     const bool round = form_.roof == RoofShape::dome || form_.roof == RoofShape::onion;
@@ -226,7 +235,7 @@ class FormReader {
   std::optional<double> levels_, roof_m_;  // the latter when the tags say it
   double min_level_ = 0;
   std::string_view bottom_key_;
-  std::vector<std::size_t> unheard_;  // remarks on heights and levels that could not be understood
+  std::vector<std::size_t> unheard_, roof_unheard_;  // remarks on heights and levels that could not be understood
   BuildingForm form_;
 };
 

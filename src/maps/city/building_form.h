@@ -39,6 +39,7 @@ struct BuildingForm {
   RoofShape roof = RoofShape::flat;
   std::optional<double> roof_direction_deg;  ///< compass: where the roof's main face falls to; across the ridge
   bool roof_across = false;                  ///< roof:orientation=across: the ridge runs along the shorter side
+  bool is_box = false;  ///< the roof is of another shape, which a box as high as its top holds; `roof` gives its height
 
   /// The pitch of a roof whose height the tags leave open: it follows from the outline's width (`settled`), and
   /// `roof_m` is 0 until then.
@@ -59,7 +60,6 @@ enum class TagFault {
   zero,             ///< a height of zero
   too_large,        ///< more than anything that is built
   unknown_roof,     ///< a roof shape that is not known
-  other_roof,       ///< a roof shape that is built as the closest one
   no_direction,     ///< a skillion roof that does not say where it falls
   below_ground,     ///< a layer below the ground
   bottom_too_high,  ///< the bottom is not below the top
@@ -98,11 +98,7 @@ std::optional<double> roughly_levels(std::string_view text);
 /// Degrees clockwise from north: "45", "45°", "NE", "north"; nothing else.
 std::optional<double> parse_direction_deg(std::string_view text);
 /// A roof:shape, its synonyms included (the table is in roof_names.cpp); nothing for what is none.
-struct RoofName {
-  RoofShape shape = RoofShape::flat;
-  bool same = true;  ///< else the shape that comes closest
-};
-std::optional<RoofName> parse_roof_shape(std::string_view text);
+std::optional<RoofShape> parse_roof_shape(std::string_view text);
 
 /// Heights and roof of a building or a part. `outline`: the tags of the building that a part lies in, for what the part
 /// does not say itself (nothing is inherited but building, the kind that defaults go by). Never fails: nonsense is

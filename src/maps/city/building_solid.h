@@ -11,8 +11,9 @@
 namespace vantage::internal::city {
 
 struct CitySolid {
-  Mesh mesh;           ///< closed, outward-oriented, free of self-intersections; edge-connected pieces share no vertex
-  std::string repair;  ///< what had to be done ("dome over an outline that is not star-shaped: flat instead"); or empty
+  Mesh mesh;  ///< closed, outward-oriented, free of self-intersections; edge-connected pieces share no vertex
+  /// Why a box as high as the roof's top stands in ("dome roof over an outline that is not star-shaped"); or empty.
+  std::string repair;
 };
 
 /// `ground_m`: z of the ground that the form's heights count from. The roof is a piecewise linear height over the

@@ -97,7 +97,7 @@ std::vector<LedgerEntry> ledger_of(const internal::city::Site& site, const std::
     const internal::city::Item& item = site.items[i];
     if (solids[i].empty()) {
       ledger.push_back(item.entry);
-      ledger.back().reason = item.record.reason;
+      ledger.back().reason = item.faults.back().reason;
     } else if (!item.faults.empty()) {
       ledger.push_back(entry_of(item, solids[i], index));
     }
@@ -154,7 +154,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   result.report.outside = site.outside.objects;
   result.report.bounds_deg = extract.bounds_deg;
   if (site.items.empty() && !options.frame) {
-    internal::city::fail_empty(options.region, extract, site.outside, site.skipped, file);
+    internal::city::fail_empty(options.region, extract, site.outside, internal::city::reasons_of(site), file);
   }
   const internal::city::Ground ground = ground_under(site, options, frame, result.report.notes, progress);
   const std::vector<Mesh> solids = internal::city::build_solids(site, ground, progress);
@@ -171,8 +171,10 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   tell_of_remark(extract.remark, file, result);
   result.scene.georeference = result.report.georeference;
   if (options.frame) result.scene.whole = internal::city::bounds_of_whole(*options.frame);
-  for (internal::city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
-  for (CityRecord& record : site.skipped) result.report.records.push_back(std::move(record));
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!solids[i].empty()) result.report.records.push_back(std::move(site.items[i].record));
+  }
+  result.report.passed_over = std::move(site.passed_over);
   return result;
 }
 

@@ -31,7 +31,8 @@ struct Repairs {
   bool tangled = false;        ///< it crosses itself more than a thousand times: dropped
   bool enclosed = false;       ///< the smallest rectangle round it stands in: footprints_of
   bool beyond = false;         ///< not finite, or larger than 100 km: dropped
-  std::size_t slivers = 0;     ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
+  bool any() const { return self_crossing || nesting || tangled || enclosed || beyond; }
+  std::size_t slivers = 0;  ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
 };
 
 /// Rounds to the grid, removes spikes and repeated points, resolves crossings. Empty when nothing with an area is left.

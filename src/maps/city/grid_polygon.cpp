@@ -1,8 +1,11 @@
 #include "maps/city/grid_polygon.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "maps/city/interruption.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -114,10 +117,16 @@ std::vector<GridPolygon> tidied(const std::vector<GridPolygon>& polygons) {
 std::vector<GridPolygon> nested(const std::vector<GridRing>& rings) {
   std::vector<GridPolygon> result;
   if (rings.size() == 1) return {{turned(rings[0], true), {}}};
+  using Corner = Eigen::Matrix<std::int64_t, 2, 1>;
+  std::vector<Eigen::AlignedBox<std::int64_t, 2>> boxes(rings.size());
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    for (const GridPoint& p : rings[i]) boxes[i].extend(Corner(p.x, p.y));
+  }
   std::vector<std::vector<std::size_t>> around(rings.size());
   for (std::size_t i = 0; i < rings.size(); ++i) {
+    Interruption::tick();
     for (std::size_t j = 0; j < rings.size(); ++j) {
-      if (i != j && is_inside(rings[i], rings[j])) around[i].push_back(j);
+      if (i != j && boxes[j].contains(boxes[i]) && is_inside(rings[i], rings[j])) around[i].push_back(j);
     }
   }
   std::vector<std::size_t> polygon_of(rings.size());

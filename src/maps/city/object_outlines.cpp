@@ -14,11 +14,6 @@
 namespace vantage::internal::city {
 namespace {
 
-bool is_closed(const osm::Line& line) {
-  const geo::LonLat &first = line.points.front(), &last = line.points.back();
-  return line.points.size() > 3 && first.longitude_deg == last.longitude_deg && first.latitude_deg == last.latitude_deg;
-}
-
 struct MapObject {
   osm::Area area;
   std::string name;
@@ -43,7 +38,7 @@ MapObjects read_objects(const std::filesystem::path& file, const CityRegion& reg
     std::move(area.polygons.begin(), area.polygons.end(), std::back_inserter(object.area.polygons));
   }
   for (const osm::Line& line : extract.lines) {
-    if (!is_closed(line)) continue;
+    if (!line.is_closed()) continue;
     of(line.id, line.tags).area.polygons.push_back({{line.points.begin(), line.points.end() - 1}, {}});
   }
   return objects;

@@ -45,6 +45,14 @@ bool says_its_height(const osm::Tags& tags) {
   });
 }
 
+/// Whether a key says what a thing is.
+bool names_a_kind(std::string_view key) {
+  static constexpr std::array<std::string_view, 16> kinds = {
+      "building", "building:part", "man_made", "power",   "aerialway", "historic",         "tourism",  "leisure",
+      "natural",  "landuse",       "barrier",  "amenity", "bridge",    "generator:source", "memorial", "advertising"};
+  return is_one_of(key, kinds);
+}
+
 /// Not in the open, or not there.
 bool stands_nowhere(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 3> below = {"underground", "indoor", "underwater"};
@@ -54,18 +62,29 @@ bool stands_nowhere(const osm::Tags& tags) {
     return true;
   const auto sinks = [&](std::string_view key) { return parse_levels(tags.get(key)).value_or(0) < 0; };
   if (sinks("layer") || sinks("level")) return true;
-  return std::any_of(tags.all.begin(), tags.all.end(), [&](const auto& tag) {
-    const std::string_view prefix = std::string_view(tag.first).substr(0, tag.first.find(':'));
-    const bool is_state = is_one_of(prefix, gone) && says_yes(tag.second);
-    return is_state || is_one_of(std::string_view(tag.second), gone);
-  });
+  // "demolished:building=yes" may be of what stood there before something else.
+  bool is_gone = false, is_something = false;
+  for (const auto& [key, value] : tags.all) {
+    const bool says_what = names_a_kind(key);
+    if ((says_what || key == "status" || key == "state") && is_one_of(value, gone)) return true;
+    is_something |= says_what && says_yes(value);
+    const std::size_t colon = key.find(':');
+    if (!is_one_of(std::string_view(key).substr(0, colon), gone) || !says_yes(value)) continue;
+    if (colon == std::string::npos) return true;
+    is_gone |= names_a_kind(std::string_view(key).substr(colon + 1));
+  }
+  return is_gone && !is_something;
 }
 
 /// Street furniture, ways, and forms of the ground, whatever height they have.
 bool is_no_blocker(const osm::Tags& tags) {
-  static constexpr std::array<std::string_view, 12> keys = {
-      "highway",   "place",      "waterway",     "entrance",        "door",    "kerb", "boundary",
-      "emergency", "playground", "traffic_sign", "traffic_calming", "crossing"};
+  static constexpr std::array<std::string_view, 10> keys = {
+      "highway",    "waterway",     "entrance",        "door",    "kerb", "emergency",
+      "playground", "traffic_sign", "traffic_calming", "crossing"};
+  static constexpr std::array<std::string_view, 2> places = {"boundary", "place"};
+  const auto is_said = [&](std::string_view key) { return says_yes(tags.get(key)); };
+  const bool is_something =
+      std::any_of(tags.all.begin(), tags.all.end(), [](const auto& tag) { return names_a_kind(tag.first); });
   static constexpr std::array<std::string_view, 20> amenities = {
       "bench",         "waste_basket",    "waste_disposal", "recycling",       "post_box",         "telephone", "clock",
       "parking_meter", "vending_machine", "drinking_water", "bicycle_parking", "charging_station", "atm",       "bbq",
@@ -78,7 +97,8 @@ bool is_no_blocker(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 8> barriers = {"bollard", "kerb",  "gate",     "lift_gate",
                                                                "chain",   "block", "handrail", "cycle_barrier"};
   static constexpr std::array<std::string_view, 4> signs = {"board", "sign", "flag", "poster_box"};
-  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return says_yes(tags.get(key)); }) ||
+  return std::any_of(keys.begin(), keys.end(), is_said) ||
+         (!is_something && std::any_of(places.begin(), places.end(), is_said)) ||
          is_one_of(tags.get("amenity"), amenities) || is_one_of(tags.get("man_made"), made) ||
          is_one_of(tags.get("natural"), grounds) || is_one_of(tags.get("barrier"), barriers) ||
          is_one_of(tags.get("advertising"), signs) || tags.get("tourism") == "information" ||
@@ -135,6 +155,7 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   if ((line || (area && tags.get("area") == "yes")) && is_wall(tags)) return ObjectKind::wall;
   const std::string_view natural = tags.get("natural");
   if (natural == (line ? "tree_row" : "tree") && !area) return ObjectKind::tree;
+  if (line && overhead_height_m(tags)) return std::nullopt;  // it hides next to nothing
   return is_stand_in(tags) ? std::optional(ObjectKind::stand_in) : std::nullopt;
 }
 

@@ -12,16 +12,18 @@
 namespace vantage::internal::city {
 namespace {
 
-constexpr double kMostHeight = 700;  // metres: of masts the highest ever
-constexpr double kMostWidth = 200;   // metres: of a wall, a bridge or a tank
-constexpr double kLeastSize = 0.05;  // metres: nothing is thinner or lower than that
-constexpr double kMostTree = 150;    // metres
-constexpr double kMostCrown = 60;    // metres
-constexpr double kLeastTower = 0.2;  // metres: a thinner one would be dropped as a sliver
+constexpr double kMostHeight = 1500;  // metres: twice what stands, as for buildings
+constexpr double kMostRotor = 400;    // metres
+constexpr double kMostWidth = 200;    // metres: of a wall, a bridge or a tank
+constexpr double kLeastSize = 0.05;   // metres: nothing is thinner or lower than that
+constexpr double kMostTree = 150;     // metres
+constexpr double kMostCrown = 60;     // metres
+constexpr double kLeastTower = 0.2;   // metres: a thinner one would be dropped as a sliver
 constexpr int kTowerSides = 16;
 constexpr double kMetreGirth = 20;  // circumference=* beyond that is in centimetres
 
-/// The first of the keys that holds a length up to `most`, be it but roughly; what holds none is remarked on.
+/// The first of the keys that holds a length, be it but roughly, and no more than `most` of it; what holds none is
+/// remarked on.
 std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list<std::string_view> keys, double most,
                                     std::vector<TagRemark>& remarks) {
   for (const std::string_view key : keys) {
@@ -29,16 +31,17 @@ std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list
     if (value.empty()) continue;
     const std::optional<double> plain = parse_length_m(value);
     const std::optional<double> length = plain ? plain : roughly_length_m(value, BuildingDefaults{}.level_m);
-    const bool usable = length && *length > 0 && *length <= most;
-    if (plain && usable) return std::max(*length, kLeastSize);
-    const TagFault fault = usable         ? TagFault::rough
-                           : !length      ? TagFault::no_value
-                           : *length <= 0 ? TagFault::negative
-                                          : TagFault::too_large;
+    const bool usable = length && *length > 0;
+    const double taken = usable ? std::clamp(*length, kLeastSize, most) : 0;
+    if (plain && usable && *length <= most) return taken;
+    const TagFault fault = !length          ? TagFault::no_value
+                           : *length <= 0   ? TagFault::negative
+                           : *length > most ? TagFault::too_large
+                                            : TagFault::rough;
     remarks.push_back({fault, std::string(key), std::string(value),
-                       usable ? core::format("taken as {:.6g} m", *length) : "taken as untagged"});
-    remarks.back().unsure = key.ends_with("height");
-    if (usable) return std::max(*length, kLeastSize);
+                       usable ? core::format("taken as {:.6g} m", taken) : "taken as untagged"});
+    remarks.back().unsure = key.ends_with("height") || key == "height:hub" || fault == TagFault::too_large;
+    if (usable) return taken;
   }
   return std::nullopt;
 }
@@ -219,15 +222,16 @@ BuildingForm stand_in_form(const osm::Tags& tags, std::vector<TagRemark>& remark
   double height = tagged_length(tags, {"height", "est_height", "building:height"}, kMostHeight, remarks).value_or(0);
   // A hub says how high the axis is; the rotor goes on above it.
   const auto hub = tagged_length(tags, {"height:hub"}, kMostHeight, remarks);
-  const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostWidth, remarks);
-  if (hub) height = std::max(height, *hub + rotor.value_or(0) / 2);
+  const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostRotor, remarks);
+  if (hub) height = std::max(height, *hub + (rotor ? *rotor / 2 : column_radius_m(tags, *hub)));
   return upright(tags, std::max(height, kLeastSize), remarks);
 }
 
 /// The diameter of a point's column: as the tags say it, or else by its kind and its height.
 double column_width(const osm::Tags& tags, double height_m, std::vector<TagRemark>& remarks) {
-  const auto said = tagged_length(tags, {"rotor:diameter", "diameter", "width"}, kMostWidth, remarks);
-  return said ? *said : std::min(kMostWidth, 2 * column_radius_m(tags, height_m));
+  if (const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostRotor, remarks)) return *rotor;
+  const auto said = tagged_length(tags, {"diameter", "width"}, kMostWidth, remarks);
+  return said ? *said : 2 * column_radius_m(tags, height_m);
 }
 
 std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& points, const OccluderDefaults& defaults,

@@ -209,7 +209,9 @@ std::vector<GridPolygon> sound_holes(const GridPolygon& rough) {
     Interruption::tick();
     for (const GridPoint& p : rough.holes[i]) boxes[i].extend(Eigen::Matrix<std::int64_t, 2, 1>(p.x, p.y));
     const GridPolygon alone{rough.outer, {rough.holes[i]}};
-    sound[i] = !meeting_of({rough.holes[i]}).crossing && !meeting_of(rings_of({alone})).crossing && is_nested(alone);
+    // One that touches itself may go round an island.
+    const Meeting own = meeting_of({rough.holes[i]});
+    sound[i] = !own.crossing && !own.touching && !meeting_of(rings_of({alone})).crossing && is_nested(alone);
   }
   std::vector<bool> apart = sound;
   for (std::size_t i = 0; i < count; ++i) {

@@ -25,10 +25,10 @@ std::string bounds_text(const Bounds& b) {
 }
 
 /// "underground (2), outline without an area (1)": the three commonest, and how many other reasons there are.
-std::string reasons_of(const std::vector<CityRecord>& skipped) {
+std::string commonest(const std::vector<std::string>& all) {
   constexpr std::size_t kMostReasons = 3;
   std::map<std::string, std::size_t> counts;
-  for (const CityRecord& record : skipped) ++counts[record.reason];
+  for (const std::string& reason : all) ++counts[reason];
   std::vector<std::pair<std::string, std::size_t>> reasons(counts.begin(), counts.end());
   std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
@@ -211,15 +211,15 @@ void Outside::add(std::size_t more, double nearest) {
 }
 
 void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
-                const std::vector<CityRecord>& skipped, const std::filesystem::path& file) {
-  if (outside.objects == 0 && skipped.empty()) {
+                const std::vector<std::string>& reasons, const std::filesystem::path& file) {
+  if (outside.objects == 0 && reasons.empty()) {
     throw Error(ErrorCode::map_empty, "the map holds no building and nothing else to build", file.string(),
                 "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +
                     std::to_string(extract.ways) + " ways, " + bounds_text(extract.bounds_deg));
   }
   if (outside.objects == 0) {
     throw Error(ErrorCode::map_empty, "nothing that the map holds can be built", file.string(),
-                "correct it, or give another one; it is skipped because of: " + reasons_of(skipped));
+                "correct it, or give another one; what it holds: " + commonest(reasons));
   }
   throw Error(ErrorCode::region_empty, "there is nothing to build in the area", file.string(),
               "the nearest of " + std::to_string(outside.objects) + " objects is " +
@@ -227,7 +227,7 @@ void fail_empty(const CityRegion& region, const osm::Extract& extract, const Out
                   (region.center_deg ? " from the centre: give a larger radius, or another centre"
                                      : " from the box: give a larger box") +
                   "; the map holds " + bounds_text(extract.bounds_deg) +
-                  (skipped.empty() ? "" : "; skipped in the area or near it: " + reasons_of(skipped)));
+                  (reasons.empty() ? "" : "; not built in the area or near it: " + commonest(reasons)));
 }
 
 LonLat frame_origin(const CityRegion& region, const osm::Extract& extract) {

@@ -34,9 +34,10 @@ struct Outside {
   void add(std::size_t more, double nearest);
 };
 
-/// Says what the region lacks: how far the nearest object outside is, and why what was read of it was skipped.
+/// Says what the region lacks: how far the nearest object outside is, and why what was read of it is not built.
+/// `reasons`: one for each object.
 [[noreturn]] void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
-                             const std::vector<CityRecord>& skipped, const std::filesystem::path& file);
+                             const std::vector<std::string>& reasons, const std::filesystem::path& file);
 
 /// Origin of the frame: the middle of what is asked for, or else of the areas that were read.
 geo::LonLat frame_origin(const CityRegion& region, const osm::Extract& extract);

@@ -1,12 +1,11 @@
-// The names of roofs: those of the scheme, other spellings of them that are in use, and shapes that are built as the
-// one that comes closest.
+// The names of roofs: those of the scheme, and other spellings of them that are in use.
 //
 //   built as      names
 //   flat          flat
-//   gabled        gabled, gable, pitched, saddle; close: double_saltbox, gabled_row, cross_gabled, crosspitched
-//   hipped        hipped, hip; close: side_hipped, hipped-and-gabled, dutch_gabled, gablet
-//   half-hipped   half-hipped, half_hip, clipped_gable, jerkinhead; close: side_half-hipped
-//   pyramidal     pyramidal, pyramid, tented, tent; close: spire, crosshipped
+//   gabled        gabled, gable, pitched, saddle
+//   hipped        hipped, hip
+//   half-hipped   half-hipped, half_hip, clipped_gable, jerkinhead
+//   pyramidal     pyramidal, pyramid, tented, tent, spire
 //   skillion      skillion, lean-to, mono-pitched, monopitch, single-pitched, pent, shed, sloped, slanted
 //   gambrel       gambrel
 //   mansard       mansard, mansarde
@@ -14,9 +13,9 @@
 //   onion         onion, bulbous
 //   cone          cone, conical
 //   round         round, rounded, barrel, barrel_vault, vault, arched
-//   saltbox       saltbox; close: gabled_height_moved
+//   saltbox       saltbox
 //
-// Others (sawtooth, butterfly, many, …) are not roofs of the scheme: they are taken as flat, and remarked on.
+// Of others (cross_gabled, dutch_gabled, sawtooth, many, …) a box stands in that is as high as their top.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -29,7 +28,6 @@ namespace {
 struct Known {
   std::string_view name;
   RoofShape shape;
-  bool same = true;
 };
 
 // Spelt with underscores.
@@ -39,27 +37,17 @@ constexpr std::array kKnown = {
     Known{"gable", RoofShape::gabled},
     Known{"pitched", RoofShape::gabled},
     Known{"saddle", RoofShape::gabled},
-    Known{"double_saltbox", RoofShape::gabled, false},
-    Known{"gabled_row", RoofShape::gabled, false},
-    Known{"cross_gabled", RoofShape::gabled, false},
-    Known{"crosspitched", RoofShape::gabled, false},
     Known{"hipped", RoofShape::hipped},
     Known{"hip", RoofShape::hipped},
-    Known{"side_hipped", RoofShape::hipped, false},
-    Known{"hipped_and_gabled", RoofShape::hipped, false},
-    Known{"dutch_gabled", RoofShape::hipped, false},
-    Known{"gablet", RoofShape::hipped, false},
     Known{"half_hipped", RoofShape::half_hipped},
     Known{"half_hip", RoofShape::half_hipped},
     Known{"clipped_gable", RoofShape::half_hipped},
     Known{"jerkinhead", RoofShape::half_hipped},
-    Known{"side_half_hipped", RoofShape::half_hipped, false},
     Known{"pyramidal", RoofShape::pyramidal},
     Known{"pyramid", RoofShape::pyramidal},
     Known{"tented", RoofShape::pyramidal},
     Known{"tent", RoofShape::pyramidal},
-    Known{"spire", RoofShape::pyramidal, false},
-    Known{"crosshipped", RoofShape::pyramidal, false},
+    Known{"spire", RoofShape::pyramidal},
     Known{"skillion", RoofShape::skillion},
     Known{"lean_to", RoofShape::skillion},
     Known{"mono_pitched", RoofShape::skillion},
@@ -88,7 +76,6 @@ constexpr std::array kKnown = {
     Known{"vault", RoofShape::round},
     Known{"arched", RoofShape::round},
     Known{"saltbox", RoofShape::saltbox},
-    Known{"gabled_height_moved", RoofShape::saltbox, false},
 };
 
 }  // namespace
@@ -100,7 +87,7 @@ std::string_view text(RoofShape shape) {
   return names[static_cast<std::size_t>(shape)];
 }
 
-std::optional<RoofName> parse_roof_shape(std::string_view text) {
+std::optional<RoofShape> parse_roof_shape(std::string_view text) {
   const auto is_space = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
@@ -111,7 +98,7 @@ std::optional<RoofName> parse_roof_shape(std::string_view text) {
   }
   const auto found = std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) { return known.name == name; });
   if (found == kKnown.end()) return std::nullopt;
-  return RoofName{found->shape, found->same};
+  return found->shape;
 }
 
 }  // namespace vantage::internal::city

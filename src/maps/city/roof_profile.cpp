@@ -74,7 +74,8 @@ RoofFrame half_turned(const RoofFrame& frame) {
 Ring enclosing_rectangle(const Ring& points, double least_m) {
   constexpr double kPad = 1e-3;  // metres: rounding of the corners takes away less
   const Ring hull = convex_hull(points);
-  const RoofFrame frame = hull.empty() ? frame_along(points, {1, 0}) : least_rectangle(hull);
+  const bool is_line = hull.size() > 1 && hull[0] != hull[1];
+  const RoofFrame frame = is_line ? least_rectangle(hull) : frame_along(points, {1, 0});
   const Vec2 u = frame.along * (std::max(frame.half_length, least_m / 2) + kPad);
   const Vec2 v = frame.across * (std::max(frame.half_width, least_m / 2) + kPad);
   return {frame.centre - u - v, frame.centre + u - v, frame.centre + u + v, frame.centre - u + v};

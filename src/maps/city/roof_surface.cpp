@@ -252,38 +252,39 @@ bool is_convex(const GridRing& ring) {
   return true;
 }
 
-/// A roof that runs round a centre; over the bounding rectangle where there is none.
+/// A box as high as the roof's top, which holds whatever shape it has.
+RoofSurface box(const Grid& grid, const std::vector<GridRing>& rings, double roof_m) {
+  RoofSurface surface = flat_surface(grid, rings);
+  surface.heights.assign(surface.points.size(), roof_m);
+  return surface;
+}
+
+RoofSurface box_instead(const Grid& grid, const std::vector<GridRing>& rings, const BuildingForm& form,
+                        const char* over) {
+  RoofSurface surface = box(grid, rings, form.roof_m);
+  surface.repair = std::string(text(form.roof)) + " roof over an outline " + over;
+  return surface;
+}
+
+/// A roof that runs round a centre; over the bounding rectangle where a pyramid has none.
 RoofSurface central_surface(const Footprint& footprint, const Grid& grid, const std::vector<GridRing>& rings,
                             const BuildingForm& form, const RoofFrame& frame) {
   const GridRing outline = grid.to_grid(footprint.outer);
-  if (outline.size() > kMostCorners) {
-    RoofSurface surface = flat_surface(grid, rings);
-    surface.heights.assign(surface.points.size(), form.roof_m);
-    surface.repair = std::string(text(form.roof)) + " roof over an outline of more than 1,000 corners: flat instead";
-    return surface;
-  }
+  if (outline.size() > kMostCorners) return box_instead(grid, rings, form, "of more than 1,000 corners");
   const bool open = rings.size() == 1 && footprint.holes.empty();
   const std::optional<GridPoint> centre = star_centre(open ? rings[0] : outline, grid, frame);
-  const std::string name(text(form.roof));
-  const bool by_planes = is_convex(outline) && outline.size() <= kMostSides;
+  const bool by_planes = is_convex(outline) && outline.size() <= kMostSides && form.roof != RoofShape::onion;
   if (centre && (open || by_planes)) {
-    const bool onion = form.roof == RoofShape::onion;
-    const RoofShape shape = onion && !open ? RoofShape::dome : form.roof;
-    const std::vector<Level> levels = levels_of(shape, form.roof_m, std::max(frame.half_length, frame.half_width));
+    const std::vector<Level> levels = levels_of(form.roof, form.roof_m, std::max(frame.half_length, frame.half_width));
     if (open) return ringed_surface(rings[0], *centre, grid, levels);
-    RoofSurface surface =
-        lowered(flat_surface(grid, rings), ring_planes(outline, *centre, grid, frame, levels), frame, form.roof_m);
-    if (onion) surface.repair = "onion roof over an outline with courtyards: dome instead";
-    return surface;
+    return lowered(flat_surface(grid, rings), ring_planes(outline, *centre, grid, frame, levels), frame, form.roof_m);
   }
-  RoofSurface surface =
-      lowered(flat_surface(grid, rings), roof_planes(RoofShape::pyramidal, frame, form.roof_m), frame, form.roof_m);
-  if (form.roof != RoofShape::pyramidal) {
-    surface.repair =
-        name + (open ? " roof over an outline that is not star-shaped: pyramid instead"
-                     : " roof over an outline with courtyards that is not simple and convex: pyramid instead");
+  if (form.roof == RoofShape::pyramidal) {
+    return lowered(flat_surface(grid, rings), roof_planes(RoofShape::pyramidal, frame, form.roof_m), frame,
+                   form.roof_m);
   }
-  return surface;
+  return box_instead(grid, rings, form,
+                     open ? "that is not star-shaped" : "with courtyards that is not simple and convex");
 }
 
 }  // namespace
@@ -291,6 +292,7 @@ RoofSurface central_surface(const Footprint& footprint, const Grid& grid, const 
 RoofSurface roof_surface(const Footprint& footprint, const Grid& grid, const std::vector<GridRing>& rings,
                          const BuildingForm& form, const RoofFrame& frame) {
   if (form.roof == RoofShape::flat || form.roof_m <= 0) return flat_surface(grid, rings);
+  if (form.is_box) return box(grid, rings, form.roof_m);
   const std::vector<RoofPlane> planes = roof_planes(form.roof, frame, form.roof_m);
   const bool central = planes.empty() || form.roof == RoofShape::pyramidal;
   if (central) return central_surface(footprint, grid, rings, form, frame);

@@ -23,10 +23,8 @@ CityRecord record_of(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind) {
   return record;
 }
 
-void skip(Site& site, CityRecord record, std::string reason) {
-  record.fate = Fate::skipped;
-  record.reason = std::move(reason);
-  site.skipped.push_back(std::move(record));
+void pass_over(Site& site, const CityRecord& record, std::string reason) {
+  site.passed_over.push_back({record.object, std::move(reason)});
 }
 
 /// The words of the map for what an object is: "power=tower".
@@ -91,7 +89,8 @@ void add_faults(std::vector<Fault>& faults, const Repairs& repairs) {
 void add_faults(std::vector<Fault>& faults, const std::vector<TagRemark>& remarks) {
   for (const TagRemark& remark : remarks) {
     if (!remark.unsure) continue;
-    const bool is_guessed = remark.fault != TagFault::rough;  // nothing tells it: the default
+    // Nothing tells it: the default.
+    const bool is_guessed = remark.fault != TagFault::rough && remark.fault != TagFault::unknown_roof;
     faults.push_back({remark.key + "=" + remark.value, remark.key + " " + remark.outcome, is_guessed});
   }
 }
@@ -146,8 +145,11 @@ double nearest(const osm::RegionFilter& region, const osm::Area& area) {
 
 class BuildingSorter {
  public:
-  BuildingSorter(Site& site, std::vector<Structure> structures, const BuildingDefaults& defaults)
-      : site_(site), structures_(std::move(structures)), defaults_(defaults) {}
+  BuildingSorter(Site& site, std::vector<Structure> structures, const BuildingDefaults& defaults,
+                 const std::vector<osm::Problem>& problems)
+      : site_(site), structures_(std::move(structures)), defaults_(defaults) {
+    for (const osm::Problem& problem : problems) at_fault_.insert(problem.object);
+  }
 
   void sort(const osm::RegionFilter& region) {
     for (const Structure& structure : structures_) {
@@ -166,8 +168,11 @@ class BuildingSorter {
       const std::string fault = hindrance(structure);
       const std::vector<std::size_t> parts = parts_of(structure);
       if (!fault.empty()) {
-        if (fault != kUnderground) lose(site_, record, structure.source->tags, fault);
-        skip(site_, std::move(record), fault);
+        if (fault == kUnderground) {
+          pass_over(site_, record, fault);
+        } else {
+          lose(site_, record, structure.source->tags, fault);
+        }
       } else if (!parts.empty()) {
         add_remainder(structure, parts, std::move(record));
       } else {
@@ -203,21 +208,27 @@ class BuildingSorter {
     return parts;
   }
 
+  /// What parts leave open. One that is guessed from a faulty outline may be too large: it covers nothing.
+  std::vector<Footprint> uncovered_by(const Structure& building, std::vector<std::size_t> parts) const {
+    std::erase_if(parts, [&](std::size_t part) {
+      return structures_[part].repairs.any() || at_fault_.contains(structures_[part].source->id);
+    });
+    return uncovered(building, structures_, parts);
+  }
+
   void add_remainder(const Structure& building, const std::vector<std::size_t>& parts, CityRecord record) {
-    std::vector<Footprint> rest = uncovered(building, structures_, parts);
+    std::vector<Footprint> rest = uncovered_by(building, parts);
     const double share = 1 - area_m2(rest) / building.area_m2;
     if (share < kCovered) {
       // Parts that begin higher up, such as lift houses drawn on a roof, stand on what is built here.
       std::vector<std::size_t> grounded;
       std::copy_if(parts.begin(), parts.end(), std::back_inserter(grounded),
                    [&](std::size_t part) { return form_of(structures_[part]).bottom_m <= 0; });
-      rest = uncovered(building, structures_, grounded);
+      rest = uncovered_by(building, std::move(grounded));
     }
-    if (rest.empty()) return skip(site_, std::move(record), "its parts are built in its place");
+    if (rest.empty()) return pass_over(site_, record, "its parts are built in its place");
     record.remarks.push_back(
         {core::format("its parts cover {:.0f} % of it", 100 * share), "its parts cover some of it"});
-    record.fate = Fate::repaired;
-    record.reason = "parts leave some of it open: that is built by its own tags";
     add(building, std::move(record), std::move(rest));
   }
 
@@ -250,6 +261,7 @@ class BuildingSorter {
   Site& site_;
   std::vector<Structure> structures_;
   const BuildingDefaults& defaults_;
+  std::set<osm::ObjectId> at_fault_;  ///< not read as they are drawn
 };
 
 bool is_switched_on(std::optional<ObjectKind> kind, const osm::Tags& tags, const Occluders& occluders) {
@@ -287,11 +299,15 @@ class OccluderSorter {
       add(area, *kind);
     }
     for (const osm::Line& line : extract.lines) {
-      const std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);
+      std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);
+      // A wood or a tank whose outline is not closed is none the less an area; so is what is closed and has no model.
+      const bool is_area = kind ? kind == ObjectKind::stand_in && (line.is_closed() || osm::means_area(line.tags))
+                                : !overhead_height_m(line.tags);
+      if (is_area) kind = kind_of(line.tags, Geometry::area);
       if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders) || !belongs(line.points)) continue;
-      // A wood whose outline is not closed is none the less an area.
-      if (kind == ObjectKind::stand_in && osm::means_area(line.tags)) {
-        add(osm::Area{line.id, line.tags, {{line.points, {}, true}}}, *kind);
+      if (is_area) {
+        const auto end = line.points.end() - (line.is_closed() ? 1 : 0);
+        add(osm::Area{line.id, line.tags, {{{line.points.begin(), end}, {}, !line.is_closed()}}}, *kind);
         continue;
       }
       std::vector<Vec2> points;
@@ -326,23 +342,32 @@ class OccluderSorter {
     return kind == ObjectKind::building || kind == ObjectKind::building_part;
   }
 
+  /// 0: it says none.
+  static double height_of(const osm::Tags& tags) {
+    const std::string_view value = tags.get("height");
+    const std::optional<double> plain = parse_length_m(value);
+    return (plain ? plain : roughly_length_m(value, BuildingDefaults{}.level_m)).value_or(0);
+  }
+
   void add_overhead(const osm::Extract& extract) {
     std::map<std::pair<double, double>, double> supports;
     for (const osm::Point& point : extract.points) {
-      const auto height = parse_length_m(point.tags.get("height"));
-      if (height) supports[{point.position.longitude_deg, point.position.latitude_deg}] = *height;
+      const double height = height_of(point.tags);
+      if (height > 0) supports[{point.position.longitude_deg, point.position.latitude_deg}] = height;
     }
     for (const osm::Line& line : extract.lines) {
       const std::optional<double> usual = overhead_height_m(line.tags);
       if (!usual || !touches(region_, line.points)) continue;
       Overhead& overhead = site_.overhead.emplace_back();
-      overhead.height_m = parse_length_m(line.tags.get("height")).value_or(0);
+      const double own = height_of(line.tags);
+      bool all_known = true;
       for (const geo::LonLat& at : line.points) {
         overhead.points.push_back(frame_.to_local(at));
         const auto support = supports.find({at.longitude_deg, at.latitude_deg});
+        all_known &= support != supports.end();
         if (support != supports.end()) overhead.height_m = std::max(overhead.height_m, support->second);
       }
-      if (overhead.height_m <= 0) overhead.height_m = *usual;
+      overhead.height_m = std::max(overhead.height_m, own > 0 || all_known ? own : *usual);
     }
   }
 
@@ -360,14 +385,11 @@ class OccluderSorter {
            const MakeShapes& make_shapes) {
     Item item;
     item.record = record_of(id, tags, kind);
-    if (is_underground(tags)) return skip(site_, std::move(item.record), kUnderground);
+    if (is_underground(tags)) return pass_over(site_, item.record, kUnderground);
     std::vector<TagRemark> remarks;
     item.shapes = make_shapes(remarks);
     note_remarks(item.record, remarks);
-    if (item.shapes.empty()) {
-      lose(site_, item.record, tags, "without a length or an area", drawn);
-      return skip(site_, std::move(item.record), "without a length or an area");
-    }
+    if (item.shapes.empty()) return lose(site_, item.record, tags, "without a length or an area", drawn);
     item.entry = entry_of(item.record, tags);
     add_faults(item.faults, repairs);
     add_faults(item.faults, remarks);
@@ -395,41 +417,58 @@ std::optional<ObjectKind> kind_of_lost(const osm::Problem& problem) {
 }
 
 /// Objects that were wanted and of which nothing could be read.
-void skip_lost(Site& site, const osm::Extract& extract, const geo::LocalFrame& frame, const CityOptions& options) {
+void add_lost(Site& site, const osm::Extract& extract, const geo::LocalFrame& frame, const CityOptions& options) {
   for (const osm::Problem& problem : extract.problems) {
     if (!problem.lost) continue;
     const std::optional<ObjectKind> kind = kind_of_lost(problem);
     if (!is_switched_on(kind, problem.tags, options.occluders)) continue;
     PlanBounds place;
     for (const geo::LonLat& position : problem.places) place.extend(frame.to_local(position));
-    CityRecord record = record_of(problem.object, problem.tags, *kind);
-    // What a relation stands for is not lost.
-    if (problem.kind != osm::Problem::Kind::repeated_outline) lose(site, record, problem.tags, problem.what, place);
-    skip(site, std::move(record), problem.what);
+    const CityRecord record = record_of(problem.object, problem.tags, *kind);
+    if (problem.kind == osm::Problem::Kind::repeated_outline) {
+      pass_over(site, record, problem.what);
+    } else {
+      lose(site, record, problem.tags, problem.what, place);
+    }
   }
 }
 
 /// Relations that only say which outline and parts belong together, but are tagged as if they were a building. They
-/// belong to the region when one of their members does.
-void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilter& region) {
-  std::set<std::string> built, skipped;
+/// belong to the region when one of their members does. What of their members is not in the file is lost.
+void pass_over_groups(Site& site, const osm::Extract& extract, const osm::RegionFilter& region,
+                      const geo::LocalFrame& frame) {
+  std::map<osm::ObjectId, const osm::Problem*> problems;
+  for (const osm::Problem& problem : extract.problems) {
+    if (!problem.lost) problems[problem.object] = &problem;
+  }
+  std::set<std::string> built, not_built;
   for (const Item& item : site.items) built.insert(item.record.object.source_id);
-  for (const CityRecord& record : site.skipped) skipped.insert(record.object.source_id);
+  for (const CityPassedOver& one : site.passed_over) not_built.insert(one.object.source_id);
+  for (const LedgerEntry& entry : site.lost) not_built.insert(entry.object.source_id);
   for (const osm::BuildingRelation& relation : extract.building_relations) {
     const std::optional<ObjectKind> kind = kind_of(relation.tags, Geometry::area);
-    if (kind != ObjectKind::building && kind != ObjectKind::building_part) continue;
+    const auto problem = problems.find(relation.id);
+    const bool is_building = kind == ObjectKind::building || kind == ObjectKind::building_part;
+    if (!is_building && problem == problems.end()) continue;
     const auto has_member_in = [&](const std::set<std::string>& objects) {
       const auto is_in = [&](osm::ObjectId id) { return objects.contains(osm::text(id)); };
       return std::any_of(relation.outlines.begin(), relation.outlines.end(), is_in) ||
              std::any_of(relation.parts.begin(), relation.parts.end(), is_in);
     };
     if (built.contains(osm::text(relation.id))) continue;
-    const bool is_built = has_member_in(built), is_read = is_built || has_member_in(skipped);
+    const bool is_built = has_member_in(built), is_read = is_built || has_member_in(not_built);
     if (!is_read && !region.everything()) continue;
-    skip(site, record_of(relation.id, relation.tags, *kind),
-         is_built  ? "its members are built in its place"
-         : is_read ? "its members are skipped too"
-                   : "none of its members could be read");
+    if (problem != problems.end()) {
+      PlanBounds place;
+      for (const geo::LonLat& position : problem->second->places) place.extend(frame.to_local(position));
+      const CityRecord record = record_of(relation.id, relation.tags, kind.value_or(ObjectKind::building));
+      lose(site, record, relation.tags, problem->second->what, place);
+      continue;
+    }
+    pass_over(site, record_of(relation.id, relation.tags, *kind),
+              is_built  ? "its members are built in its place"
+              : is_read ? "its members are not built either"
+                        : "none of its members could be read");
   }
 }
 
@@ -456,6 +495,7 @@ std::optional<Fault> reading_fault(const osm::Problem& problem) {
     case Kind::open_outline:
       return Fault{problem.what, "its outline, closed by a straight side"};
     case Kind::broken_multipolygon:
+    case Kind::wrong_role:
       return Fault{problem.what, "its rings as they are drawn"};
     case Kind::degenerate:
       return Fault{problem.what, ""};
@@ -472,11 +512,9 @@ void note_reading_faults(Site& site, const osm::Extract& extract) {
   }
   for (Item& item : site.items) {
     const auto found = problems.find(item.record.object.source_id);
-    const auto fault = found == problems.end() ? std::nullopt : reading_fault(*found->second);
+    if (found == problems.end()) continue;
+    const auto fault = reading_fault(*found->second);
     if (fault) item.faults.insert(item.faults.begin(), *fault);
-    if (item.faults.empty()) continue;
-    item.record.fate = Fate::repaired;
-    item.record.reason = item.faults.front().instead;
   }
 }
 
@@ -520,16 +558,23 @@ PlanBounds bounds_of(const std::vector<Shape>& shapes) {
   return bounds;
 }
 
+std::vector<std::string> reasons_of(const Site& site) {
+  std::vector<std::string> reasons;
+  for (const CityPassedOver& one : site.passed_over) reasons.push_back(one.reason);
+  for (const LedgerEntry& entry : site.lost) reasons.push_back(entry.reason);
+  return reasons;
+}
+
 Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
                const CityOptions& options) {
   Site site;
   site.outside.add(extract.outside, extract.nearest_outside_m);
   std::vector<Structure> structures = structures_of(extract.areas, frame);
   assign_parts(structures, extract.building_relations);
-  BuildingSorter(site, std::move(structures), options.defaults).sort(region);
+  BuildingSorter(site, std::move(structures), options.defaults, extract.problems).sort(region);
   OccluderSorter(site, region, frame, options).sort(extract);
-  skip_lost(site, extract, frame, options);
-  skip_groups(site, extract, region);
+  add_lost(site, extract, frame, options);
+  pass_over_groups(site, extract, region, frame);
   note_reading_faults(site, extract);
   if (options.missing == MissingPolicy::warn) drop_stand_ins(site);
   set_bounds(site);

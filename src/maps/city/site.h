@@ -37,7 +37,7 @@ struct Fault {
 
 /// One object of the scene.
 struct Item {
-  CityRecord record;          ///< heights and fate are filled when it is built
+  CityRecord record;          ///< heights are filled when it is built
   std::vector<Shape> shapes;  ///< each becomes a closed piece
   enum class Stand {
     together,  ///< on the lowest ground under `standing`
@@ -58,8 +58,8 @@ struct Overhead {
 struct Site {
   std::vector<Overhead> overhead;
   std::vector<Item> items;
-  std::vector<CityRecord> skipped;  ///< read, wanted and not built, with the reason
-  std::vector<LedgerEntry> lost;    ///< what stands there as the map says, and nothing stands in for
+  std::vector<CityPassedOver> passed_over;
+  std::vector<LedgerEntry> lost;  ///< what stands there as the map says, and nothing stands in for
   Outside outside;
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds of the footprints
 
@@ -67,6 +67,9 @@ struct Site {
   /// none of which is larger across than so many metres. Nor is any shape so far from where its object is drawn.
   double reach_m = 0;
 };
+
+/// Why the objects of a site that has nothing to build are not built; one for each.
+std::vector<std::string> reasons_of(const Site& site);
 
 /// Buildings and parts by Simple 3D Buildings, and the other occluders that are switched on. An object belongs to the
 /// region when one of its corners does, and a building with all its parts when one of theirs does.

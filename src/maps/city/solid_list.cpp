@@ -21,11 +21,6 @@ void append(Mesh& mesh, const Mesh& piece) {
   for (const Triangle& t : piece.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
-void repair(CityRecord& record, const std::string& how) {
-  record.fate = Fate::repaired;
-  if (record.reason.empty()) record.reason = how;
-}
-
 std::vector<Footprint> footprints_of(const Item& item) {
   std::vector<Footprint> footprints;
   for (const Shape& shape : item.shapes) {
@@ -40,7 +35,7 @@ double ground_under(const Item& item, const Shape& shape, const Ground& ground, 
   return shape.tree ? ground.height(shape.tree->foot) : ground.range({shape.footprint}).lowest;
 }
 
-/// A mesh for each shape. Fills the record's ground and area.
+/// A mesh for each shape. Fills the record's ground and area, and the faults.
 std::vector<Mesh> build(Item& item, const Ground& ground) {
   const std::vector<Footprint> footprints = footprints_of(item);
   double together = 0;
@@ -53,7 +48,7 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   std::vector<Mesh> pieces;
   for (const Shape& shape : item.shapes) {
     CitySolid solid = make_solid(shape, ground_under(item, shape, ground, together));
-    if (!solid.repair.empty()) repair(item.record, solid.repair);
+    if (!solid.repair.empty()) item.faults.push_back({solid.repair, "a flat roof as high as its top"});
     pieces.push_back(std::move(solid.mesh));
   }
   return pieces;
@@ -86,12 +81,11 @@ void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground, const co
     std::vector<Mesh> simpler = build(flat, ground);
     if (fault(simpler, item.record.object.source_id, progress).empty()) {
       pieces = std::move(simpler);
-      repair(item.record, "roof of its shape is not a solid here: flat instead");
+      item.faults.push_back({"its roof is not a solid", "a flat roof as high as its top"});
       return;
     }
   }
-  item.record.fate = Fate::open_surface;
-  item.record.reason = wrong;
+  item.faults.push_back({wrong, "its surface, which is open"});
 }
 
 Mesh joined(const std::vector<Mesh>& pieces, CityRecord& record) {
@@ -111,8 +105,7 @@ Mesh solid_of(Item& item, const Ground& ground, const core::ProgressReporter& pr
     return joined(pieces, item.record);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
-    item.record.fate = Fate::skipped;
-    item.record.reason = error.problem();
+    item.faults.push_back({error.problem(), ""});
     return {};
   }
 }

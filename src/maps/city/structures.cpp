@@ -5,6 +5,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "maps/city/interruption.h"
 #include "maps/city/occluders.h"
 #include "maps/city/roof_profile.h"
 
@@ -48,13 +49,19 @@ class OutlineGrid {
   explicit OutlineGrid(const std::vector<Structure>& structures) {
     for (std::size_t i = 0; i < structures.size(); ++i) {
       if (structures[i].is_part || structures[i].footprints.empty()) continue;
-      for_cells(structures[i], [&](std::int64_t cell) { cells_[cell].push_back(i); });
+      all_.push_back(i);
+      if (is_wide(structures[i])) {
+        wide_.push_back(i);
+      } else {
+        for_cells(structures[i], [&](std::int64_t cell) { cells_[cell].push_back(i); });
+      }
     }
   }
 
   /// Each once, in ascending order.
   std::vector<std::size_t> near(const Structure& structure) const {
-    std::vector<std::size_t> found;
+    if (is_wide(structure)) return all_;
+    std::vector<std::size_t> found = wide_;
     for_cells(structure, [&](std::int64_t cell) {
       const auto entry = cells_.find(cell);
       if (entry != cells_.end()) found.insert(found.end(), entry->second.begin(), entry->second.end());
@@ -65,6 +72,12 @@ class OutlineGrid {
   }
 
  private:
+  /// More squares than there are buildings of its size.
+  static bool is_wide(const Structure& structure) {
+    constexpr double kMost = 3e3;  // metres
+    return (structure.max - structure.min).maxCoeff() > kMost;
+  }
+
   template <typename Visit>
   static void for_cells(const Structure& structure, const Visit& visit) {
     const auto index = [](double x) { return static_cast<std::int64_t>(std::floor(x / kCell)); };
@@ -76,6 +89,7 @@ class OutlineGrid {
   }
 
   std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
+  std::vector<std::size_t> all_, wide_;
 };
 
 bool boxes_touch(const Structure& a, const Structure& b) {
@@ -157,6 +171,7 @@ void assign_parts(std::vector<Structure>& structures, const std::vector<osm::Bui
   for (std::size_t i = 0; i < structures.size(); ++i) {
     Structure& part = structures[i];
     if (!part.is_part || part.footprints.empty()) continue;
+    Interruption::tick();
     const std::optional<std::size_t> named = part.outline;
     for (const std::size_t candidate : grid.near(part)) {
       if (candidate == named || !boxes_touch(part, structures[candidate])) continue;

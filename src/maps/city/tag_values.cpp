@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <utility>
+#include <vector>
 
 #include "maps/city/building_form.h"
 
@@ -28,6 +29,14 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+/// "1,250" and the like, which may be a thousand and more or one and a quarter.
+bool groups_thousands(std::string_view text) {
+  const auto comma = std::min(text.find(','), text.size());
+  const auto is_digits = [](std::string_view part) { return std::all_of(part.begin(), part.end(), is_digit); };
+  return comma > 0 && comma <= 3 && text[0] != '0' && comma + 4 <= text.size() && is_digits(text.substr(0, comma)) &&
+         is_digits(text.substr(comma + 1, 3)) && (comma + 4 == text.size() || !is_digit(text[comma + 4]));
+}
+
 /// A number at the front of `text`, which is shortened by it: "12", "-3", "+4", "2.5", ".5", "2,5"; no exponents.
 std::optional<double> take_number(std::string_view& text) {
   std::string digits;
@@ -37,6 +46,7 @@ std::optional<double> take_number(std::string_view& text) {
     ++i;
   }
   bool any = false, point = false;
+  if (groups_thousands(text.substr(i))) return std::nullopt;
   for (; i < text.size(); ++i) {
     const bool separator = text[i] == '.' || text[i] == ',';
     if (separator ? point : !is_digit(text[i])) break;
@@ -134,9 +144,13 @@ std::optional<double> largest(std::string_view list, const Parse& parse, const B
   }
 }
 
-/// In lower case, with plain marks and digits. Full-width digits are U+FF10 to U+FF19.
+/// In lower case, with plain marks and digits, and fractions as decimals. Full-width digits are U+FF10 to U+FF19.
 std::string plain_text(std::string_view text) {
   std::string result = plain_marks(lower(text));
+  for (const auto& [sign, decimals] : {std::pair("\u00bc", ".25"), {"\u00bd", ".5"}, {"\u00be", ".75"}}) {
+    const std::size_t at = result.find(sign);
+    if (at != std::string::npos) result.replace(at, 2, decimals);
+  }
   for (char digit = '0'; digit <= '9'; ++digit) {
     const std::string wide = {'\xEF', '\xBC', static_cast<char>('\x90' + (digit - '0'))};
     for (std::size_t at = 0; (at = result.find(wide, at)) != std::string::npos; ++at) result.replace(at, 3, 1, digit);
@@ -144,21 +158,38 @@ std::string plain_text(std::string_view text) {
   return result;
 }
 
-/// Calls `visit` with each number in a text, exponents too, and with what follows it up to the next blank or digit.
+/// Calls `visit` with each number in a text, exponents too, and with the word or mark that follows it: also
+/// "10-storey", "10 (storeys)". What may be thousands is visited as such as well.
 template <typename Visit>
 void for_numbers(std::string text, const Visit& visit) {
+  std::vector<std::size_t> commas;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = is_digit(text[i]) && (i == 0 || !is_digit(text[i - 1]));
+    if (begins && groups_thousands(std::string_view(text).substr(i))) commas.push_back(text.find(',', i));
+  }
   std::replace(text.begin(), text.end(), ',', '.');
   const char *at = text.data(), *const end = at + text.size();
+  const auto is_mark = [](char c) { return c == '\'' || c == '"'; };
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; };
   while (at != end) {
     double value = 0;
-    const auto [next, error] = is_digit(*at) ? std::from_chars(at, end, value) : std::from_chars_result{at, {}};
+    const char* const begin = at;
+    const auto [next, error] =
+        is_digit(*at) || *at == '.' ? std::from_chars(at, end, value) : std::from_chars_result{at, {}};
     if (next == at || error != std::errc()) {
       ++at;
       continue;
     }
-    const char* const unit = std::find_if_not(next, end, is_space);
-    at = std::find_if(unit, end, [](char c) { return is_space(c) || is_digit(c) || c == '-' || c == '('; });
-    visit(value, std::string_view(unit, static_cast<std::size_t>(at - unit)));
+    const char* unit = std::find_if_not(next, end, [](char c) { return is_space(c) || c == '-' || c == '('; });
+    if (unit == end || !(is_letter(*unit) || is_mark(*unit))) unit = next;
+    at = std::find_if_not(unit, end, [&](char c) { return is_letter(c) || is_mark(c); });
+    const std::string_view word(unit, static_cast<std::size_t>(at - unit));
+    visit(value, word);
+    for (const std::size_t comma : commas) {
+      const char* const point = text.data() + comma;
+      if (begin < point && point < next) visit(1000 * value, word);
+    }
+    at = std::max(at, next);
   }
 }
 
@@ -180,22 +211,36 @@ std::optional<double> parse_levels(std::string_view text) { return largest(text,
 std::optional<double> parse_lowest_levels(std::string_view text) { return largest(text, plain_number, std::less<>()); }
 
 std::optional<double> roughly_length_m(std::string_view text, double level_m) {
+  constexpr double kMost = 1500;  // metres: what is higher was no thousand
+  const std::string plain = plain_text(text);
+  const bool sums = plain.find('+') != std::string::npos, has_ground_floor = plain.find("g+") != std::string::npos;
   std::optional<double> most;
-  for_numbers(plain_text(text), [&](double number, std::string_view unit) {
-    const double metres = counts_levels(unit) ? number * level_m : number * unit_m(unit).value_or(1);
+  double sum = 0;
+  for_numbers(plain, [&](double number, std::string_view unit) {
+    const bool is_levels = counts_levels(unit) || has_ground_floor;
+    const bool is_kilometres = unit.starts_with("km") || unit.starts_with("kilo");
+    const double metres = is_levels       ? (number + (has_ground_floor ? 1 : 0)) * level_m
+                          : is_kilometres ? 1000 * number
+                                          : number * unit_m(unit).value_or(1);
+    if (!(metres <= kMost) && most) return;
     if (std::isfinite(metres)) most = std::max(most.value_or(0), metres);
+    sum += std::isfinite(metres) ? metres : 0;
   });
-  return most;
+  return most && sums ? std::max(*most, sum) : most;
 }
 
 std::optional<double> roughly_levels(std::string_view text) {
   const std::string plain = plain_text(text);
   std::optional<double> most;
-  for_numbers(plain, [&](double number, std::string_view) { most = std::max(most.value_or(0), number); });
-  if (!most) return most;
-  // "2\u00bd", and "G+5": a ground floor and five.
-  const bool more = plain.find("\u00bd") != std::string::npos || plain.find("g+") != std::string::npos;
-  return *most + (more ? 1 : 0);
+  double sum = 0;
+  for_numbers(plain, [&](double number, std::string_view) {
+    constexpr double kMost = 300;  // what is more was no thousand
+    if (number > kMost && most) return;
+    most = std::max(most.value_or(0), number);
+    sum += number;
+  });
+  if (!most || plain.find('+') == std::string::npos) return most;
+  return sum + (plain.find("g+") != std::string::npos ? 1 : 0);  // a ground floor and five
 }
 
 std::optional<double> parse_direction_deg(std::string_view text) {

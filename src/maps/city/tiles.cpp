@@ -16,6 +16,7 @@
 
 #include "common/input.h"
 #include "core/group_side.h"
+#include "maps/city/interruption.h"
 #include "maps/city/region.h"
 #include "maps/city/tile_frame.h"
 #include "vantage/city.h"
@@ -24,7 +25,6 @@
 namespace vantage {
 namespace {
 
-using internal::city::PlanBounds;
 using internal::city::Vec2;
 
 constexpr double kBeyondReach = 2 * std::numbers::sqrt2 * internal::core::kGroupSide;
@@ -70,8 +70,11 @@ TilePlan plan_tiles(const std::filesystem::path& file, const CityOptions& option
   if (!options.partial) internal::city::check_complete(extract, file);
   const internal::geo::LocalFrame frame(internal::city::frame_origin({}, extract));
   const internal::osm::RegionFilter everything({});
+  const internal::core::ProgressReporter reporter(progress);
+  reporter.begin("outlines");
+  const internal::city::Interruption interruption(reporter);
   const internal::city::Site site = internal::city::make_site(extract, everything, frame, options);
-  if (site.items.empty()) internal::city::fail_empty({}, extract, site.outside, site.skipped, file);
+  if (site.items.empty()) internal::city::fail_empty({}, extract, site.outside, internal::city::reasons_of(site), file);
 
   TilePlan plan;
   const Vec2 ground = Vec2::Constant(options.ground_margin_m);

@@ -127,7 +127,7 @@ class Sides {
     for (std::size_t i = 1; i < ring.size(); ++i) sides_.push_back(segment(ring[i - 1], ring[i]));
   }
   void finish() { std::sort(sides_.begin(), sides_.end()); }
-  bool has_any_of(const osmium::WayNodeList& nodes) const {
+  bool has_any_of(const osmium::NodeRefList& nodes) const {
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       if (std::binary_search(sides_.begin(), sides_.end(), segment(nodes[i - 1], nodes[i]))) return true;
     }
@@ -146,31 +146,52 @@ osmium::area::AssemblerConfig config_with(Complaints& complaints) {
   return config;
 }
 
-std::vector<Polygon> to_polygons(const osmium::Area& area, const AssemblyPlane& plane) {
+/// The sides of those members that are asked for.
+template <typename IsWanted>
+Sides sides_of(const std::vector<MemberWay>& members, const std::vector<const osmium::Way*>& projected,
+               const IsWanted& is_wanted) {
+  Sides sides;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (is_wanted(members[i])) sides.add(projected[i]->nodes());
+  }
+  sides.finish();
+  return sides;
+}
+
+/// `no_holes`: sides of members that bound no hole, whatever lies round them.
+std::vector<Polygon> to_polygons(const osmium::Area& area, const AssemblyPlane& plane, const Sides& no_holes = {}) {
   std::vector<Polygon> polygons;
   for (const osmium::OuterRing& outer : area.outer_rings()) {
     Polygon& polygon = polygons.emplace_back();
     polygon.outer = to_ring(outer, true, plane);
     for (const osmium::InnerRing& inner : area.inner_rings(outer)) {
-      polygon.holes.push_back(to_ring(inner, false, plane));
+      if (!no_holes.has_any_of(inner)) polygon.holes.push_back(to_ring(inner, false, plane));
     }
   }
   return polygons;
 }
 
-/// `projected`: of each member its way, in the plane.
+/// `projected`: of each member its way, in the plane. Rings are nested by where they lie; a role may say otherwise.
 void classify(std::vector<MemberWay>& members, const std::vector<const osmium::Way*>& projected,
               const osmium::Area& area) {
-  Sides outer_sides, inner_sides;
+  const auto is_not_inner = [](const MemberWay& member) { return std::string_view(member.role) != "inner"; };
+  const Sides not_inner = sides_of(members, projected, is_not_inner);
+  Sides outer_sides, inner_sides, stray_sides;
   for (const osmium::OuterRing& outer : area.outer_rings()) {
     outer_sides.add(outer);
+    if (!not_inner.has_any_of(outer)) stray_sides.add(outer);
     for (const osmium::InnerRing& inner : area.inner_rings(outer)) inner_sides.add(inner);
   }
   outer_sides.finish();
   inner_sides.finish();
+  stray_sides.finish();
   for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::string_view role = members[i].role;
     members[i].outer = outer_sides.has_any_of(projected[i]->nodes());
     members[i].inner = inner_sides.has_any_of(projected[i]->nodes());
+    const bool is_stray_inner = role == "inner" && !members[i].inner && stray_sides.has_any_of(projected[i]->nodes());
+    const bool is_stray_outer = role == "outer" && members[i].inner && !members[i].outer;
+    members[i].stray = is_stray_inner || is_stray_outer;
   }
 }
 
@@ -218,9 +239,12 @@ class Chains {
     NodeLocations chain = lines_[first];
     for (int end = 0; end < 2; ++end) {  // on from its end, then from its beginning
       while (chain.front() != chain.back()) {
-        const auto [begin, stop] = ends_.equal_range(chain.back());
-        const auto next = std::find_if(begin, stop, [&](const auto& entry) { return !used_[entry.second]; });
-        if (next == stop) break;
+        auto next = ends_.find(chain.back());
+        while (next != ends_.end() && used_[next->second]) {
+          ends_.erase(next);
+          next = ends_.find(chain.back());
+        }
+        if (next == ends_.end()) break;
         used_[next->second] = true;
         NodeLocations line = lines_[next->second];
         if (line.front() != chain.back()) std::reverse(line.begin(), line.end());
@@ -455,7 +479,9 @@ Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& memb
   if (!problem.empty()) return {{}, std::move(problem)};
   const auto& area = buffer.get<osmium::Area>(0);
   classify(members, projected.ways(), area);
-  return {to_polygons(area, plane), ""};
+  return {to_polygons(area, plane,
+                      sides_of(members, projected.ways(), [](const MemberWay& member) { return member.stray; })),
+          ""};
 }
 
 std::vector<LonLat> positions(const osmium::Way& way) {
@@ -489,12 +515,15 @@ std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members) {
     const bool inner = std::string_view(member.role) == "inner";
     if (!line.empty()) (inner ? inner_lines : outer_lines).push_back(std::move(line));
   }
+  if (outer_lines.empty()) outer_lines.swap(inner_lines);  // something stands there
   const Chains outer(std::move(outer_lines)), inner(std::move(inner_lines));
+  std::vector<PlaneBox> holes(inner.rings().begin(), inner.rings().end());
   std::vector<Polygon> polygons;
   for (const NodeLocations& ring : outer.rings()) {
     Polygon& polygon = polygons.emplace_back();
-    for (const NodeLocations& hole : inner.rings()) {
-      if (PlaneBox(ring).holds(PlaneBox(hole))) polygon.holes.push_back(to_ring(hole, false, plane));
+    const PlaneBox box(ring);
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      if (box.holds(holes[i])) polygon.holes.push_back(to_ring(inner.rings()[i], false, plane));
     }
     polygon.outer = to_ring(ring, true, plane);
   }

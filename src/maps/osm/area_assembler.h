@@ -15,9 +15,10 @@ namespace vantage::internal::osm {
 /// A way that is a member of a multipolygon, and what it turned out to be.
 struct MemberWay {
   const osmium::Way* way = nullptr;
-  const char* role = "";  ///< as in the relation: only to word problems by
+  const char* role = "";  ///< as in the relation: only to word problems by, and for `stray`
   bool outer = false;     ///< it is part of an outer ring
   bool inner = false;     ///< it is part of a hole
+  bool stray = false;     ///< an inner one that bounds an area of its own, or an outer one that bounds a hole
 };
 
 struct Assembly {

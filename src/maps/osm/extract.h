@@ -60,6 +60,11 @@ struct Line {
   ObjectId id;
   Tags tags;
   std::vector<LonLat> points;  ///< of a closed line the first is repeated at the end
+
+  bool is_closed() const {
+    const LonLat &first = points.front(), &last = points.back();
+    return points.size() > 3 && first.longitude_deg == last.longitude_deg && first.latitude_deg == last.latitude_deg;
+  }
 };
 
 struct Point {
@@ -84,6 +89,7 @@ struct Problem {
     /// Rings do not close, cross, or nest wrongly: taken as they are drawn, where they bound anything. Also a building
     /// relation of a type that is none
     broken_multipolygon,
+    wrong_role,    ///< an inner member lies outside of the outer ones, or an outer one inside of another: no hole
     degenerate,    ///< fewer than 3 different positions (of a line: 2), no area, or nowhere on the earth
     open_outline,  ///< a way tagged as an area that is not closed; a building is, by a straight side
     /// A way that bounds a multipolygon and says nothing that it does not say, or is tagged like the multipolygon whose

@@ -35,12 +35,15 @@ void Multipolygons::add(const osmium::Relation& relation) {
   }
   ProblemBuilder problem;
   problem.add(Kind::broken_multipolygon, "its type is " + std::string(tags.get("type")) + ", not multipolygon");
-  extract_.problems.push_back(problem.build(id_of(relation), tags, true));
-  for (const MemberWay& member : members_of(relation).there) {
+  add_problem(problem.build(id_of(relation), tags, true), members_of(relation));
+}
+
+void Multipolygons::add_problem(Problem problem, const Members& members) {
+  for (const MemberWay& member : members.there) {
     const std::vector<LonLat> line = positions(*member.way);
-    std::vector<LonLat>& places = extract_.problems.back().places;
-    places.insert(places.end(), line.begin(), line.end());
+    problem.places.insert(problem.places.end(), line.begin(), line.end());
   }
+  extract_.problems.push_back(std::move(problem));
 }
 
 std::optional<Multipolygons::Absorbed> Multipolygons::absorbed(std::int64_t way) const {
@@ -92,8 +95,15 @@ void Multipolygons::add_area(const osmium::Relation& relation, Tags tags, Member
     assembly.polygons = drawn_polygons(members.there);
     for (MemberWay& member : members.there) member.outer = std::strcmp(member.role, "inner") != 0;
   }
+  for (const MemberWay& member : members.there) {
+    if (!member.stray) continue;
+    const std::string way = "way/" + std::to_string(member.way->id());
+    problem.add(Kind::wrong_role, std::strcmp(member.role, "inner") == 0
+                                      ? "its inner " + way + " lies outside of its outer ones"
+                                      : "its outer " + way + " lies inside of another one, and is no hole");
+  }
   if (assembly.polygons.empty()) {
-    extract_.problems.push_back(problem.build(id_of(relation), tags, true));
+    add_problem(problem.build(id_of(relation), tags, true), members);
     return;
   }
   for (Polygon& polygon : assembly.polygons) {
@@ -149,7 +159,7 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
   if (empty && problem.empty()) problem.add(Kind::degenerate, "it has neither an outline nor parts");
   if (wanted_ != nullptr && wanted_(tags)) add_outline(relation, tags, building);
   const bool is_told = !extract_.problems.empty() && extract_.problems.back().object == building.id;
-  if (!problem.empty() && !is_told) extract_.problems.push_back(problem.build(building.id, tags, empty));
+  if (!problem.empty() && !is_told) add_problem(problem.build(building.id, tags, empty), members_of(relation));
   if (!empty) extract_.building_relations.push_back(std::move(building));
 }
 

@@ -46,6 +46,8 @@ class Multipolygons {
   /// Of a building relation that alone says that its outline is a building.
   void add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building);
   Members members_of(const osmium::Relation& relation) const;
+  /// With the places of members that are known.
+  void add_problem(Problem problem, const Members& members);
   void add_member(Members& members, std::int64_t way, const char* role) const;
   void absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,
               const std::vector<MemberWay>& members);

@@ -482,16 +482,29 @@ class JsonReader {
   }
 
   bool take(Value value) {
-    const In in = in_.empty() ? In::other : in_.back();
-    if (in == In::top && key_ == "remark") remark_ = std::move(value.text);
-    if (in == In::element) take_of_element(std::move(value));
-    if (in == In::nodes) object_.nodes.emplace_back(osmium::string_to_object_id(value.text.c_str()));
-    if (in == In::position && key_ == "lon") longitude_ = value.number;
-    if (in == In::position && key_ == "lat") latitude_ = value.number;
-    if (in == In::member) take_of_member(std::move(value));
-    if (in == In::tags) {
-      if (!value.is_text) refuse("the value of a tag is no text");
-      object_.tags.emplace_back(key_, std::move(value.text));
+    switch (in_.empty() ? In::other : in_.back()) {
+      case In::top:
+        if (key_ == "remark") remark_ = std::move(value.text);
+        break;
+      case In::element:
+        take_of_element(std::move(value));
+        break;
+      case In::nodes:
+        object_.nodes.emplace_back(osmium::string_to_object_id(value.text.c_str()));
+        break;
+      case In::position:
+        if (key_ == "lon") longitude_ = value.number;
+        if (key_ == "lat") latitude_ = value.number;
+        break;
+      case In::member:
+        take_of_member(std::move(value));
+        break;
+      case In::tags:
+        if (!value.is_text) refuse("the value of a tag is no text");
+        object_.tags.emplace_back(key_, std::move(value.text));
+        break;
+      default:
+        break;
     }
     return true;
   }
