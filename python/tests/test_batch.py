@@ -170,7 +170,7 @@ def test_volumes_as_zarr(scene, tmp_path):
 def test_workers_know_what_the_scene_lacks(scene, tmp_path):
     from vantage.batch import _scenes
 
-    lack = (("crane", "node/1", 1), "man_made=crane", "nothing tells how wide it is", [40, 0, 0, 42, 2, 40], 40.0, None, "",
+    lack = (("crane", "node/1", 1), "man_made=crane", "nothing tells how wide it is", [-40, -60, 0, -38, -58, 40], 40.0, None, "",
             False, [])
     known = vt.Scene.from_arrays(scene.vertices, scene.faces, object_of=scene.object_of, objects=scene.objects,
                                  attribution="\u00a9 somebody", _ledger=[lack])

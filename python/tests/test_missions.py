@@ -30,8 +30,8 @@ def test_same_bits(path, tmp_path):
             pytest.skip("set VANTAGE_SHARED to the folder that holds data/")
         pytest.skip(f"what it names is made by another step: {error.where}")
     ran = program("compute", path, "-o", tmp_path / "volume.ply", "-q")
-    assert ran.returncode == 0, ran.stderr
     results = mission.run_each()
+    assert ran.returncode == int(any(result.empty for result in results)), ran.stderr
     files = sorted(tmp_path.glob("*.ply"))
     assert len(files) == sum(not result.empty for result in results)
     for result, file in zip(sorted(results, key=lambda one: one.mission.target_name), files):

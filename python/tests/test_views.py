@@ -44,7 +44,7 @@ def test_standpoints_are_inside(placed, standing):
     nearest = standing[1]
     assert nearest.value == pytest.approx(nearest.distance_m) and nearest.bound <= nearest.value
     search, = standing.searches
-    assert search.margin_m == 2 and search.reason == "" and len(search.notes) == 2  # there is no camera, and nobody knows its gimbal
+    assert search.margin_m == 2 and search.reason == "" and len(search.notes) == 1  # there is no camera
     told, = standing.to_dict()["targets"]
     assert told["margin_m"] == 2 and [one["kind"] for one in told["standpoints"]] == [one.kind for one in standing]
     assert repr(standing) == "<vantage.Standpoints: 4 for 1 target>"
