@@ -371,7 +371,7 @@ def void_posts(program: str, raster: Raster, seed: str, kept: pathlib.Path | Non
             z = numbers.uniform(min(near), max(near))
             corners = ", ".join(f"[{a + i:.3f}, {b + j:.3f}, {z:.3f}]" for i, j in ((0, 0), (3, 0), (3, 3), (0, 3)))
             for name in ("sound", "damaged"):
-                (folder / f"{name}.yaml").write_text(f"scene: {{raster: {name}.tif}}\ntarget: {{vertices: [{corners}]}}\n"
+                (folder / f"{name}.yaml").write_text(f"scene: {{raster: {name}.tif, error: 0.001}}\ntarget: {{vertices: [{corners}]}}\n"
                                                      "sensor: {max_range: 70}\n")
             sound = answers(program, "sound.yaml", folder)
             damaged = None if sound is None else answers(program, "damaged.yaml", folder)

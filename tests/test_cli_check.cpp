@@ -112,11 +112,6 @@ TEST_F(CliCheck, PlansThatCannotBeFollowedAreNotJudged) {
   EXPECT_EQ(run({"check", "map.yaml", "a.plan", "--clearance", "1000"}).exit_code, 4);
   write("b.plan", plan({waypoint(48, 11, 30), waypoint(48.0002, 11, 30)}));
   EXPECT_EQ(run({"check", "map.yaml", "b.plan"}).exit_code, 0);
-  // Keeps its height, or descends.
-  write("c.waypoints",
-        "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t0\t1\n1\t0\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n"
-        "2\t0\t3\t16\t0\t0\t0\t0\t48.0002\t11\t0\t1\n");
-  EXPECT_EQ(run({"check", "map.yaml", "c.waypoints"}).exit_code, 4);
   // Above ground, and then a spline above the home.
   write("d.plan", plan({waypoint(48, 11, 30, 10), waypoint(48.0001, 11, 30, 10),
                         simple(82, 3, "[0, 0, 0, 0, 48.0002, 11, 30]")}));

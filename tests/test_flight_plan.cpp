@@ -362,34 +362,16 @@ TEST(ReadFlightPlan, KeepsTheHeightBeforeForTheHeightZero) {
 
 // A Copter keeps the height, and others descend: unless that is the same.
 TEST(ReadFlightPlan, NamesHeightsOfZeroThatNobodyKnows) {
-  const auto row = [](int number, int frame, int command, const std::string& at) {
-    return std::to_string(number) + "\t0\t" + std::to_string(frame) + "\t" + std::to_string(command) +
-           "\t0\t0\t0\t0\t" + at + "\t1\n";
-  };
-  const auto read = [&](const std::string& rows) {
-    return parsed_plan("QGC WPL 110\n" + row(0, 0, 16, "48\t11\t0") + rows);
-  };
-  const std::string up = row(1, 3, 22, "0\t0\t50"), low = row(1, 3, 16, "48\t11\t0");
-  const FlightPlan descends = read(up + row(2, 3, 16, "48\t11.001\t0") + row(3, 3, 16, "48\t11.002\t40"));
+  const auto read = [](const std::vector<std::string>& items) { return plan_for(0, 2, items); };
+  const std::string up = waypoint(48, 11, 50), low = waypoint(48, 11, 0);
+  const FlightPlan descends = read({up, waypoint(48, 11.001, 0), waypoint(48, 11.002, 40)});
   ASSERT_EQ(descends.not_judged.size(), 1u);
   expect_wording(descends.not_judged);
-  EXPECT_EQ(descends.home->height_m, 0);
-  EXPECT_EQ(descends.items.size(), 3u);
-  for (const int command : {17, 18, 19, 82}) {
-    EXPECT_EQ(read(up + row(2, 3, command, "48\t11.001\t0")).not_judged.size(), 1u) << command;
-  }
-  EXPECT_EQ(read(up + row(2, 10, 16, "48\t11.001\t0")).not_judged.size(), 1u) << "above another ground";
-  EXPECT_EQ(read(low + row(2, 0, 16, "48\t11.001\t0")).not_judged.size(), 1u) << "above another level";
-  EXPECT_EQ(read(row(1, 0, 16, "48\t11\t0") + up).not_judged.size(), 1u) << "from the home";
-  EXPECT_TRUE(read(low + row(2, 3, 16, "48\t11.001\t0")).not_judged.empty());
-  EXPECT_TRUE(read(up + row(2, 3, 21, "48\t11.001\t0")).not_judged.empty()) << "it lands";
-  EXPECT_TRUE(read(row(1, 3, 22, "0\t0\t0") + row(2, 3, 16, "48\t11.001\t40")).not_judged.empty()) << "it takes off";
-  const FlightPlan stays = read(row(1, 3, 16, "48\t11\t50") + row(2, 3, 17, "0\t0\t0"));
-  EXPECT_TRUE(stays.not_judged.empty());
-  EXPECT_EQ(stays.items[1].position.height_m, 50);
-  // Also of a plan that does not name the autopilot, or the vehicle.
+  EXPECT_EQ(read({up, waypoint(48, 11.001, 0, 10)}).not_judged.size(), 1u) << "above another ground";
+  EXPECT_EQ(read({low, waypoint(48, 11.001, 0, 0)}).not_judged.size(), 1u) << "above another level";
+  EXPECT_TRUE(read({low, waypoint(48, 11.001, 0)}).not_judged.empty());
   for (const auto& [autopilot, vehicle, count] : {std::tuple(0, 2, 1u), {3, 0, 1u}, {0, 1, 0u}, {12, 0, 0u}}) {
-    EXPECT_EQ(plan_for(autopilot, vehicle, {waypoint(48, 11, 50), waypoint(48.001, 11, 0)}).not_judged.size(), count)
+    EXPECT_EQ(plan_for(autopilot, vehicle, {up, waypoint(48.001, 11, 0)}).not_judged.size(), count)
         << autopilot << ", " << vehicle;
   }
 }

@@ -231,7 +231,8 @@ std::optional<HalfSpaceVolume> compute_half_space_within(const PreparedScene& sc
 
 const Cause& widest_cause(const std::vector<Cause>& causes) {
   const auto area = [](const Cause& cause) { return cause.kind == CauseKind::target_plane ? 0 : cause.area_m2; };
-  return *std::ranges::max_element(causes, {}, area);
+  return *std::max_element(causes.begin(), causes.end(),
+                           [&](const Cause& a, const Cause& b) { return area(a) < area(b); });
 }
 
 }  // namespace vantage::internal::exact

@@ -105,7 +105,7 @@ navigation:
   keep_out:
     - {min: [-9, -9, 20], max: [9, 9, 30]} # the crane
     - {polygon: [[30, 30], [50, 30], [50, 50]], heights: any}
-tour: {aircraft: mavic_3e, climb: 4}
+tour: {vehicle: {kind: multirotor, speed: 8}, clearance: 4}
 exact: {tolerance: 0.02}
 `;
 

@@ -434,7 +434,9 @@ void Runner::add_notes() {
   };
   assume(splines_, "spline waypoint is", "spline waypoints are", " taken as the curves of ArduPilot's Copter");
   assume(old_arcs_, "arc has", "arcs have", " the angle in the second parameter instead of the first");
-  assume(kept_heights_, "item has", "items have", " the height 0, which keeps the height before, as with ArduPilot");
+  assume(kept_heights_, "item has", "items have",
+         " the height 0, which keeps the height before, as with ArduPilot's Copter (its Plane flies at 0 where a "
+         "position is given)");
   assume(airspeeds_, "speed is", "speeds are", " through the air, and taken as over ground");
   assume(unlimited_, "loiter has", "loiters have", " no end: one circle is taken, or a point, and then what follows");
   assume(climbs_, "climb in circles is", "climbs in circles are", " taken as one circle at the height that it ends at");

@@ -50,7 +50,7 @@ class WaypointTable {
       if (!line.empty() && line.front() != '#') add(line, lines.number());
     }
     take_home(plan);
-    run_mission(items_, source_, ZeroHeight::unknown, plan);
+    run_mission(items_, source_, ZeroHeight::keeps, plan);
     check_plan(plan, source_);
     return plan;
   }
