@@ -122,9 +122,10 @@ Json ledger_of(const Scene& scene, const Box& box) {
   return {{"count", scene.ledger.size()}, {"held", held}, {"worst", std::move(list)}};
 }
 
-/// Where they are looked at: moved by the target's offset.
+/// Where they are looked at: moved by the target's offset. A volume to fly through has none.
 Json parts_of(const Target& target) {
   Json parts = Json::array();
+  if (target.is_volume()) return parts;
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
     const Vec3 offset =
         target.offset_m == 0 ? Vec3::Zero() : Vec3(target.offset_m * make_target_frame(target, i).normal);
