@@ -594,8 +594,8 @@ TEST_F(LiveSession, ReadsAMissionWhoseTargetIsRefused) {
 
   const std::string square = std::string(kSquare).substr(0, std::string(kSquare).find('\n') + 1) + limits;
   const Json computed = ask({{"call", "compute"}, {"text", square}}).header["value"];
-  for (const auto& [key, value] : ask({{"call", "read"}, {"text", square}}).header["value"].items())
-    EXPECT_EQ(value, computed[key]) << key;
+  const Json read = ask({{"call", "read"}, {"text", square}}).header["value"];
+  for (const auto& [key, value] : read.items()) EXPECT_EQ(value, computed[key]) << key;
   EXPECT_EQ(code_of({{"call", "read"}, {"text", "target: ["}}), name_of(ErrorCode::yaml_syntax));
   EXPECT_EQ(code_of({{"call", "read"}, {"text", square + "links: [{mesh: volume.ply}]\n"}}),
             name_of(ErrorCode::unknown_key));

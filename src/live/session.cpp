@@ -123,9 +123,8 @@ Json ledger_of(const Scene& scene, const Box& box) {
 }
 
 /// Where they are looked at: moved by the target's offset. A volume to fly through has none.
-Json parts_of(const Target& target) {
-  Json parts = Json::array();
-  if (target.is_volume()) return parts;
+void add_parts(const Target& target, Json& parts) {
+  if (target.is_volume()) return;
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
     const Vec3 offset =
         target.offset_m == 0 ? Vec3::Zero() : Vec3(target.offset_m * make_target_frame(target, i).normal);
@@ -133,6 +132,14 @@ Json parts_of(const Target& target) {
     for (const Vec3& corner : target.parts[i]) corners.push_back(json(Vec3(corner + offset)));
     parts.push_back(std::move(corners));
   }
+}
+
+Json parts_of(const Mission& mission) {
+  Json parts = Json::array();
+  for (const std::vector<Target>& list : mission.views) {
+    for (const Target& target : list) add_parts(target, parts);
+  }
+  if (mission.views.empty()) add_parts(mission.target, parts);
   return parts;
 }
 
@@ -210,7 +217,7 @@ void check_shown(Volume& volume, const std::string& where) {
 /// Of `mission`, whose frame has this normal.
 Json mission_json(const Mission& mission, const Vec3& normal) {
   return {{"name", mission.target.name},
-          {"target", parts_of(mission.target)},
+          {"target", parts_of(mission)},
           {"normal", json(normal)},
           {"range_m", range_limit_m(mission.sensor)},
           {"limits", limits_of(mission)}};

@@ -161,12 +161,12 @@ test("a mission of several targets of which one is refused keeps all", async ({ 
 test("boxes that are not edited stay as they were written", async ({ page }) => {
   await openExample(page);
   const target = "target: {vertices: [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]]}";
-  await open(page, { name: "m.yaml", text: `${target}\n${LIMITS.replace("max: [9, 9, 30]", "max: [30 ft, 9, 30]")}` }, plazaMesh);
+  await open(page, { name: "m.yaml", text: `${target}\n${LIMITS.replace("max: [9, 9, 30]", "max: [3e1, 9, 30]")}` }, plazaMesh);
   await expect.poll(async () => (await mission(page)).maxRange).toBe(90);
   await page.click("#add-box");
   await settled(page);
   const saved = await savedMission(page);
-  expect(saved).toContain("max: [ 30 ft, 9, 30 ]");
+  expect(saved).toContain("max: [ 3e+1, 9, 30 ]");
   expect(saved).toContain("# the crane");
   expect(saved).toContain("heights: any");
   expect((await mission(page)).keepOut.length).toBe(2);
