@@ -152,7 +152,7 @@ test("a mission of several targets of which one is refused keeps all", async ({ 
   await open(page, { name: "m.yaml", text });
   await expect(page.locator("#hint")).toContainText("church_tower");
   await settled(page);
-  expect(await mission(page)).toMatchObject({ maxRange: 90, target: { kind: "written" }, parts: [[[0, 0, 2]], JSON.parse(PIERCED)] });
+  expect(await mission(page)).toMatchObject({ maxRange: 90, target: { kind: "written" }, parts: [JSON.parse(PIERCED), [[0, 0, 2]]] });
   await page.locator("#range").fill("40");
   await settled(page);
   expect(await mission(page)).toMatchObject({ maxRange: 40, incidence: 70, altitude: [3, 50] });
