@@ -414,10 +414,11 @@ void Session::hide_keys() {
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(std::filesystem::absolute(file_)).parent_path();
   for (std::filesystem::path* const named : {&file.scene.file, &file.scene.city.terrain, &file.scene.terrain}) {
-    if (is_web_address(*named))
+    if (is_web_address(*named)) {
       *named = shown_address(*named);
-    else if (!named->empty())
+    } else if (!named->empty()) {
       *named = std::filesystem::absolute(*named).lexically_relative(folder);
+    }
   }
   for (MissionTarget& one : file.targets) {
     if (auto* const target = std::get_if<TargetFile>(&one.source)) target->file = target->name;

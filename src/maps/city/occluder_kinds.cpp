@@ -64,14 +64,15 @@ bool stands_nowhere(const osm::Tags& tags) {
   if (sinks("layer") || sinks("level")) return true;
   // "demolished:building=yes" may be of what stood there before something else.
   bool is_gone = false, is_something = false;
-  for (const auto& [key, value] : tags.all) {
+  for (const auto& [name, value] : tags.all) {
+    const std::string_view key = name;
     const bool says_what = names_a_kind(key);
     if ((says_what || key == "status" || key == "state") && is_one_of(value, gone)) return true;
     is_something |= says_what && says_yes(value);
     const std::size_t colon = key.find(':');
-    if (!is_one_of(std::string_view(key).substr(0, colon), gone) || !says_yes(value)) continue;
+    if (!is_one_of(key.substr(0, colon), gone) || !says_yes(value)) continue;
     if (colon == std::string::npos) return true;
-    is_gone |= names_a_kind(std::string_view(key).substr(colon + 1));
+    is_gone |= names_a_kind(key.substr(colon + 1));
   }
   return is_gone && !is_something;
 }

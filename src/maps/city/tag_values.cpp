@@ -163,9 +163,10 @@ std::string plain_text(std::string_view text) {
 template <typename Visit>
 void for_numbers(std::string text, const Visit& visit) {
   std::vector<std::size_t> commas;
+  const std::string_view all = text;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool begins = is_digit(text[i]) && (i == 0 || !is_digit(text[i - 1]));
-    if (begins && groups_thousands(std::string_view(text).substr(i))) commas.push_back(text.find(',', i));
+    if (begins && groups_thousands(all.substr(i))) commas.push_back(text.find(',', i));
   }
   std::replace(text.begin(), text.end(), ',', '.');
   const char *at = text.data(), *const end = at + text.size();
