@@ -291,10 +291,13 @@ Result = collections.namedtuple("Result", "damage fate judged wrong what")
 
 def try_damage(program: str, city: Map, choices: list, seed: str, kept: pathlib.Path | None) -> Result | None:
     numbers = random.Random(seed)
-    piece = Piece(city, numbers.choice(choices))
     damage = numbers.choice(DAMAGES)
-    sound = piece.text()
-    if not damage(piece, numbers):
+    for _ in range(30):  # few buildings have a courtyard, and fewer a ring of several ways
+        piece = Piece(city, numbers.choice(choices))
+        sound = piece.text()
+        if damage(piece, numbers):
+            break
+    else:
         return None
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
