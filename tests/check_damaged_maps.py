@@ -151,7 +151,7 @@ def move_inner(piece: Piece, numbers: random.Random) -> bool:
         return False
     refs = {n.get("ref") for n in piece.ways[numbers.choice(inner)].iter("nd")}
     others = {n.get("ref") for w in piece.rings() for n in w.iter("nd")}
-    if refs & others:
+    if refs & others or not refs <= piece.nodes.keys():
         return False
     axis, side = numbers.randrange(2), numbers.choice((-1, 1))
     places = [piece.nodes[r] for r in refs]

@@ -83,15 +83,26 @@ TEST(CityForm, WhatIsNoPlainNumberIsTakenForTheMostThatItMayMean) {
                                                                {"0.3 km?", 300},
                                                                {"0.2 kilometres", 200},
                                                                {"12+3", 15},
-                                                               {"5'11\" or so", 1.524}};
+                                                               {"~5'11\"", 1.8034},
+                                                               {"R+5", 18},
+                                                               {"GF + 5", 18},
+                                                               {"22 + antenna", 22},
+                                                               {"1\u00bd-2\u00bd", 2.5},
+                                                               {"~2 1/2 m", 2.5},
+                                                               {"built 2020, 35 m", 35},
+                                                               {"35 m, built 2020", 35},
+                                                               {"12 in height", 12},
+                                                               {"~12 in", 0.3048},
+                                                               {"2,000,000", 2e6}};  // which is too large to be one
   for (const auto& [text, metres] : lengths) {
     const std::optional<double> length = roughly_length_m(text, 3);
     ASSERT_TRUE(length) << text;
     EXPECT_NEAR(*length, metres, 1e-9) << text;
   }
   EXPECT_FALSE(parse_length_m("1,250 ft")) << "a thousand, or one and a quarter";
-  const std::vector<std::pair<const char*, double>> levels = {{"5+1", 6}, {"G+5", 6}, {"2-3", 3},     {"2\u00bd", 2.5},
-                                                              {"~7", 7},  {"3+", 3},  {"1,250", 1.25}};
+  const std::vector<std::pair<const char*, double>> levels = {{"5+1", 6},        {"G+5", 6},      {"2-3", 3},      {"2\u00bd", 2.5},
+                                                              {"2 \u00bd", 2.5}, {"~7", 7},       {"3+", 3},       {"1,250", 1.25},
+                                                              {"R+5", 6},        {"P+5+Pk", 7},   {"2019: 5", 5},  {"2 1/2", 2.5}};
   for (const auto& [text, count] : levels) EXPECT_EQ(roughly_levels(text), count) << text;
   for (const char* text : {"", "high", "-", "?"}) EXPECT_FALSE(roughly_length_m(text, 3)) << text;
 }

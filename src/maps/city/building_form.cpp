@@ -143,6 +143,7 @@ class FormReader {
   void read_roof_height() {
     const auto roughly = [&](std::string_view value) { return roughly_length_m(value, defaults_.roof_level_m); };
     std::optional<double> levels;
+    const auto before = static_cast<std::ptrdiff_t>(remarks_.size());
     for (const std::string_view key : {"roof:height", "building:roof:height"}) {
       if (!roof_m_) roof_m_ = sized(key, parse_length_m, roughly, kHighest, " m");
     }
@@ -150,6 +151,9 @@ class FormReader {
       if (!levels) levels = sized(key, parse_levels, roughly_levels, kMostLevels, "");
     }
     roof_unheard_.swap(unheard_);
+    // Too high a roof has too low eaves.
+    form_.is_box |= std::any_of(remarks_.begin() + before, remarks_.end(),
+                                [](const TagRemark& remark) { return remark.fault == TagFault::rough; });
     if (roof_m_ && *roof_m_ == 0) form_.roof = RoofShape::flat;
     if (!roof_m_ && levels && *levels > 0) roof_m_ = *levels * defaults_.roof_level_m;
     if (roof_m_ || form_.roof == RoofShape::flat) return;

@@ -144,24 +144,45 @@ std::optional<double> largest(std::string_view list, const Parse& parse, const B
   }
 }
 
-/// In lower case, with plain marks and digits, and fractions as decimals. Full-width digits are U+FF10 to U+FF19.
+/// In lower case, with plain marks and digits, and fractions as decimals: also "2 1/2". Full-width digits are U+FF10 to
+/// U+FF19.
 std::string plain_text(std::string_view text) {
   std::string result = plain_marks(lower(text));
-  for (const auto& [sign, decimals] : {std::pair("\u00bc", ".25"), {"\u00bd", ".5"}, {"\u00be", ".75"}}) {
-    const std::size_t at = result.find(sign);
-    if (at != std::string::npos) result.replace(at, 2, decimals);
-  }
   for (char digit = '0'; digit <= '9'; ++digit) {
     const std::string wide = {'\xEF', '\xBC', static_cast<char>('\x90' + (digit - '0'))};
     for (std::size_t at = 0; (at = result.find(wide, at)) != std::string::npos; ++at) result.replace(at, 3, 1, digit);
   }
+  static constexpr std::array<std::array<std::string_view, 3>, 3> fractions = {
+      {{"\u00bc", "1/4", ".25"}, {"\u00bd", "1/2", ".5"}, {"\u00be", "3/4", ".75"}}};
+  for (const auto& [sign, words, decimals] : fractions) {
+    for (const std::string_view fraction : {sign, words}) {
+      for (std::size_t at = 0; (at = result.find(fraction, at)) != std::string::npos;) {
+        std::size_t begin = at;
+        while (begin > 0 && is_space(result[begin - 1])) --begin;
+        const bool follows = begin > 0 && is_digit(result[begin - 1]);
+        if (fraction == words && (begin == at) == follows) {  // "11/2", or no number before it
+          ++at;
+          continue;
+        }
+        if (!follows) begin = at;
+        result.replace(begin, at + fraction.size() - begin, decimals);
+        at = begin + decimals.size();
+      }
+    }
+  }
   return result;
 }
 
-/// Calls `visit` with each number in a text, exponents too, and with the word or mark that follows it: also
-/// "10-storey", "10 (storeys)". What may be thousands is visited as such as well.
-template <typename Visit>
-void for_numbers(std::string text, const Visit& visit) {
+/// A number of a text, and the word or mark that follows it.
+struct Term {
+  double number = 0;
+  std::string_view unit;
+  bool is_last = false;  ///< nothing follows the word
+};
+
+/// The numbers of a text, exponents too: also "10-storey", "10 (storeys)". What may be thousands is one of them as well.
+/// `text`: as plain_text() gives it, with points for commas from here on.
+std::vector<Term> terms_of(std::string& text) {
   std::vector<std::size_t> commas;
   const std::string_view all = text;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -169,6 +190,7 @@ void for_numbers(std::string text, const Visit& visit) {
     if (begins && groups_thousands(all.substr(i))) commas.push_back(text.find(',', i));
   }
   std::replace(text.begin(), text.end(), ',', '.');
+  std::vector<Term> terms;
   const char *at = text.data(), *const end = at + text.size();
   const auto is_mark = [](char c) { return c == '\'' || c == '"'; };
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; };
@@ -185,13 +207,47 @@ void for_numbers(std::string text, const Visit& visit) {
     if (unit == end || !(is_letter(*unit) || is_mark(*unit))) unit = next;
     at = std::find_if_not(unit, end, [&](char c) { return is_letter(c) || is_mark(c); });
     const std::string_view word(unit, static_cast<std::size_t>(at - unit));
-    visit(value, word);
+    const bool is_last = std::find_if_not(at, end, is_space) == end;
+    terms.push_back({value, word, is_last});
     for (const std::size_t comma : commas) {
       const char* const point = text.data() + comma;
-      if (begin < point && point < next) visit(1000 * value, word);
+      if (begin < point && point < next) terms.push_back({1000 * value, word, is_last});
     }
     at = std::max(at, next);
   }
+  return terms;
+}
+
+/// Floors of "R+5" or "P+5+Pk" that have no number: the words between the signs, where the first is one; else 0.
+int floors_in_words(std::string_view text) {
+  int words = 0;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('+', at), text.size());
+    const std::string_view part = text.substr(at, end - at);
+    const bool is_word = std::any_of(part.begin(), part.end(), [](char c) { return c >= 'a' && c <= 'z'; }) &&
+                         std::none_of(part.begin(), part.end(), is_digit);
+    if (at == 0 && (!is_word || end == text.size())) return 0;
+    words += is_word ? 1 : 0;
+    at = end + 1;
+  }
+  return words;
+}
+
+/// The largest of `values` that is no more than `most`, or the sum of these and `more`. Where none is, the least that is
+/// more: nothing else is said.
+std::optional<double> largest_up_to(double most, const std::vector<double>& values, bool adds, double more = 0) {
+  double result = 0, sum = more;
+  std::optional<double> beyond;
+  for (const double value : values) {
+    if (value <= most) {
+      result = std::max(result, value);
+      sum += value;
+    } else if (std::isfinite(value)) {
+      beyond = std::min(beyond.value_or(value), value);
+    }
+  }
+  if (result == 0) return values.empty() || beyond ? beyond : std::optional(0.0);
+  return adds ? std::max(result, sum) : result;
 }
 
 bool counts_levels(std::string_view unit) {
@@ -212,36 +268,30 @@ std::optional<double> parse_levels(std::string_view text) { return largest(text,
 std::optional<double> parse_lowest_levels(std::string_view text) { return largest(text, plain_number, std::less<>()); }
 
 std::optional<double> roughly_length_m(std::string_view text, double level_m) {
-  constexpr double kMost = 1500;  // metres: what is higher was no thousand
-  const std::string plain = plain_text(text);
-  const bool sums = plain.find('+') != std::string::npos, has_ground_floor = plain.find("g+") != std::string::npos;
-  std::optional<double> most;
-  double sum = 0;
-  for_numbers(plain, [&](double number, std::string_view unit) {
-    const bool is_levels = counts_levels(unit) || has_ground_floor;
+  constexpr double kMost = 1500;  // metres: what is higher was a year, or no thousand
+  std::string plain = plain_text(text);
+  const double floors = floors_in_words(plain);
+  bool has_feet = false, has_inches = false;
+  std::vector<double> lengths;
+  for (const auto& [number, unit, is_last] : terms_of(plain)) {
     const bool is_kilometres = unit.starts_with("km") || unit.starts_with("kilo");
-    const double metres = is_levels       ? (number + (has_ground_floor ? 1 : 0)) * level_m
-                          : is_kilometres ? 1000 * number
-                                          : number * unit_m(unit).value_or(1);
-    if (!(metres <= kMost) && most) return;
-    if (std::isfinite(metres)) most = std::max(most.value_or(0), metres);
-    sum += std::isfinite(metres) ? metres : 0;
-  });
-  return most && sums ? std::max(*most, sum) : most;
+    const bool is_word = unit == "in" && !is_last;  // "12 in height"
+    has_feet |= unit == "'" || unit.starts_with("f");
+    has_inches |= unit == "\"" || unit.starts_with("in");
+    lengths.push_back(floors > 0 || counts_levels(unit) ? number * level_m
+                      : is_kilometres                   ? 1000 * number
+                                                        : number * (is_word ? 1 : unit_m(unit).value_or(1)));
+  }
+  const bool adds = plain.find('+') != std::string::npos || (has_feet && has_inches);
+  return largest_up_to(kMost, lengths, adds, floors * level_m);
 }
 
 std::optional<double> roughly_levels(std::string_view text) {
-  const std::string plain = plain_text(text);
-  std::optional<double> most;
-  double sum = 0;
-  for_numbers(plain, [&](double number, std::string_view) {
-    constexpr double kMost = 300;  // what is more was no thousand
-    if (number > kMost && most) return;
-    most = std::max(most.value_or(0), number);
-    sum += number;
-  });
-  if (!most || plain.find('+') == std::string::npos) return most;
-  return sum + (plain.find("g+") != std::string::npos ? 1 : 0);  // a ground floor and five
+  constexpr double kMost = 300;
+  std::string plain = plain_text(text);
+  std::vector<double> levels;
+  for (const Term& term : terms_of(plain)) levels.push_back(term.number);
+  return largest_up_to(kMost, levels, plain.find('+') != std::string::npos, floors_in_words(plain));
 }
 
 std::optional<double> parse_direction_deg(std::string_view text) {
