@@ -123,7 +123,7 @@ def maps() -> Iterator[Bomb]:
         + "".join(f'<node id="{i}" lat="{48 + i * 7919 % nodes * 1e-7:.7f}" lon="{11 + i * 104729 % nodes * 1e-7:.7f}"/>'
                   for i in range(1, nodes))
         + '<way id="99">' + "".join(f'<nd ref="{i}"/>' for i in range(1, nodes))
-        + '<nd ref="1"/><tag k="building" v="yes"/></way></osm>').encode())
+        + '<nd ref="1"/><tag k="building" v="yes"/></way></osm>').encode(), is_refused=False)  # its hull stands in
 
 
 def headers() -> Iterator[Bomb]:
