@@ -124,7 +124,7 @@ void Bridge::serve() {
       stage = stage_;
       fraction = fraction_;
     }
-    attend(stage, fraction, has_news);  // also of work that took less time than the wait: whether it is told is not luck
+    attend(stage, fraction, has_news);  // also of work that is done before the first wait is over
     if (is_last) return;
   }
 }

@@ -33,7 +33,7 @@ void check(const Extract& extract) {
     check(area.tags);
     require(!area.polygons.empty(), "an area has a polygon");
     for (const auto& polygon : area.polygons) {
-      require(polygon.outer.size() >= (polygon.incomplete ? 1U : 3U), "a ring has three corners, or what is known of it");
+      require(polygon.outer.size() >= (polygon.incomplete ? 1U : 3U), "a ring has three corners, or what is known");
       for (const LonLat position : polygon.outer) check(position);
       for (const auto& hole : polygon.holes) require(hole.size() >= 3, "a hole has three corners");
     }
