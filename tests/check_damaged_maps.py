@@ -181,8 +181,7 @@ def garble_height(piece: Piece, numbers: random.Random) -> bool:
     if height <= 0:
         return False
     form = numbers.choice(("~{h:g}", "{l:g}-{h:g}", "{h:g} m (approx)", "{l:g}m - {h:g}m", "ca. {h:g}", "{h:g} yd",
-                           "{h:g}+",
-                           "c{h:g}", "{h:g}/{l:g}", "{h:g} to {l:g} m"))
+                           "{h:g}+", "c{h:g}", "{h:g}/{l:g}", "{h:g} to {l:g} m"))
     tag.set("v", form.format(h=height, l=max(1, round(height / 2))))
     return True
 
