@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -154,13 +155,14 @@ Mesh every_post(const HeightGrid& grid, std::vector<Vec3> posts) {
 }
 
 /// The facets inside the border, whose posts are the vertices that follow the four corners of the network: all that
-/// cannot be reached from those without crossing it.
-std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size, const fs::path& file) {
+/// cannot be reached from those without crossing it. `places`: where along the border each of these vertices lies.
+std::vector<bool> inside_border(const Tin& tin, const std::vector<std::uint32_t>& places, const fs::path& file) {
   const auto& facets = tin.facets();
+  const auto border_size = static_cast<std::uint32_t>(places.size());
   const auto on_border = [&](std::uint32_t from, std::uint32_t to) {
     if (from < 4 || to < 4 || from >= 4 + border_size || to >= 4 + border_size) return false;
-    const std::uint32_t apart = from > to ? from - to : to - from;
-    return apart == 1 || apart == border_size - 1;
+    const auto [first, last] = std::minmax(places[from - 4], places[to - 4]);
+    return last - first == 1 || last - first == border_size - 1;
   };
   std::vector<bool> inside(facets.size(), true);
   std::vector<std::uint32_t> open;
@@ -209,17 +211,28 @@ Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double m
   const double far = 10 * (box.max - box.min).head<2>().maxCoeff();
   Tin tin({middle + Vec3(-far, -far, 0), middle + Vec3(far, -far, 0), middle + Vec3(far, far, 0),
            middle + Vec3(-far, far, 0)});
-  const std::vector<std::uint32_t> border = border_of(grid);
-  for (const std::uint32_t post : border) tin.insert(posts[post]);
-  std::vector<Vec3> candidates;
   const auto columns = static_cast<std::size_t>(grid.columns), rows = static_cast<std::size_t>(grid.rows);
+  // From one end of the raster to the other: a post of a long side would else replace the facets of all of the
+  // opposite.
+  const std::vector<std::uint32_t> border = border_of(grid);
+  std::vector<std::uint32_t> places(border.size());
+  std::iota(places.begin(), places.end(), 0U);
+  const auto along = [&](std::uint32_t place) {
+    return rows > columns ? border[place] / columns : border[place] % columns;
+  };
+  std::stable_sort(places.begin(), places.end(), [&](auto a, auto b) { return along(a) < along(b); });
+  for (const std::uint32_t place : places) {
+    progress.tick();
+    tin.insert(posts[border[place]]);
+  }
+  std::vector<Vec3> candidates;
   for (std::size_t row = 1; row + 1 < rows; ++row) {
     const auto first = posts.begin() + static_cast<std::ptrdiff_t>(row * columns);
     candidates.insert(candidates.end(), first + 1, first + static_cast<std::ptrdiff_t>(columns) - 1);
   }
   tin.add_candidates(candidates);
   grow(tin, max_error_m, progress);
-  return mesh_of(tin, inside_border(tin, static_cast<std::uint32_t>(border.size()), file));
+  return mesh_of(tin, inside_border(tin, places, file));
 }
 
 }  // namespace
