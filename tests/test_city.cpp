@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/solid_check.h"
 #include "geo/local_frame.h"
@@ -305,6 +308,92 @@ TEST_F(CityTest, TakesWhatHasACornerInTheRegionWhole) {
   EXPECT_NEAR(bounding_box(object_mesh(city.scene, "way/2")).max.x(), 140, 1e-2);
 }
 
+/// What a map holds round a small region, or reaching into it, is built for it as for the whole map.
+TEST_F(CityTest, WhatStandsInTheRegionIsBuiltHoweverItIsDrawn) {
+  const MapText::TagList block = {{"building", "yes"}, {"height", "50"}};
+  const double r = 1500;
+  const MapText::Positions corners = {{r, -r}, {-r, -r}, {-r, r}, {r, r}};
+  const MapText::Positions twice = {{-r, -r}, {r, -r}, {r, r}, {-r, r}, {-r, -r}, {r, -r}, {r, r}, {-r, r}};
+  const MapText::Positions open = {{r, -1}, {r, -r}, {-r, -r}, {-r, r}, {r, r}, {r, 1}};
+  // Of a square on a corner, whose lowest is missing.
+  const MapText::Positions on_corner = {{600, 590}, {2800, 2790}, {0, 5590}, {-2800, 2790}, {-600, 590}};
+  const MapText::TagList rotor = {{"power", "generator"}, {"generator:source", "wind"}, {"height", "200"}};
+  const auto unfinished = [&](MapText& map, const MapText::Positions& known) {
+    std::vector<long> refs;
+    for (const auto& [east, north] : known) refs.push_back(map.node(east, north));
+    refs.insert(refs.end(), {999, refs.front()});
+    map.way(refs, block);
+  };
+  const auto group = [&](MapText& map, long one, const char* role, long other, const char* other_role) {
+    const bool is_outline = std::string(role) == "outline";
+    map.relation({{"way", one, role}, {"way", other, other_role}},
+                 {{"type", is_outline ? "building" : "multipolygon"}, {"building", "yes"}, {"height", "50"}});
+  };
+  using Draw = std::function<void(MapText&)>;
+  const std::vector<std::pair<const char*, Draw>> cases = {
+      {"open way", [&](MapText& m) { m.line(open, block); }},
+      {"wound twice", [&](MapText& m) { m.area(twice, block); }},
+      {"rare kind",
+       [&](MapText& m) {
+         m.area(corners, {{"attraction", "animal"}, {"height", "30"}});
+       }},
+      {"open castle",
+       [&](MapText& m) {
+         m.line(corners, {{"historic", "castle"}, {"height", "30"}});
+       }},
+      {"corner missing", [&](MapText& m) { unfinished(m, corners); }},
+      {"corner of a turned rectangle", [&](MapText& m) { unfinished(m, on_corner); }},
+      {"outer twice", [&](MapText& m) { group(m, m.area(corners, {}), "outer", m.area(corners, {}), "outer"); }},
+      {"all hole", [&](MapText& m) { group(m, m.area(corners, {}), "outer", m.area(corners, {}), "inner"); }},
+      {"nested", [&](MapText& m) { group(m, m.area(corners, {}), "outer", m.box(-900, -900, 900, 900, {}), "outer"); }},
+      {"open ring", [&](MapText& m) { group(m, m.line(open, {}), "outer", m.box(-900, 800, 900, 900, {}), "outer"); }},
+      {"half missing", [&](MapText& m) { group(m, m.line(corners, {}), "outer", 99, "outer"); }},
+      {"outline without tags", [&](MapText& m) { group(m, m.area(corners, {}), "outline", m.area(corners, {}), ""); }},
+      {"point", [&](MapText& m) { m.node(25, 0, block); }},
+      {"rotor", [&](MapText& m) { m.node(60, 0, rotor); }},
+      {"crown",
+       [&](MapText& m) {
+         m.node(0, -24, {{"natural", "tree"}, {"height", "20"}});
+       }},
+      {"wide wall", [&](MapText& m) {
+         m.line({{-9, 22}, {9, 22}}, {{"barrier", "wall"}, {"width", "6"}});
+       }}};
+  for (const auto& [name, draw] : cases) {
+    SCOPED_TRACE(name);
+    MapText map;
+    map.box(5, 5, 10, 10, {{"building", "yes"}, {"height", "3"}});
+    draw(map);
+    CityOptions options;
+    options.region.center_deg = {48.1374, 11.5755};
+    options.region.radius_m = 6000;
+    const City whole = build(map, options);
+    ASSERT_EQ(whole.report.records.size(), 2U);
+    options.region.radius_m = 20;
+    const City part = build(map, options);
+    ASSERT_EQ(part.report.records.size(), 2U);
+    EXPECT_EQ(part.report.outside, 0U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(part.report.records[i].object, whole.report.records[i].object);
+      EXPECT_NEAR(part.report.records[i].footprint_m2, whole.report.records[i].footprint_m2, 0.01);
+    }
+  }
+}
+
+TEST_F(CityTest, WhatOnlyLiesRoundTheRegionIsNotBuilt) {
+  MapText map;
+  map.box(5, 5, 10, 10, {{"building", "yes"}, {"height", "3"}});
+  const long outer = map.box(-1500, -1500, 1500, 1500, {}), inner = map.box(-1000, -1000, 1000, 1000, {});
+  map.relation({{"way", outer, "outer"}, {"way", inner, "inner"}}, {{"type", "multipolygon"}, {"building", "yes"}});
+  map.box(-500, -500, 500, 500, {{"barrier", "wall"}});
+  map.node(33, 0, {{"building", "yes"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 20;
+  const City city = build(map, options);
+  EXPECT_EQ(city.report.records.size(), 1U);
+  EXPECT_EQ(city.report.outside, 3U);
+}
+
 TEST_F(CityTest, ABuildingComesWithAllItsParts) {
   MapText map;
   map.box(50, 0, 250, 20, {{"building", "yes"}, {"height", "9"}});
@@ -470,11 +559,14 @@ TEST_F(CityTest, WhatStandsInIsAboveAllGroundUnderIt) {
   map.area({{-100, -200}, {100, -200}, {100, 200}}, {{"natural", "wood"}, {"height", "20"}});
   map.box(200, 0, 210, 16, {{"natural", "wood"}, {"height", "20"}});
   const long first = map.node(-300, -20), second = map.node(-260, -20), third = map.node(-260, 20);
-  map.way({first, second, third, 999, map.node(-300, -10), first}, {{"building", "yes"}, {"height", "15"}, {"roof:shape", "gabled"}});
+  map.way({first, second, third, 999, map.node(-300, -10), first},
+          {{"building", "yes"}, {"height", "15"}, {"roof:shape", "gabled"}});
   map.node(250, 0, {{"building", "yes"}, {"height", "9"}});
   map.box(300, 0, 310, 10, {{"building", "yes"}, {"height", "9"}});
   CityOptions options;
   options.terrain = slope(0.5);
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 2000;
   const City city = build(map, options);
   const Mesh ground = object_mesh(city.scene, "ground");
   const double z = highest_over(ground, 0, 0);
