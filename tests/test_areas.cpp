@@ -90,6 +90,12 @@ TEST_F(Areas, OfARegionReachIntoIt) {
   EXPECT_EQ(ids({}, false, region), (Ids{"way/1", "way/2"})) << "the lot ends 70 m from the centre";
   region.radius_m = 60;
   EXPECT_EQ(ids({}, false, region), (Ids{"way/2"}));
+  const geo::LonLat in_hole = geo::LocalFrame({11.5755, 48.1374}).to_lonlat({520, 20});
+  region.center_deg = {in_hole.latitude_deg, in_hole.longitude_deg};
+  region.radius_m = 11;
+  EXPECT_EQ(ids({}, false, region), (Ids{"relation/1"}));
+  region.radius_m = 9;
+  testing::expect_error([&] { of({}, false, region); }, ErrorCode::map_object_missing);
 }
 
 TEST_F(Areas, ThatAreNotThereAreExplained) {

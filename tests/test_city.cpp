@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/solid_check.h"
 #include "geo/local_frame.h"
@@ -31,6 +34,23 @@ class CityTest : public ::testing::Test {
   City build(const MapText& map, const CityOptions& options = {}) {
     write_bytes(folder_ / "city.osm", map.text());
     return build_city(folder_ / "city.osm", options);
+  }
+
+  /// A raster of a plane that rises to the north, 500 m high at the origin of maps; posts 0.0005 degrees apart.
+  std::filesystem::path slope(double rise) {
+    std::string grid =
+        "ncols 41\nnrows 41\nxllcenter 11.5655\nyllcenter 48.1274\ncellsize 0.0005\nNODATA_value -9999\n";
+    for (int row = 0; row < 41; ++row) {
+      const double north = (20 - row) * 0.0005 * 111200;
+      for (int column = 0; column < 41; ++column) grid += std::to_string(500 + north * rise) + " ";
+      grid += "\n";
+    }
+    write_bytes(folder_ / "dem.asc", grid);
+    write_bytes(
+        folder_ / "dem.prj",
+        "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
+        "UNIT[\"degree\",0.0174532925199433]]");
+    return folder_ / "dem.asc";
   }
 
   void expect_refused(const MapText& map, const CityOptions& options, ErrorCode code) {
@@ -288,6 +308,92 @@ TEST_F(CityTest, TakesWhatHasACornerInTheRegionWhole) {
   EXPECT_NEAR(bounding_box(object_mesh(city.scene, "way/2")).max.x(), 140, 1e-2);
 }
 
+/// What a map holds round a small region, or reaching into it, is built for it as for the whole map.
+TEST_F(CityTest, WhatStandsInTheRegionIsBuiltHoweverItIsDrawn) {
+  const MapText::TagList block = {{"building", "yes"}, {"height", "50"}};
+  const double r = 1500;
+  const MapText::Positions corners = {{r, -r}, {-r, -r}, {-r, r}, {r, r}};
+  const MapText::Positions twice = {{-r, -r}, {r, -r}, {r, r}, {-r, r}, {-r, -r}, {r, -r}, {r, r}, {-r, r}};
+  const MapText::Positions open = {{r, -1}, {r, -r}, {-r, -r}, {-r, r}, {r, r}, {r, 1}};
+  // Of a square on a corner, whose lowest is missing.
+  const MapText::Positions on_corner = {{600, 590}, {2800, 2790}, {0, 5590}, {-2800, 2790}, {-600, 590}};
+  const MapText::TagList rotor = {{"power", "generator"}, {"generator:source", "wind"}, {"height", "200"}};
+  const auto unfinished = [&](MapText& map, const MapText::Positions& known) {
+    std::vector<long> refs;
+    for (const auto& [east, north] : known) refs.push_back(map.node(east, north));
+    refs.insert(refs.end(), {999, refs.front()});
+    map.way(refs, block);
+  };
+  const auto group = [&](MapText& map, long one, const char* role, long other, const char* other_role) {
+    const bool is_outline = std::string(role) == "outline";
+    map.relation({{"way", one, role}, {"way", other, other_role}},
+                 {{"type", is_outline ? "building" : "multipolygon"}, {"building", "yes"}, {"height", "50"}});
+  };
+  using Draw = std::function<void(MapText&)>;
+  const std::vector<std::pair<const char*, Draw>> cases = {
+      {"open way", [&](MapText& m) { m.line(open, block); }},
+      {"wound twice", [&](MapText& m) { m.area(twice, block); }},
+      {"rare kind",
+       [&](MapText& m) {
+         m.area(corners, {{"attraction", "animal"}, {"height", "30"}});
+       }},
+      {"open castle",
+       [&](MapText& m) {
+         m.line(corners, {{"historic", "castle"}, {"height", "30"}});
+       }},
+      {"corner missing", [&](MapText& m) { unfinished(m, corners); }},
+      {"corner of a turned rectangle", [&](MapText& m) { unfinished(m, on_corner); }},
+      {"outer twice", [&](MapText& m) { group(m, m.area(corners, {}), "outer", m.area(corners, {}), "outer"); }},
+      {"all hole", [&](MapText& m) { group(m, m.area(corners, {}), "outer", m.area(corners, {}), "inner"); }},
+      {"nested", [&](MapText& m) { group(m, m.area(corners, {}), "outer", m.box(-900, -900, 900, 900, {}), "outer"); }},
+      {"open ring", [&](MapText& m) { group(m, m.line(open, {}), "outer", m.box(-900, 800, 900, 900, {}), "outer"); }},
+      {"half missing", [&](MapText& m) { group(m, m.line(corners, {}), "outer", 99, "outer"); }},
+      {"outline without tags", [&](MapText& m) { group(m, m.area(corners, {}), "outline", m.area(corners, {}), ""); }},
+      {"point", [&](MapText& m) { m.node(25, 0, block); }},
+      {"rotor", [&](MapText& m) { m.node(60, 0, rotor); }},
+      {"crown",
+       [&](MapText& m) {
+         m.node(0, -24, {{"natural", "tree"}, {"height", "20"}});
+       }},
+      {"wide wall", [&](MapText& m) {
+         m.line({{-9, 22}, {9, 22}}, {{"barrier", "wall"}, {"width", "6"}});
+       }}};
+  for (const auto& [name, draw] : cases) {
+    SCOPED_TRACE(name);
+    MapText map;
+    map.box(5, 5, 10, 10, {{"building", "yes"}, {"height", "3"}});
+    draw(map);
+    CityOptions options;
+    options.region.center_deg = {48.1374, 11.5755};
+    options.region.radius_m = 6000;
+    const City whole = build(map, options);
+    ASSERT_EQ(whole.report.records.size(), 2U);
+    options.region.radius_m = 20;
+    const City part = build(map, options);
+    ASSERT_EQ(part.report.records.size(), 2U);
+    EXPECT_EQ(part.report.outside, 0U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(part.report.records[i].object, whole.report.records[i].object);
+      EXPECT_NEAR(part.report.records[i].footprint_m2, whole.report.records[i].footprint_m2, 0.01);
+    }
+  }
+}
+
+TEST_F(CityTest, WhatOnlyLiesRoundTheRegionIsNotBuilt) {
+  MapText map;
+  map.box(5, 5, 10, 10, {{"building", "yes"}, {"height", "3"}});
+  const long outer = map.box(-1500, -1500, 1500, 1500, {}), inner = map.box(-1000, -1000, 1000, 1000, {});
+  map.relation({{"way", outer, "outer"}, {"way", inner, "inner"}}, {{"type", "multipolygon"}, {"building", "yes"}});
+  map.box(-500, -500, 500, 500, {{"barrier", "wall"}});
+  map.node(33, 0, {{"building", "yes"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 20;
+  const City city = build(map, options);
+  EXPECT_EQ(city.report.records.size(), 1U);
+  EXPECT_EQ(city.report.outside, 3U);
+}
+
 TEST_F(CityTest, ABuildingComesWithAllItsParts) {
   MapText map;
   map.box(50, 0, 250, 20, {{"building", "yes"}, {"height", "9"}});
@@ -420,20 +526,8 @@ TEST_F(CityTest, StandsOnTerrain) {
   map.box(-10, -10, 10, 10, {{"building", "yes"}, {"height", "12"}});
   map.box(-10, -10, 10, 0, {{"building:part", "yes"}, {"height", "12"}});
   map.box(-10, 0, 10, 10, {{"building:part", "yes"}, {"height", "12"}});
-  // A plane that rises to the north by 1 m in 10, 500 m high at the origin; posts 0.0005 degrees apart.
-  std::string grid = "ncols 41\nnrows 41\nxllcenter 11.5655\nyllcenter 48.1274\ncellsize 0.0005\nNODATA_value -9999\n";
-  for (int row = 0; row < 41; ++row) {
-    const double north = (20 - row) * 0.0005 * 111200;
-    for (int column = 0; column < 41; ++column) grid += std::to_string(500 + north / 10) + " ";
-    grid += "\n";
-  }
-  write_bytes(folder_ / "dem.asc", grid);
-  write_bytes(
-      folder_ / "dem.prj",
-      "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
-      "UNIT[\"degree\",0.0174532925199433]]");
   CityOptions options;
-  options.terrain = folder_ / "dem.asc";
+  options.terrain = slope(0.1);
   options.region.center_deg = {48.1374, 11.5755};
   options.region.radius_m = 100;
   const City city = build(map, options);
@@ -443,6 +537,60 @@ TEST_F(CityTest, StandsOnTerrain) {
   }
   const Box ground = bounding_box(object_mesh(city.scene, "ground"));
   EXPECT_NEAR(ground.max.z() - ground.min.z(), 0.1 * (20 + 2 * options.ground_margin_m), 0.2);
+}
+
+/// z of the highest facet over a place; minus infinity where there is none.
+double highest_over(const Mesh& mesh, double x, double y) {
+  double highest = -HUGE_VAL;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 normal = (b - a).cross(c - a);
+    const auto is_left = [&](const Vec3& p, const Vec3& q) {
+      return (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x()) >= 0;
+    };
+    if (!(normal.z() > 0) || !is_left(a, b) || !is_left(b, c) || !is_left(c, a)) continue;
+    highest = std::max(highest, a.z() - (normal.x() * (x - a.x()) + normal.y() * (y - a.y())) / normal.z());
+  }
+  return highest;
+}
+
+TEST_F(CityTest, WhatStandsInIsAboveAllGroundUnderIt) {
+  MapText map;
+  map.area({{-100, -200}, {100, -200}, {100, 200}}, {{"natural", "wood"}, {"height", "20"}});
+  map.box(200, 0, 210, 16, {{"natural", "wood"}, {"height", "20"}});
+  const long first = map.node(-300, -20), second = map.node(-260, -20), third = map.node(-260, 20);
+  map.way({first, second, third, 999, map.node(-300, -10), first},
+          {{"building", "yes"}, {"height", "15"}, {"roof:shape", "gabled"}});
+  map.node(250, 0, {{"building", "yes"}, {"height", "9"}});
+  map.box(300, 0, 310, 10, {{"building", "yes"}, {"height", "9"}});
+  CityOptions options;
+  options.terrain = slope(0.5);
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 2000;
+  const City city = build(map, options);
+  const Mesh ground = object_mesh(city.scene, "ground");
+  const double z = highest_over(ground, 0, 0);
+  // In pieces, at most 20 m higher than they must be.
+  const Mesh wood = object_mesh(city.scene, "way/1");
+  for (double north = -199.5; north < 199; north += 3.7) {
+    for (double east = 99.5; east > -99.5 + (north + 200) / 2; east -= 3.3) {
+      const double above = highest_over(wood, east, north) - highest_over(ground, east, north);
+      EXPECT_GE(above, 20 - 1e-3) << east << " " << north;
+      EXPECT_LE(above, 40 + 1e-3) << east << " " << north;
+    }
+  }
+  EXPECT_NEAR(record_of(city, "way/1").base_m, z - 100, 0.2);
+  const std::string& instead = city.scene.ledger.at(1).instead;
+  EXPECT_NE(instead.find(" pieces, each up to its height above the highest ground"), std::string::npos) << instead;
+  // In one piece.
+  EXPECT_NEAR(record_of(city, "way/2").base_m, z, 0.1);
+  EXPECT_NEAR(record_of(city, "way/2").top_m, z + 8 + 20, 0.1);
+  EXPECT_NEAR(record_of(city, "node/12").top_m - record_of(city, "node/12").base_m, 20 * 0.5 + 9, 0.3);
+  // The whole rectangle, without a roof.
+  const Mesh tall = object_mesh(city.scene, "way/3");
+  EXPECT_GE(highest_over(tall, -299, 19), highest_over(ground, -299, 19) + 15);
+  EXPECT_GE(highest_over(tall, -261, 19), highest_over(ground, -261, 19) + 15);
+  EXPECT_NEAR(record_of(city, "way/4").top_m, z + 9, 0.1) << "a building's height counts from the lowest";
 }
 
 }  // namespace

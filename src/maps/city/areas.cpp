@@ -40,8 +40,8 @@ AreaPolygon::Ring ring_of(const osm::Ring& ring) {
   return positions;
 }
 
-/// Nothing where it bounds nothing, or nobody knows what.
-std::optional<MapArea> area_of(const osm::Area& source) {
+/// Nothing where it bounds nothing, or nobody knows what, or nothing in the region.
+std::optional<MapArea> area_of(const osm::Area& source, const osm::RegionFilter& region) {
   MapArea area;
   area.source_id = osm::text(source.id);
   area.name = source.tags.get("name");
@@ -55,6 +55,7 @@ std::optional<MapArea> area_of(const osm::Area& source) {
   internal::city::Repairs repairs;
   const std::vector<Footprint> footprints = internal::city::footprints_of(source, frame, repairs);
   if (footprints.empty() || repairs.enclosed) return std::nullopt;
+  if (!internal::city::reaches_into(region, footprints, frame)) return std::nullopt;
   area.area_m2 = internal::city::area_m2(footprints);
   Vec2 min = footprints.front().outer.front(), max = min;
   for (const Footprint& footprint : footprints) {
@@ -159,8 +160,9 @@ AreaTag area_tag(const std::string& text, const std::string& where) {
 
 std::vector<MapArea> read_areas(const std::filesystem::path& file, const AreaFilter& filter, const Progress& progress) {
   const auto wanted = [&filter](const osm::Tags& tags) { return is_wanted(tags, filter); };
-  const osm::Extract extract =
-      osm::read_extract(file, {internal::city::checked_region(filter.region), wanted}, progress);
+  const std::optional<osm::Region> region = internal::city::checked_region(filter.region);
+  const osm::RegionFilter in_region(region);
+  const osm::Extract extract = osm::read_extract(file, {region, wanted}, progress);
   internal::city::check_complete(extract, file);
   internal::city::check_overlap(filter.region, extract, file);
   const internal::core::ProgressReporter reporter(progress);
@@ -168,7 +170,7 @@ std::vector<MapArea> read_areas(const std::filesystem::path& file, const AreaFil
   const internal::city::Interruption interruption(reporter);
   std::vector<MapArea> areas;
   for (const osm::Area& source : extract.areas) {
-    if (auto area = area_of(source)) areas.push_back(std::move(*area));
+    if (auto area = area_of(source, in_region)) areas.push_back(std::move(*area));
   }
   if (areas.empty()) fail_none(file, filter, progress);
   return areas;

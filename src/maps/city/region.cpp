@@ -204,6 +204,26 @@ void check_complete(const osm::Extract& extract, const std::filesystem::path& fi
               "scene.partial: true (--partial)");
 }
 
+bool reaches_into(const osm::RegionFilter& region, const std::vector<Footprint>& built, const geo::LocalFrame& frame) {
+  if (region.everything()) return true;
+  const auto is_touched = [&](const Footprint& footprint) {
+    bool found = false, round_centre = false;
+    const auto take = [&](const Ring& ring) {
+      LonLat from = frame.to_lonlat(ring.back());
+      for (const Vec2& corner : ring) {
+        const LonLat to = frame.to_lonlat(corner);
+        found = found || region.meets(from, to);
+        round_centre ^= region.is_east_of_centre(from, to);
+        from = to;
+      }
+    };
+    take(footprint.outer);
+    std::for_each(footprint.holes.begin(), footprint.holes.end(), take);
+    return found || round_centre;
+  };
+  return std::any_of(built.begin(), built.end(), is_touched);
+}
+
 void Outside::add(std::size_t more, double nearest) {
   if (more == 0) return;
   nearest_m = objects == 0 ? nearest : std::min(nearest_m, nearest);

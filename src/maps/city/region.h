@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "geo/local_frame.h"
+#include "maps/city/footprint.h"
 #include "maps/osm/extract.h"
+#include "maps/osm/region_filter.h"
 #include "vantage/city.h"
 
 namespace vantage::internal::city {
@@ -25,6 +27,9 @@ void check_overlap(const CityRegion& region, const osm::Extract& extract, const 
 
 /// Throws Error(input) where the file says itself that it is not complete.
 void check_complete(const osm::Extract& extract, const std::filesystem::path& file);
+
+/// Whether some of what is built lies in the region: a side of it, or the region's centre in it.
+bool reaches_into(const osm::RegionFilter& region, const std::vector<Footprint>& built, const geo::LocalFrame& frame);
 
 /// What was read and does not belong to the region.
 struct Outside {

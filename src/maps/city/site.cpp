@@ -151,13 +151,13 @@ class BuildingSorter {
     for (const osm::Problem& problem : problems) at_fault_.insert(problem.object);
   }
 
-  void sort(const osm::RegionFilter& region) {
+  void sort(const osm::RegionFilter& region, const geo::LocalFrame& frame) {
     for (const Structure& structure : structures_) {
       if (hindrance(structure).empty()) {
         site_.reach_m = std::max(site_.reach_m, (structure.max - structure.min).norm());
       }
     }
-    const std::vector<bool> belongs = choose(region);
+    const std::vector<bool> belongs = choose(region, frame);
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       const Structure& structure = structures_[i];
       if (!belongs[i]) continue;
@@ -183,9 +183,11 @@ class BuildingSorter {
 
  private:
   /// Which structures belong to the region; the others are counted.
-  std::vector<bool> choose(const osm::RegionFilter& region) const {
+  std::vector<bool> choose(const osm::RegionFilter& region, const geo::LocalFrame& frame) const {
     std::vector<bool> belongs(structures_.size());
-    for (std::size_t i = 0; i < structures_.size(); ++i) belongs[i] = touches(region, *structures_[i].source);
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      belongs[i] = touches(region, *structures_[i].source) || reaches_into(region, structures_[i].footprints, frame);
+    }
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       const std::vector<std::size_t>& parts = structures_[i].parts;
       if (std::any_of(parts.begin(), parts.end(), [&](std::size_t part) { return belongs[part]; })) belongs[i] = true;
@@ -295,7 +297,7 @@ class OccluderSorter {
   void sort(const osm::Extract& extract) {
     for (const osm::Area& area : extract.areas) {
       const std::optional<ObjectKind> kind = kind_of(area.tags, Geometry::area);
-      if (is_building(kind) || !is_switched_on(kind, area.tags, options_.occluders) || !belongs(area)) continue;
+      if (is_building(kind) || !is_switched_on(kind, area.tags, options_.occluders)) continue;
       add(area, *kind);
     }
     for (const osm::Line& line : extract.lines) {
@@ -304,7 +306,7 @@ class OccluderSorter {
       const bool is_area = kind ? kind == ObjectKind::stand_in && (line.is_closed() || osm::means_area(line.tags))
                                 : !overhead_height_m(line.tags);
       if (is_area) kind = kind_of(line.tags, Geometry::area);
-      if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders) || !belongs(line.points)) continue;
+      if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders)) continue;
       if (is_area) {
         const auto end = line.points.end() - (line.is_closed() ? 1 : 0);
         add(osm::Area{line.id, line.tags, {{{line.points.begin(), end}, {}, !line.is_closed()}}}, *kind);
@@ -314,16 +316,16 @@ class OccluderSorter {
       for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
       PlanBounds drawn;
       for (const Vec2& at : points) drawn.extend(at);
-      add(line.id, line.tags, *kind, drawn, {},
+      add(line.id, line.tags, *kind, line.points, drawn, {},
           [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, remarks); });
     }
     if (options_.occluders.lines) add_overhead(extract);
     for (const osm::Point& point : extract.points) {
       std::optional<ObjectKind> kind = kind_of(point.tags, Geometry::point);
       if (is_building(kind)) kind = ObjectKind::stand_in;
-      if (!is_switched_on(kind, point.tags, options_.occluders) || !belongs(std::vector{point.position})) continue;
+      if (!is_switched_on(kind, point.tags, options_.occluders)) continue;
       const Vec2 place = frame_.to_local(point.position);
-      add(point.id, point.tags, *kind, {place, place}, {},
+      add(point.id, point.tags, *kind, std::vector{point.position}, {place, place}, {},
           [&](auto& remarks) { return shapes_of_point(point.tags, place, defaults_, options_.defaults, remarks); });
     }
   }
@@ -331,9 +333,16 @@ class OccluderSorter {
  private:
   static constexpr double kWallPiece = 10;  // metres of wall that stand level, where there is terrain
 
+  /// As it is drawn, or as it is built.
   template <typename Positions>
-  bool belongs(const Positions& positions) {
+  bool belongs(const Positions& positions, const std::vector<Shape>& shapes) {
     if (touches(region_, positions)) return true;
+    std::vector<Footprint> built;
+    for (const Shape& shape : shapes) {
+      const auto& [min, max] = bounds_of({shape});  // of a tree
+      built.push_back(shape.tree ? Footprint{{min, {max.x(), min.y()}, max, {min.x(), max.y()}}, {}} : shape.footprint);
+    }
+    if (reaches_into(region_, built, frame_)) return true;
     site_.outside.add(1, nearest(region_, positions));
     return false;
   }
@@ -376,18 +385,19 @@ class OccluderSorter {
     const std::vector<Footprint> footprints = footprints_of(area, frame_, repairs);
     PlanBounds drawn;
     for (const Footprint& footprint : footprints) drawn.extend(footprint);
-    add(area.id, area.tags, repairs.enclosed ? ObjectKind::stand_in : kind, drawn, repairs,
+    add(area.id, area.tags, repairs.enclosed ? ObjectKind::stand_in : kind, area, drawn, repairs,
         [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
   }
 
-  template <typename MakeShapes>
-  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const PlanBounds& drawn, const Repairs& repairs,
-           const MakeShapes& make_shapes) {
+  template <typename Positions, typename MakeShapes>
+  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const Positions& positions,
+           const PlanBounds& drawn, const Repairs& repairs, const MakeShapes& make_shapes) {
     Item item;
-    item.record = record_of(id, tags, kind);
-    if (is_underground(tags)) return pass_over(site_, item.record, kUnderground);
     std::vector<TagRemark> remarks;
     item.shapes = make_shapes(remarks);
+    if (!belongs(positions, item.shapes)) return;
+    item.record = record_of(id, tags, kind);
+    if (is_underground(tags)) return pass_over(site_, item.record, kUnderground);
     note_remarks(item.record, remarks);
     if (item.shapes.empty()) return lose(site_, item.record, tags, "without a length or an area", drawn);
     item.entry = entry_of(item.record, tags);
@@ -571,7 +581,7 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   site.outside.add(extract.outside, extract.nearest_outside_m);
   std::vector<Structure> structures = structures_of(extract.areas, frame);
   assign_parts(structures, extract.building_relations);
-  BuildingSorter(site, std::move(structures), options.defaults, extract.problems).sort(region);
+  BuildingSorter(site, std::move(structures), options.defaults, extract.problems).sort(region, frame);
   OccluderSorter(site, region, frame, options).sort(extract);
   add_lost(site, extract, frame, options);
   pass_over_groups(site, extract, region, frame);

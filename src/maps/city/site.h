@@ -40,7 +40,7 @@ struct Item {
   CityRecord record;          ///< heights are filled when it is built
   std::vector<Shape> shapes;  ///< each becomes a closed piece
   enum class Stand {
-    together,  ///< on the lowest ground under `standing`
+    together,  ///< on the lowest ground under `standing`; what stands in goes on to above the highest
     each,      ///< each shape on the lowest ground under it: walls and trees follow the ground
     above      ///< on the highest ground under `standing`: bridges
   } stand = Stand::together;
@@ -72,7 +72,8 @@ struct Site {
 std::vector<std::string> reasons_of(const Site& site);
 
 /// Buildings and parts by Simple 3D Buildings, and the other occluders that are switched on. An object belongs to the
-/// region when one of its corners does, and a building with all its parts when one of theirs does.
+/// region when some of it does, as it is drawn or as it is built, and a building with all its parts when some of them
+/// does.
 Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
                const CityOptions& options);
 

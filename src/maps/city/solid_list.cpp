@@ -1,8 +1,10 @@
 #include "maps/city/solid_list.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
+#include "core/format.h"
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "core/solid_check.h"
@@ -14,6 +16,10 @@ namespace vantage::internal::city {
 namespace {
 
 constexpr std::size_t kGrain = 64;
+constexpr double kLeastRise = 10;     // metres of ground under a stand-in that it is not cut for
+constexpr double kLeastPiece = 30;    // metres across: no smaller stand-in is cut,
+constexpr double kMostPieces = 50;    // nor one that is so often smaller than the whole
+constexpr double kCutOverlap = 0.05;  // metres: what is too narrow to be a piece of its own is in the next one
 
 void append(Mesh& mesh, const Mesh& piece) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -35,7 +41,59 @@ double ground_under(const Item& item, const Shape& shape, const Ground& ground, 
   return shape.tree ? ground.height(shape.tree->foot) : ground.range({shape.footprint}).lowest;
 }
 
-/// A mesh for each shape. Fills the record's ground and area, and the faults.
+/// A shape and the z that its heights count from.
+struct Standing {
+  Shape shape;
+  double ground_m = 0;
+};
+
+/// Halves a footprint until the ground under each piece rises by no more than `rise_m`, so that none is high over a
+/// valley.
+void cut(const Footprint& footprint, const Ground& ground, double rise_m, double least_m,
+         std::vector<Footprint>& pieces) {
+  const auto range = ground.range({footprint});
+  PlanBounds bounds;
+  bounds.extend(footprint);
+  Eigen::Index axis = 0;
+  const double across = (bounds.max - bounds.min).maxCoeff(&axis);
+  if (range.highest - range.lowest <= rise_m || across <= least_m) {
+    pieces.push_back(footprint);
+    return;
+  }
+  const double middle = (bounds.min[axis] + bounds.max[axis]) / 2;
+  PlanBounds lower = bounds, upper = bounds;
+  lower.max[axis] = middle + kCutOverlap;
+  upper.min[axis] = middle - kCutOverlap;
+  for (const auto& [min, max] : {lower, upper}) {
+    const Footprint half{{min, {max.x(), min.y()}, max, {min.x(), max.y()}}, {}};
+    for (const Footprint& part : intersect({footprint}, {half})) cut(part, ground, rise_m, least_m, pieces);
+  }
+}
+
+/// What stands in hides all that may stand on any ground under it: from the lowest, or from `lowest` where that is
+/// lower, to its height above the highest.
+std::vector<Standing> standing_in(const Shape& shape, const Ground& ground, double lowest) {
+  std::vector<Footprint> pieces;
+  PlanBounds bounds;
+  bounds.extend(shape.footprint);
+  const double least = std::max(kLeastPiece, (bounds.max - bounds.min).maxCoeff() / kMostPieces);
+  const bool is_flat = shape.form.roof == RoofShape::flat;
+  const double rise = is_flat ? std::max(kLeastRise, shape.form.top_m) : std::numeric_limits<double>::infinity();
+  cut(shape.footprint, ground, rise, least, pieces);
+  std::vector<Standing> all;
+  for (Footprint& piece : pieces) {
+    const auto range = ground.range({piece});
+    Standing& one = all.emplace_back(Standing{shape, std::min(range.lowest, lowest)});
+    const double raised = range.highest - one.ground_m;
+    one.shape.footprint = std::move(piece);
+    one.shape.form.top_m += raised;
+    one.shape.form.is_box |= !is_flat && raised > 0;
+    if (shape.form.deck_m > 0) one.shape.form.deck_m += raised;
+  }
+  return all;
+}
+
+/// A mesh for each shape, or for each piece of one. Fills the record's ground and area, and the faults.
 std::vector<Mesh> build(Item& item, const Ground& ground) {
   const std::vector<Footprint> footprints = footprints_of(item);
   double together = 0;
@@ -45,11 +103,27 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   }
   item.record.ground_m = ground_under(item, item.shapes.front(), ground, together);
   item.record.footprint_m2 = area_m2(footprints);
-  std::vector<Mesh> pieces;
+  std::vector<Standing> all;
   for (const Shape& shape : item.shapes) {
-    CitySolid solid = make_solid(shape, ground_under(item, shape, ground, together));
+    if (item.record.object.kind != ObjectKind::stand_in) {
+      all.push_back({shape, ground_under(item, shape, ground, together)});
+      continue;
+    }
+    const double lowest = item.standing.empty() ? std::numeric_limits<double>::infinity() : together;
+    const std::vector<Standing> pieces = standing_in(shape, ground, lowest);
+    all.insert(all.end(), pieces.begin(), pieces.end());
+  }
+  std::vector<Mesh> pieces;
+  bool is_raised = false;
+  for (const Standing& one : all) {
+    is_raised |= one.shape.form.top_m > item.shapes.front().form.top_m;
+    CitySolid solid = make_solid(one.shape, one.ground_m);
     if (!solid.repair.empty()) item.faults.push_back({solid.repair, "a flat roof as high as its top"});
     pieces.push_back(std::move(solid.mesh));
+  }
+  if (is_raised) {
+    const std::string which = all.size() > 1 ? core::format("in {} pieces, each ", all.size()) : "";
+    item.faults.push_back({"", which + "up to its height above the highest ground under it"});
   }
   return pieces;
 }

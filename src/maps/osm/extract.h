@@ -104,9 +104,10 @@ struct Problem {
   std::vector<LonLat> places = {};  ///< of what is lost: positions that are known of it
 };
 
-/// Positions that are wanted. An object is taken, whole, when some of it lies inside: a corner, a part of a side, or of
-/// an area about the region's centre its interior; the members of a building relation are taken together. With both a
-/// circle and a box a position must lie in both.
+/// Positions that are wanted. An object is taken, whole, when some of it lies inside, a corner or a part of a side, and
+/// what is closed or may be an area also when a box round it reaches inside: it may be wound round the region, or stand
+/// there though it is drawn open. The members of a building relation are taken together. With both a circle and a box a
+/// position must lie in both.
 struct Region {
   std::optional<std::pair<LonLat, double>> circle;  ///< centre and radius in metres (on the ellipsoid)
   std::optional<std::array<double, 4>> box_deg;     ///< west, south, east, north; west > east: over the date line

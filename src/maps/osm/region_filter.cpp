@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "vantage/error.h"
@@ -170,6 +171,36 @@ bool RegionFilter::meets(LonLat from, LonLat to) const {
   double begin = 0, end = 1;
   if (box_ && !cut_to_box(whole, begin, end)) return false;
   return !circle_ || nearest_m(whole, begin, end) <= circle_->radius_m;
+}
+
+bool RegionFilter::meets_box_of(const std::vector<LonLat>& positions, bool turned) const {
+  if (everything()) return true;
+  if (positions.empty()) return false;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Plane low = {kFar, kFar}, high = {-kFar, -kFar};
+  for (const LonLat position : positions) {
+    const Plane place = in_plane(position);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+  }
+  if (turned) {
+    // A corner of the rectangle lies on the circle over two of the positions (Thales): on one axis it is beyond both by
+    // no more than half of what they are apart on the other.
+    const double shrink = polar_ ? 1 : std::cos(middle_.latitude_deg * kDegree);
+    const double more = std::max(shrink * (high[0] - low[0]), high[1] - low[1]) / 2;
+    low = {low[0] - more / shrink, low[1] - more};
+    high = {high[0] + more / shrink, high[1] + more};
+  }
+  const bool holds_centre = low[0] <= 0 && low[1] <= 0 && high[0] >= 0 && high[1] >= 0;
+  if (holds_centre || (!polar_ && high[0] - low[0] >= 180)) return true;  // a longer side would go round the other way
+  const std::array<LonLat, 4> corners = {from_plane(low), from_plane({high[0], low[1]}), from_plane(high),
+                                         from_plane({low[0], high[1]})};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (meets(corners[i], corners[(i + 1) % 4])) return true;
+  }
+  return false;
 }
 
 bool RegionFilter::is_east_of_centre(LonLat from, LonLat to) const {

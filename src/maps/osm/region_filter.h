@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "maps/osm/extract.h"
 
@@ -23,6 +24,10 @@ class RegionFilter {
   bool contains(LonLat position) const;
   /// Whether some of the straight side between two positions is inside.
   bool meets(LonLat from, LonLat to) const;
+  /// Whether a box round positions, level in the plane about the centre, meets the region: nothing that lies within
+  /// their hull does where it does not. `turned`: nor does anything within any rectangle about them that has one of
+  /// them on each side. Nothing lies round no position.
+  bool meets_box_of(const std::vector<LonLat>& positions, bool turned) const;
   /// Whether a ray from the centre to the east crosses the side. The centre lies within rings that it crosses an odd
   /// number of times in all.
   bool is_east_of_centre(LonLat from, LonLat to) const;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
+#include "maps/osm/area_assembler.h"
 #include "maps/osm/meaning.h"
 
 namespace vantage::internal::osm {
@@ -28,23 +30,25 @@ void for_sides(const osmium::Way& way, const Visit& visit) {
 Selection::Selection(const MapObjects& objects, const RegionFilter& region) : objects_(objects), region_(region) {
   if (region_.everything()) return;
   for (const KeptWay& kept : objects_.ways) {
-    bool held = false, round_centre = false;
-    for_sides(*kept.way, [&](LonLat from, LonLat to) {
-      held = held || region_.meets(from, to);
-      round_centre ^= region_.is_east_of_centre(from, to);
-    });
-    if (held || (round_centre && kept.closed && means_area(to_tags(kept.way->tags())))) ways_.insert(kept.way->id());
+    bool held = false;
+    for_sides(*kept.way, [&](LonLat from, LonLat to) { held = held || region_.meets(from, to); });
+    const bool is_whole = kept.closed && kept.missing + kept.off_earth == 0;
+    if (!held && (kept.closed || means_area(to_tags(kept.way->tags())))) {
+      held = region_.meets_box_of(positions(*kept.way), !is_whole);
+    }
+    if (held) ways_.insert(kept.way->id());
   }
   for (const osmium::Relation* const relation : objects_.relations) {
-    bool held = false, round_centre = false;
+    bool held = false;
+    std::vector<LonLat> places;
     for (const osmium::RelationMember& member : relation->members()) {
       const KeptWay* const kept = member.type() == osmium::item_type::way ? objects_.find_way(member.ref()) : nullptr;
       if (kept == nullptr) continue;
       held = held || ways_.contains(member.ref());
-      for_sides(*kept->way, [&](LonLat from, LonLat to) { round_centre ^= region_.is_east_of_centre(from, to); });
+      const std::vector<LonLat> line = positions(*kept->way);
+      places.insert(places.end(), line.begin(), line.end());
     }
-    const bool is_area = kind_of(to_tags(relation->tags())) == RelationKind::multipolygon;
-    if (held || (round_centre && is_area)) relations_.insert(relation->id());
+    if (held || region_.meets_box_of(places, true)) relations_.insert(relation->id());
   }
   take_buildings_together();
 }

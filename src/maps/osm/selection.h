@@ -12,9 +12,10 @@
 
 namespace vantage::internal::osm {
 
-/// An object lies in the region when it reaches into it: a corner or some of a side does, or it is an area about the
-/// region's centre. What belongs to one type=building relation is taken together: a tower without the parts that
-/// replace it would be wrong.
+/// An object lies in the region when a corner or some of a side does. What is closed, or may be an area, and every
+/// relation do so when a box round them does: what is made of them is not known yet, and more of them than need be is
+/// harmless. What belongs to one type=building relation is taken together: a tower without the parts that replace it
+/// would be wrong.
 class Selection {
  public:
   Selection(const MapObjects& objects, const RegionFilter& region);
