@@ -183,7 +183,8 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
         fail(ErrorCode::plan_empty, item, "the item has no position, and none is before it", "give it one");
       }
       added.position.horizontal = before->position.horizontal;
-      if (before->turns > 0) not_judged(item, "it has no position, and the circle before it may end anywhere on it");
+      const bool may_circle = before->turns > 0 && !(before->may_stay && before->loiter_radius_m == 0);
+      if (may_circle) not_judged(item, "it has no position, and the circle before it may end anywhere on it");
     }
     const bool may_keep = kind == PlanItemKind::waypoint || kind == PlanItemKind::loiter;
     if (may_keep && added.position.height_m == 0) take_zero_height(before, is_here, item, added);
