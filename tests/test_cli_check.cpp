@@ -118,6 +118,16 @@ TEST_F(CliCheck, PlansThatCannotBeFollowedAreNotJudged) {
   EXPECT_EQ(run({"check", "map.yaml", "d.plan"}).exit_code, 4);
 }
 
+// Onto the building, away from the home, and beside it.
+TEST_F(CliCheck, LandingsElsewhereAreJudgedDownToTheGround) {
+  const auto exit_code = [&](const std::string& at) {
+    write("a.plan", plan({waypoint(48, 11, 30), simple(21, 3, "[0, 0, 0, 0, " + at + ", 0]")}));
+    return run({"check", "map.yaml", "a.plan", "--clearance", "3"}).exit_code;
+  };
+  EXPECT_EQ(exit_code("48.00004, 11.00047"), 1);
+  EXPECT_EQ(exit_code("48.00004, 11.0002"), 0);
+}
+
 // Eastward along an arc that leads 70 m to the north, where the target is out of range.
 TEST_F(CliCheck, ArcsAreJudgedAsArcs) {
   const auto seen = [&](const std::string& angle) {

@@ -186,7 +186,7 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
   };
   const std::string nowhere = "[2, 0, 0, 0, 0, 0, 0]", somewhere = "[0, 0, 0, null, 48.002, 11, 30]";
   for (const int command :
-       {25, 30, 32, 35, 37, 83, 91, 92, 94, 113, 176, 185, 186, 192, 208, 218, 224, 601, 3000, 4001, 42703}) {
+       {25, 30, 32, 35, 37, 83, 91, 92, 94, 113, 176, 185, 186, 192, 208, 218, 224, 601, 3000, 4001, 42703, 43001}) {
     const std::vector<std::string> told = not_judged(simple(command, 3, nowhere));
     ASSERT_EQ(told.size(), 1u) << command;
     EXPECT_NE(told[0].find("item 2"), std::string::npos) << told[0];
@@ -209,6 +209,59 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
   const std::vector<std::string> told = not_judged(many);
   ASSERT_EQ(told.size(), 21u);
   EXPECT_NE(told.back().find("11 items more"), std::string::npos) << told.back();
+}
+
+TEST(ReadFlightPlan, NamesWaypointsThatItPassesBy) {
+  const auto read = [](const std::string& radius) {
+    return parsed_plan(plan({waypoint(48, 11, 10), simple(16, 3, "[0, 0, " + radius + ", null, 48.001, 11, 10]")}))
+        .not_judged;
+  };
+  ASSERT_EQ(read("80").size(), 1u);
+  expect_wording(read("80"));
+  EXPECT_EQ(read("-5").size(), 1u);
+  EXPECT_TRUE(read("0").empty());
+  EXPECT_TRUE(read("null").empty());
+}
+
+TEST(ReadFlightPlan, TellsOfSettingsTimesOfTheDayAndLandingsInsteadOfReturns) {
+  const auto read = [](const std::string& item) {
+    return parsed_plan(plan({waypoint(48, 11, 10), item, simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")}));
+  };
+  const FlightPlan settings = read(simple(180, 2, "[5, 2, 0, 0, 0, 0, 0]")),
+                   until = read(simple(93, 2, "[-1, 12, 30, 0, 0, 0, 0]"));
+  ASSERT_EQ(settings.notes.size(), 1u);
+  EXPECT_EQ(settings.notes[0].code, WarningCode::plan_left_out);
+  ASSERT_EQ(until.notes.size(), 1u);
+  EXPECT_EQ(until.notes[0].code, WarningCode::plan_assumed);
+  expect_wording({settings.notes[0].text, until.notes[0].text});
+  EXPECT_TRUE(read(simple(93, 2, "[1, 0, 0, 0, 0, 0, 0]")).notes.empty());
+  const std::vector<std::string> lands = read(simple(189, 3, "[0, 0, 0, 0, 48.001, 11, 5]")).not_judged;
+  ASSERT_EQ(lands.size(), 1u);
+  expect_wording(lands);
+}
+
+// One with a circle before it lands somewhere on that.
+TEST(ReadFlightPlan, TakesThePlaceBeforeForItemsWithoutOne) {
+  const std::string up = simple(22, 3, "[0, 0, 0, null, 0, 0, 100]"), down = simple(21, 3, "[0, 0, 0, null, 0, 0, 0]"),
+                    circle = simple(18, 3, "[1, 0, 60, 0, 48.001, 11, 50]");
+  const FlightPlan read = parsed_plan(plan({waypoint(48.001, 11, 50), up, down}));
+  EXPECT_EQ(read.items[1].position.horizontal, Eigen::Vector2d(11, 48.001));
+  EXPECT_EQ(read.items[2].position.horizontal, Eigen::Vector2d(11, 48.001));
+  EXPECT_TRUE(read.not_judged.empty());
+  const std::vector<std::string> somewhere = parsed_plan(plan({circle, down})).not_judged;
+  ASSERT_EQ(somewhere.size(), 1u);
+  expect_wording(somewhere);
+}
+
+TEST(ReadFlightPlan, CirclesOnceAtLeast) {
+  const auto turns = [](const std::string& number) {
+    return parsed_plan(plan({simple(18, 3, "[" + number + ", 0, 60, 0, 48.001, 11, 50]")})).items.at(0).turns;
+  };
+  EXPECT_EQ(turns("0"), 1);
+  EXPECT_EQ(turns("null"), 1);
+  EXPECT_EQ(turns("-3"), 3);
+  EXPECT_EQ(turns("0.25"), 0.25);
+  EXPECT_EQ(turns("2"), 2);
 }
 
 TEST(ReadFlightPlan, NamesRallyPointsThatItMayReturnTo) {
@@ -356,6 +409,8 @@ TEST(ReadFlightPlan, KeepsTheHeightBeforeForTheHeightZero) {
   EXPECT_EQ(second(3, 2, here), 50);
   EXPECT_EQ(second(12, 2, here), 0);
   EXPECT_EQ(second(3, 1, here), 50);
+  // A loiter climbs to its own height, also to 0.
+  EXPECT_EQ(second(3, 2, simple(31, 3, "[0, 30, 0, 0, 48.001, 11, 0]")), 0);
   // Over another ground the height is not that of the item before.
   EXPECT_EQ(plan_for(3, 2, {waypoint(48, 11, 50, 10), there}).not_judged.size(), 1u);
 }
@@ -374,6 +429,9 @@ TEST(ReadFlightPlan, NamesHeightsOfZeroThatNobodyKnows) {
     EXPECT_EQ(plan_for(autopilot, vehicle, {up, waypoint(48.001, 11, 0)}).not_judged.size(), count)
         << autopilot << ", " << vehicle;
   }
+  // Without a position, too; of fixed wings these alone.
+  const std::string here = simple(17, 3, "[0, 0, 0, 0, 0, 0, 0]");
+  for (const int vehicle : {1, 2, 20}) EXPECT_EQ(plan_for(0, vehicle, {up, here}).not_judged.size(), 1u) << vehicle;
 }
 
 TEST(ReadFlightPlan, TellsVersionsThatItDoesNotKnow) {
@@ -400,6 +458,18 @@ TEST(ReadFlightPlan, RefusesHeightsThatContradictEachOther) {
   EXPECT_EQ(read(item("3", 0, "\"Altitude\": 20, \"AMSLAltAboveTerrain\": 50.01")).items[0].position.height_m, 50);
   EXPECT_EQ(read(item("1", 3, "\"Altitude\": 50, \"AMSLAltAboveTerrain\": 12")).items[0].position.height_m, 50);
   EXPECT_EQ(read(item("\"Absolute\"", 0, "\"Altitude\": 50")).items[0].position.height_m, 50);
+  // Whatever the mode is, and where the frame is not that of the mode.
+  for (const std::string mode : {"\"Relative\"", "0", "9", "null"}) {
+    expect_code([&] { read(item(mode, 3, "\"Altitude\": 12")); }, ErrorCode::conflicting_keys, "item 1");
+  }
+  expect_code([&] { read(simple(16, 3, "[0, 0, 0, null, 48, 11, 50]", 1, ", \"Altitude\": 12")); },
+              ErrorCode::conflicting_keys, "item 1");
+  expect_error([&] { read(item("1", 0, "\"Altitude\": 50")); }, ErrorCode::conflicting_keys, "item 1");
+  for (const auto& [mode, frame] : {std::pair("4", 3), {"2", 3}, {"3", 10}, {"\"Relative\"", 10}}) {
+    expect_code([&, mode = mode, frame = frame] { read(item(mode, frame, "\"Altitude\": 50")); },
+                ErrorCode::conflicting_keys, "item 1");
+  }
+  EXPECT_EQ(read(item("4", 10, "\"Altitude\": 50")).items[0].position.datum, HeightDatum::ground);
 }
 
 TEST(ReadFlightPlan, TakesTablesOfWaypoints) {
@@ -486,6 +556,25 @@ TEST(ReadFlightPlan, TakesKmlAsManyWriteIt) {
     }
   }
   EXPECT_EQ(parsed_plan(in_utf16("lat;lon;msl\n48;11;500\n", false, true)).items.at(0).position.height_m, 500);
+}
+
+TEST(ReadFlightPlan, TellsWhatOfKmlIsNotFlown) {
+  const std::string line = kml_line("11,48,520 11.001,48,530"), at = "<coordinates>11,48,500 11,48.1,500</coordinates>";
+  const FlightPlan more = parsed_plan(kml(line + "<Placemark><Polygon/></Placemark><Placemark><Polygon/></Placemark>" +
+                                          "<NetworkLink><Link><href>b.kml</href></Link></NetworkLink><gx:Tour/>"));
+  EXPECT_EQ(more.items.size(), 2u);
+  ASSERT_EQ(more.notes.size(), 1u);
+  EXPECT_EQ(more.notes[0].code, WarningCode::plan_left_out);
+  expect_wording(more.notes[0].text);
+  // Rings, and lines outside of a placemark, are flown.
+  EXPECT_EQ(parsed_plan(kml(line + "<Placemark><LinearRing>" + at + "</LinearRing></Placemark>")).items.size(), 4u);
+  EXPECT_EQ(parsed_plan(kml(line + "<LineString>" + at + "</LineString>")).items.size(), 4u);
+  expect_error([&] { parsed_plan(kml(line + "<Placemark><linestring>" + at + "</linestring></Placemark>")); },
+               ErrorCode::plan_syntax, "line 3");
+  expect_error([&] { parsed_plan(kml("<Placemark><LineString>" + at + at + "</LineString></Placemark>")); },
+               ErrorCode::conflicting_keys, "line 3");
+  EXPECT_TRUE(
+      parsed_plan(kml(line + "<Placemark><ExtendedData><point>2</point></ExtendedData></Placemark>")).notes.empty());
 }
 
 TEST(ReadFlightPlan, TakesAllTracksOfAName) {
@@ -588,6 +677,56 @@ TEST(ReadFlightPlan, NamesCurvesOfTheAircraftsOwn) {
   EXPECT_TRUE(read("toPointAndStopWithDiscontinuityCurvature", "0").not_judged.empty());
 }
 
+TEST(ReadFlightPlan, RefusesWaypointsThatAreInNoWayline) {
+  const std::string first = wayline_point(11, 48, 40), last = wayline_point(11.002, 48, 40);
+  const auto read = [&](const std::string& between) {
+    return [&, between] { parsed_plan(waylines(wayline(first + between + last))); };
+  };
+  const auto in_place_of_point = [&](const std::string& begin, const std::string& end) {
+    std::string text = first;
+    text.replace(text.find("<Point>"), 7, begin);
+    return text.replace(text.find("</Point>"), 8, end);
+  };
+  read(first)();
+  expect_error(read("<Folder>" + first + "</Folder>"), ErrorCode::value_unsupported, "line 4");
+  expect_code(read(in_place_of_point("<MultiGeometry><Point>", "</Point></MultiGeometry>")),
+              ErrorCode::value_unsupported, "line 4");
+  expect_code(read(in_place_of_point("<LineString>", "</LineString>")), ErrorCode::value_unsupported, "line 4");
+  expect_code([&] { parsed_plan(waylines(first + wayline(first + last))); }, ErrorCode::value_unsupported, "line 3");
+}
+
+TEST(ReadFlightPlan, NamesWhatOfDjiIsNotKnown) {
+  const auto mode = [](const std::string& name, const std::string& more = "") {
+    return "<wpml:waypointTurnParam><wpml:waypointTurnMode>" + name + "</wpml:waypointTurnMode>" + more +
+           "</wpml:waypointTurnParam>";
+  };
+  const auto read = [](const std::string& turn, const std::string& config = "", const std::string& folder = "") {
+    return parsed_plan(waylines(wayline(folder + wayline_point(11, 48, 40, turn) + wayline_point(11.001, 48, 40, turn) +
+                                        wayline_point(11.001, 48.001, 40, turn)),
+                                config))
+        .not_judged;
+  };
+  std::vector<std::string> told;
+  const auto expect_told = [&](const std::vector<std::string>& texts, std::size_t count) {
+    ASSERT_EQ(texts.size(), count);
+    told.push_back(texts[0]);
+  };
+  expect_told(read(mode("somethingNew")), 3);
+  expect_told(read(mode("coordinateTurn")), 1);  // at its ends a wayline is not turned
+  expect_told(read("", "", "<wpml:globalWaypointTurnMode>coordinateTurn</wpml:globalWaypointTurnMode>"), 1);
+  EXPECT_TRUE(read(mode("coordinateTurn", "<wpml:waypointTurnDampingDist>9</wpml:waypointTurnDampingDist>")).empty());
+  expect_told(read("", "<wpml:finishAction>goFishing</wpml:finishAction>"), 1);
+  EXPECT_TRUE(read("", "<wpml:finishAction>noAction</wpml:finishAction>").empty());
+  expect_told(read("", "", "<wpml:waylineType>poi</wpml:waylineType>"), 1);
+  const auto action = [](const std::string& name) {
+    return "<wpml:startActionGroup><wpml:action><wpml:actionActuatorFunc>" + name +
+           "</wpml:actionActuatorFunc></wpml:action></wpml:startActionGroup>";
+  };
+  expect_told(read("", "", action("flyAround")), 1);
+  EXPECT_TRUE(read("", "", action("takePhoto")).empty());
+  expect_wording(told);
+}
+
 TEST(ReadFlightPlan, TakesTemplatesOfDji) {
   const auto with = [](const std::string& type, const std::string& mode) {
     return waylines(
@@ -647,6 +786,29 @@ TEST(ReadFlightPlan, TakesLinesAndPointsOfGeoJson) {
   EXPECT_EQ(parsed_plan("{\"type\": \"Feature\", \"properties\": {}, \"geometry\": " + collection + "}").items.size(),
             3u);
   EXPECT_EQ(parsed_plan("{\"type\": \"MultiPoint\", \"coordinates\": [[11, 48, 1], [11.1, 48, 2]]}").items.size(), 2u);
+}
+
+TEST(ReadFlightPlan, TellsWhatOfGeoJsonIsNotFlown) {
+  const std::string line = "{\"type\": \"LineString\", \"coordinates\": [[11, 48, 560], [11.001, 48, 570]]}";
+  const auto feature = [](const std::string& geometry) {
+    return "{\"type\": \"Feature\", \"properties\": {}, \"geometry\": " + geometry + "}";
+  };
+  const auto all = [&](const std::string& more, const std::string& members = "") {
+    return parsed_plan("{\"type\": \"FeatureCollection\", " + members + "\"features\": [" + feature(line) + more +
+                       "]}");
+  };
+  const FlightPlan polygon = all(", " + feature("{\"type\": \"Polygon\", \"coordinates\": []}"));
+  ASSERT_EQ(polygon.notes.size(), 1u);
+  EXPECT_EQ(polygon.notes[0].code, WarningCode::plan_left_out);
+  const auto crs = [&](const std::string& name) {
+    return all("", "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"" + name + "\"}}, ").notes;
+  };
+  ASSERT_EQ(crs("urn:ogc:def:crs:EPSG::4258").size(), 1u);
+  expect_wording({polygon.notes[0].text, crs("urn:ogc:def:crs:EPSG::4258")[0].text});
+  EXPECT_TRUE(crs("urn:ogc:def:crs:OGC:1.3:CRS84").empty());
+  EXPECT_EQ(all(", {\"type\": \"FeatureCollection\", \"features\": [" + feature(line) + "]}").items.size(), 4u);
+  expect_error([&] { all(", " + feature("{\"type\": \"linestring\", \"coordinates\": []}")); },
+               ErrorCode::value_unsupported, "features[1]");
 }
 
 TEST(ReadFlightPlan, TakesStaysOfPointsBesideTheirLine) {
@@ -804,6 +966,25 @@ TEST(ReadFlightPlan, RefusesTwoColumnsOfOneMeaning) {
   }
   expect_code([] { parsed_plan("x,y,z,yaw,heading\n1,2,3,4,5\n"); }, ErrorCode::conflicting_keys, "line 1");
   EXPECT_EQ(parsed_plan("lat,lon,msl,agl\n48,11,500,7\n").items.at(0).position.height_m, 500);
+}
+
+TEST(ReadFlightPlan, NamesCommandsOfTables) {
+  const auto told = [](const std::string& title, const std::string& first, const std::string& second) {
+    return parsed_plan("lat,lon,agl," + title + "\n48,11,50," + first + "\n48,11.1,50," + second + "\n").not_judged;
+  };
+  ASSERT_EQ(told("command", "WAYPOINT", "ORBIT").size(), 1u);
+  expect_wording(told("command", "WAYPOINT", "ORBIT"));
+  EXPECT_EQ(told("Loiter Radius (m)", "50", "").size(), 1u);
+  EXPECT_EQ(told("turns", "0", "16").size(), 1u);
+  EXPECT_TRUE(told("cmd", "16", "").empty());
+  EXPECT_TRUE(told("turn_type", "straight", "spline").empty());
+}
+
+TEST(ReadFlightPlan, RefusesAZBesideAnotherHeight) {
+  expect_error([] { parsed_plan("lat,lon,agl,z\n48,11,60,5\n"); }, ErrorCode::conflicting_keys, "line 1");
+  EXPECT_EQ(parsed_plan("lat,lon,msl,x,y,z\n48,11,500,1,2,3\n").items.at(0).position.height_m, 500)
+      << "as it is written";
+  EXPECT_EQ(parsed_plan("lat,lon,z\n48,11,5\n").items.at(0).position.height_m, 5);
 }
 
 TEST(ReadFlightPlan, TakesUnitsThatAColumnCanHave) {

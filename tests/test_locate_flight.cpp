@@ -352,10 +352,44 @@ TEST(LocateFlight, TakesOffAndReturns) {
   const FlightPlan lands = parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48.003, 11, 0]")}));
   EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 500}));
   options.with_ground_legs = false;
-  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550}));
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 500})) << "elsewhere";
+  EXPECT_EQ(heights(locate_flight(
+                parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48, 11, 0]")})), options)),
+            (std::vector<double>{550, 550}))
+      << "at the home";
   const FlightPlan homeless =
       parsed_plan(plan({waypoint(48.002, 11, 50, 0), simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")}, 2, "null"));
   expect_error([&] { locate_flight(homeless, options); }, ErrorCode::missing_key, "item 2");
+}
+
+// Down to the ground and up again: whatever height the landing has, it ends on the ground.
+TEST(LocateFlight, LandsAndTakesOffOnItsWay) {
+  const Ground ground{470, nullptr};
+  LocateOptions options = in_munich();
+  options.home_z_m = 500;
+  options.ground = &ground;
+  const auto located = [&](const std::string& takeoff, int vehicle) {
+    return locate_flight(parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48.003, 11, 0]"),
+                                           takeoff, waypoint(48.004, 11, 50)},
+                                          vehicle)),
+                         options)
+        .flight;
+  };
+  const auto heights = [&](const std::string& takeoff, int vehicle) {
+    std::vector<double> z;
+    for (const FlightPoint& point : located(takeoff, vehicle).points) z.push_back(point.position.z());
+    return z;
+  };
+  const std::string there = simple(22, 3, "[0, 0, 0, 0, 48.003, 11, 30]"),
+                    here = simple(22, 3, "[0, 0, 0, 0, 0, 0, 30]"),
+                    elsewhere = simple(22, 3, "[0, 0, 0, 0, 48.0035, 11, 30]");
+  EXPECT_EQ(heights(there, 2), (std::vector<double>{550, 550, 470, 530, 550}));
+  EXPECT_EQ(heights(here, 2), (std::vector<double>{550, 550, 470, 530, 550}));
+  EXPECT_EQ(heights(there, 1), (std::vector<double>{550, 470, 530, 550})) << "on slopes";
+  EXPECT_EQ(heights(elsewhere, 2), (std::vector<double>{550, 550, 470, 530, 530, 550}));
+  EXPECT_TRUE(located(here, 2).not_judged.empty());
+  ASSERT_EQ(located(elsewhere, 2).not_judged.size(), 1u);
+  expect_wording(located(elsewhere, 2).not_judged);
 }
 
 /// Waypoints in the scene frame.
@@ -461,6 +495,99 @@ Vec3 cubic_at(const Vec3& from, const Vec3& to, const Vec3& from_tangent, const 
   return points[0];
 }
 
+/// A loiter about (60, 0, 10) between waypoints in the west and the north.
+FlightPlan with_loiter(double radius_m, double height_m = 10) {
+  FlightPlan plan = in_scene({{-60, 0, 10}, {60, 0, height_m}, {60, 90, height_m}});
+  plan.file = "a.plan";
+  plan.format = PlanFormat::qgroundcontrol;
+  PlanItem& loiter = plan.items[1];
+  loiter.kind = PlanItemKind::loiter;
+  loiter.place = "a.plan: item 2";
+  loiter.loiter_radius_m = radius_m;
+  loiter.turns = 1;
+  return plan;
+}
+
+bool flies(const Flight& flight, const Vec3& from, const Vec3& to) {
+  for (int i = 0; i <= 100; ++i) {
+    if (distance_to_flight(flight, from + i / 100.0 * (to - from)) > flight.chord_error_m + 1e-9) return false;
+  }
+  return true;
+}
+
+// A plane circles, and a multirotor stays: the ways of both, there and on.
+TEST(LocateFlight, FliesBothWaysOfVehiclesThatNobodyKnows) {
+  FlightPlan plan = with_loiter(20);
+  const Vec3 begin(-60, 0, 10), end(60, 90, 10), centre(60, 0, 10), side(60, -20, 10), entry(40, 0, 10);
+  const Flight circles = locate_flight(plan, {}).flight;
+  EXPECT_TRUE(flies(circles, begin, entry) && flies(circles, side, side) && flies(circles, entry, end));
+  EXPECT_FALSE(flies(circles, centre, centre));
+  plan.items[1].may_stay = true;
+  const LocatedPlan both = locate_flight(plan, {});
+  EXPECT_TRUE(flies(both.flight, begin, centre) && flies(both.flight, centre, end));
+  EXPECT_TRUE(flies(both.flight, side, side) && flies(both.flight, entry, end));
+  EXPECT_TRUE(both.flight.not_judged.empty());
+  // On to a landing, and up from it, nothing leads along the ground.
+  plan.items[2].kind = PlanItemKind::land;
+  plan.items[2].position.height_m = 0;
+  const Flight lands = locate_flight(plan, {}).flight;
+  EXPECT_TRUE(flies(lands, centre, end) && flies(lands, entry, end) && flies(lands, end, {60, 90, 0}));
+  for (std::size_t i = 0; i < lands.leg_count(); ++i) {
+    const Leg leg = lands.leg(i);
+    EXPECT_TRUE(leg.from.z() == leg.to.z() || leg.from.head<2>() == leg.to.head<2>()) << i;
+  }
+}
+
+// Without a radius a table is taken as of a multirotor, with a note, and others are not judged; unless it is given.
+TEST(LocateFlight, TellsCirclesThatTheVehicleKnowsAlone) {
+  FlightPlan plan = with_loiter(0);
+  plan.items[1].may_stay = true;
+  const LocatedPlan open = locate_flight(plan, {});
+  EXPECT_EQ(open.flight.points.size(), 3u);
+  ASSERT_EQ(open.flight.not_judged.size(), 1u);
+  expect_wording(open.flight.not_judged);
+  plan.format = PlanFormat::waypoints;
+  const LocatedPlan table = locate_flight(plan, {});
+  EXPECT_EQ(table.flight.points.size(), 3u);
+  EXPECT_TRUE(table.flight.not_judged.empty());
+  ASSERT_EQ(table.notes.size(), 1u);
+  expect_wording(table.notes[0].text);
+  LocateOptions options;
+  options.loiter_radius_m = 20;
+  const LocatedPlan given = locate_flight(plan, options);
+  EXPECT_TRUE(flies(given.flight, {60, -20, 10}, {60, -20, 10}) && given.notes.empty());
+  // That no vehicle is named shows in what is read.
+  const auto read = [](int vehicle) {
+    const FlightPlan one = parsed_plan(plan_texts::plan({simple(19, 3, "[60, 0, 0, 0, 48, 11, 50]")}, vehicle));
+    return std::pair(one.items.at(0).may_stay, one.items[0].turns);
+  };
+  EXPECT_EQ(read(0), std::pair(true, 1.0));
+  EXPECT_EQ(read(1), std::pair(false, 1.0));
+  EXPECT_EQ(read(2), std::pair(false, 0.0));
+}
+
+// It comes at its own height or at that before, and may be anywhere on the circles between.
+TEST(LocateFlight, ClimbsInCircles) {
+  FlightPlan plan = with_loiter(20, 40);
+  plan.items[1].is_climb = true;
+  const Flight flight = locate_flight(plan, {}).flight;
+  EXPECT_EQ(flight.chord_error_m, 0.05 + 0.25);
+  for (const double angle : {0.0, 1.0, 2.5, 4.0, 5.5}) {
+    const Vec3 foot(60 + 20 * std::cos(angle), 20 * std::sin(angle), 10);
+    EXPECT_TRUE(flies(flight, foot, foot + Vec3(0, 0, 30))) << angle;
+  }
+  EXPECT_TRUE(flies(flight, {-60, 0, 10}, {40, 0, 10}) && flies(flight, {-60, 0, 10}, {40, 0, 40}));
+  EXPECT_TRUE(flies(flight, {40, 0, 40}, {60, 90, 40}));
+  plan.items[1].turns = 0;  // a multirotor
+  const Flight stays = locate_flight(plan, {}).flight;
+  EXPECT_TRUE(flies(stays, {-60, 0, 10}, {60, 0, 10}) && flies(stays, {-60, 0, 10}, {60, 0, 40}));
+  EXPECT_TRUE(flies(stays, {60, 0, 10}, {60, 0, 40}) && flies(stays, {60, 0, 40}, {60, 90, 40}));
+  LocateOptions fine;
+  fine.ground_error_m = 1e-5;
+  plan.items[1].turns = 1;
+  expect_code([&] { locate_flight(plan, fine); }, ErrorCode::work_too_large, "item 2");
+}
+
 // As ArduPilot's Copter takes the tangents: from the leg before, to the leg behind, along the chord between two
 // splines; none where it stops.
 TEST(LocateFlight, FliesSplines) {
@@ -528,11 +655,32 @@ TEST(LocateFlight, NamesSplinesBetweenHeightsOfTwoKinds) {
       if (i == 0) expect_wording(names);
     }
   }
+  // Of heights that the ground station computes from its terrain no legs follow the ground.
+  FlightPlan computed = low;
+  for (PlanItem& item : computed.items) item.follows_ground = false;
+  EXPECT_TRUE(told(computed).empty());
+  computed.items[3].follows_ground = true;
+  EXPECT_EQ(told(computed).size(), 1u);
   // Where the vehicle stops it comes from nowhere, and goes nowhere.
   FlightPlan stops = level;
   stops.items[0].position.datum = stops.items[3].position.datum = HeightDatum::ground;
   stops.items[1].hold_s = stops.items[2].hold_s = 1;
   EXPECT_TRUE(told(stops).empty());
+}
+
+TEST(LocateFlight, NamesTurnsThatFollowTheGround) {
+  FlightPlan plan = in_scene({{0, 0, 10}, {100, 0, 10}, {100, 80, 10}});
+  for (PlanItem& item : plan.items) item.position.datum = HeightDatum::ground;
+  plan.items[1].cut_m = 20;
+  plan.items[1].place = "a.kmz: waypoint 2";
+  const Ground ground{0, nullptr};
+  LocateOptions options;
+  options.ground = &ground;
+  EXPECT_TRUE(locate_flight(plan, options).flight.not_judged.empty());
+  plan.items[1].follows_ground = plan.items[2].follows_ground = true;
+  const std::vector<std::string> told = locate_flight(plan, options).flight.not_judged;
+  ASSERT_EQ(told.size(), 1u);
+  expect_wording(told);
 }
 
 TEST(LocateFlight, KeepsWhatIsNotJudged) {

@@ -91,7 +91,7 @@ enum class PlanItemKind {
   waypoint,
   takeoff,      ///< the position may be missing: the home
   loiter,       ///< a circle about the position, if `turns` is not 0; else a stay
-  land,         ///< the place where it lands; it comes there at the height before, and goes down
+  land,         ///< the place where it lands; it comes there at the height before, and goes down to the ground
   return_home,  ///< the position is missing: the home; its height, if there is one, is the least on the way, above it
 };
 
@@ -112,6 +112,10 @@ struct PlanItem {
   double acceptance_radius_m = 0;       ///< the item counts as reached so near; 0: not stated
   double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
   double turns = 0;                     ///< of a loiter; with `hold_s` above 0 it circles for that time instead
+  /// Of a loiter with turns: a multirotor stays in its centre instead, and the plan does not say which vehicle flies
+  /// it.
+  bool may_stay = false;
+  bool is_climb = false;  ///< of a loiter: it comes there at the height before, and circles until it has its own
   /// Of a waypoint that it comes to on an arc from the position before: the angle that the arc turns by, above 0
   /// clockwise seen from above. 0: on a straight leg.
   double arc_deg = 0;
@@ -209,7 +213,8 @@ struct LocateOptions {
   std::optional<double> return_height_m;
   /// Of a loiter whose plan leaves its radius to a fixed-wing vehicle.
   std::optional<double> loiter_radius_m;
-  /// With the climb from the home's ground and the descent to it: these touch the ground.
+  /// With the climb from the home's ground and the descent to it: these touch the ground. Those at other places always
+  /// are in the flight.
   bool with_ground_legs = false;
   double chord_error_m = 0.05;   ///< so far may legs lie from the curves that they stand for; > 0
   double ground_error_m = 0.25;  ///< so much may a leg that follows the ground be too high or too low; > 0

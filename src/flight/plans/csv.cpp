@@ -1,6 +1,7 @@
 // Tables with a header: longitude, latitude and a height whose name says what it is measured from, or x, y and z of the
 // scene. Also those of Litchi, whose heights are above the home or, with altitudemode 1, above ground.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -58,6 +59,7 @@ class PlanTable {
     } while (without_blanks(line).empty() || line.front() == '#');
     read_header(line, lines.place(), plan);
     plan.is_in_scene_frame = is_in_scene_frame_;
+    NotJudged not_judged(source_.name, plan.not_judged);
     while (lines.next(line)) {
       source_.progress.tick();
       if (without_blanks(line).empty() || line.front() == '#') continue;
@@ -71,6 +73,7 @@ class PlanTable {
             "write numbers with a decimal point, or separate fields by semicolons; a field may be empty");
       }
       add(fields, where, plan);
+      name_commands(fields, where, not_judged);
       check_count(plan.items.size(), source_);
     }
     check_plan(plan, source_);
@@ -94,6 +97,7 @@ class PlanTable {
       bool has_unknown_unit = false;
       const std::optional<KnownColumn> known = known_column(titles[i], &has_unknown_unit);
       if (known) uses_.push_back({i, *known});
+      take_command(titles[i], i);
       if (has_unknown_unit) {
         plan.notes.push_back({WarningCode::plan_left_out, source_.name + ": the column " + in_quotes(titles[i]) +
                                                               " is left out: its unit is not known"});
@@ -104,6 +108,7 @@ class PlanTable {
       }
     }
     check_only_one(titles, place);
+    check_z(titles, place);
     const bool is_geographic = find(TableColumn::longitude) && find(TableColumn::latitude);
     is_in_scene_frame_ = !is_geographic;
     if (!is_geographic && !(find(TableColumn::x) && find(TableColumn::y) && find(TableColumn::z))) {
@@ -125,6 +130,51 @@ class PlanTable {
           ErrorCode::conflicting_keys, place,
           "the columns " + in_quotes(titles[first]) + " and " + in_quotes(titles[use.index]) + " mean the same",
           "leave one of them out, or give another name to it");
+    }
+  }
+
+  /// Of places on the earth with a height and a z alone nobody knows which of the two is meant. What vantage writes has
+  /// x, y and z besides.
+  void check_z(const std::vector<std::string>& titles, const std::string& place) const {
+    const auto z = find(TableColumn::z), height = find(TableColumn::height);
+    if (!z || !height || !find(TableColumn::longitude) || (find(TableColumn::x) && find(TableColumn::y))) return;
+    source_.fail(ErrorCode::conflicting_keys, place,
+                 "the columns " + in_quotes(titles[height->index]) + " and " + in_quotes(titles[z->index]) +
+                     " both say how high it is",
+                 "leave one of them out, or give another name to it");
+  }
+
+  /// A column that may tell the vehicle to do something else than to fly to the position.
+  struct Command {
+    std::size_t index;
+    bool is_circle;  ///< how it circles there, or else a command, by its name or as MAV_CMD
+  };
+
+  void take_command(std::string_view title, std::size_t index) {
+    std::string name;
+    for (const char c : title.substr(0, title.find('('))) {
+      if (std::isalnum(static_cast<unsigned char>(c))) {
+        name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      }
+    }
+    for (const std::string_view start : {"loiter", "orbit", "turns"}) {
+      if (name.substr(0, start.size()) == start) commands_.push_back({index, true});
+    }
+    if (name == "command" || name == "cmd" || name == "mavcmd") commands_.push_back({index, false});
+  }
+
+  void name_commands(const std::vector<std::string>& fields, const std::string& where, NotJudged& not_judged) const {
+    for (const auto& [index, is_circle] : commands_) {
+      std::string name = fields[index];
+      std::transform(name.begin(), name.end(), name.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const ParsedNumber number = parse_number(name);
+      const bool is_none = name.empty() || (number.fault == NumberFault::none && number.value == 0);
+      const bool is_waypoint = !is_circle && (name == "16" || name == "waypoint" || name == "nav_waypoint" ||
+                                              name == "mav_cmd_nav_waypoint");
+      if (is_none || is_waypoint) continue;
+      not_judged.name(where, "its column " + std::to_string(index + 1) + " says " + in_quotes(fields[index]) +
+                                 ", which is not followed: of a table the positions are flown to");
     }
   }
 
@@ -207,6 +257,7 @@ class PlanTable {
   TableNumbers numbers_;
   std::size_t columns_ = 0;
   std::vector<UsedColumn> uses_;
+  std::vector<Command> commands_;
   std::optional<UsedColumn> height_;
   bool is_in_scene_frame_ = false;
 };

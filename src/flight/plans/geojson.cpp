@@ -1,4 +1,5 @@
 // GeoJSON (RFC 7946): lines, or else points. The third number of a position is the height above the ellipsoid.
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -22,11 +23,11 @@ class GeojsonTracks {
     FlightPlan plan;
     plan.format = PlanFormat::geojson;
     plan.file = source_.name;
-    const auto features = root.find("features");
-    if (features != root.end() && features->is_array()) {
-      for (std::size_t i = 0; i < features->size(); ++i) add((*features)[i], "features[" + std::to_string(i) + "]");
-    } else {
-      add(root, "the object");
+    add(root, "");
+    note_system(root, plan);
+    if (!left_out_.empty()) {
+      plan.notes.push_back(
+          {WarningCode::plan_left_out, source_.name + " has more than is flown: " + counted(left_out_)});
     }
     take_details(std::move(points_), lines_, source_, plan);
     take_tracks(std::move(lines_), "line", "lines", source_, plan);
@@ -35,9 +36,17 @@ class GeojsonTracks {
   }
 
  private:
-  /// A feature, or a geometry.
-  void add(const json& object, const std::string& place) {
+  /// Features, which may be nested, a feature, or a geometry; as deep as JSON is.
+  void add(const json& object, const std::string& within) {
+    const std::string place = within.empty() ? "the object" : within;
     if (!object.is_object()) source_.fail(ErrorCode::plan_syntax, place, "it is not an object", "correct it");
+    const auto features = object.find("features");
+    if (features != object.end() && features->is_array()) {
+      for (std::size_t i = 0; i < features->size(); ++i) {
+        add((*features)[i], within + (within.empty() ? "" : ".") + "features[" + std::to_string(i) + "]");
+      }
+      return;
+    }
     std::string name;
     const auto properties = object.find("properties");
     if (properties != object.end() && properties->is_object()) {
@@ -53,6 +62,16 @@ class GeojsonTracks {
     add_shape(shape, type->get<std::string>(), name, details, place);
   }
 
+  /// RFC 7946 has WGS 84 alone; what was before it could name another system.
+  void note_system(const json& root, FlightPlan& plan) const {
+    const auto crs = root.find("crs");
+    if (crs == root.end() || crs->is_null()) return;
+    const std::string text = crs->dump(-1, ' ', true, json::error_handler_t::replace);
+    if (text.find("CRS84") != std::string::npos || text.find("4326") != std::string::npos) return;
+    plan.notes.push_back({WarningCode::plan_assumed, source_.name + ": its \"crs\" is not WGS 84, as which its " +
+                                                         "positions are read: " + in_quotes(text.substr(0, 100))});
+  }
+
   void add_shape(const json& shape, const std::string& kind, const std::string& name, const json& details,
                  const std::string& place) {
     const auto parts = shape.find("geometries");
@@ -63,6 +82,17 @@ class GeojsonTracks {
         if (!part.is_object() || type == part.end() || !type->is_string()) continue;
         add_shape(part, type->get<std::string>(), name, details, place + ", geometry " + std::to_string(i + 1));
       }
+    }
+    if (kind == "Polygon" || kind == "MultiPolygon") {
+      ++left_out_[kind];
+      return;
+    }
+    const bool is_known = kind == "Point" || kind == "MultiPoint" || kind == "LineString" ||
+                          kind == "MultiLineString" || kind == "GeometryCollection" || kind == "Feature" ||
+                          kind == "FeatureCollection";
+    if (!is_known) {
+      source_.fail(ErrorCode::value_unsupported, place, "GeoJSON has no type " + in_quotes(kind),
+                   "write \"LineString\" for what is flown");
     }
     const auto coordinates = shape.find("coordinates");
     if (coordinates == shape.end() || !coordinates->is_array()) return;
@@ -120,6 +150,7 @@ class GeojsonTracks {
   const PlanSource& source_;
   std::vector<PlanTrack> lines_;
   DetailPoints points_;
+  std::map<std::string, std::size_t> left_out_;
   std::size_t total_ = 0;
 };
 

@@ -1,8 +1,12 @@
 // KML 2.2 (OGC 07-147r2) with Google's tracks: LineString, gx:Track, or else the points of placemarks.
 #include "flight/plans/kml.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +34,7 @@ class KmlTracks {
     plan.file = source_.name;
     xml_.walk(xml_.root(), [&](XmlTree::Node node) {
       source_.progress.tick();
-      if (xml_.name(node) != "Placemark") return true;
+      if (xml_.name(node) != "Placemark") return add(node, "");  // nothing flown may lie outside of one
       const std::string name = printable(xml_.child_text(node, "name"));
       const std::size_t points = points_.track.items.size(), tracks = tracks_.size();
       xml_.walk(node, [&](XmlTree::Node part) { return add(part, name); });
@@ -38,6 +42,10 @@ class KmlTracks {
       for (std::size_t i = points; i < points_.track.items.size(); ++i) add_details(node, i);
       return false;
     });
+    if (!left_out_.empty()) {
+      plan.notes.push_back({WarningCode::plan_left_out,
+                            source_.name + " has more than is flown, by its elements: " + counted(left_out_)});
+    }
     take_details(std::move(points_), tracks_, source_, plan);
     take_tracks(std::move(tracks_), "track", "tracks", source_, plan);
     check_plan(plan, source_);
@@ -48,13 +56,24 @@ class KmlTracks {
   /// Whether to go into the element.
   bool add(XmlTree::Node part, const std::string& name, std::string_view outer_mode = {}) {
     const std::string_view kind = xml_.name(part);
-    if (kind == "Polygon" || kind == "Model") return false;
+    if (kind == "ExtendedData") return false;
+    constexpr std::array<std::string_view, 6> kNotFlown = {"Polygon", "Model",        "NetworkLink",
+                                                           "Tour",    "PhotoOverlay", "GroundOverlay"};
+    if (std::find(kNotFlown.begin(), kNotFlown.end(), kind) != kNotFlown.end()) {
+      ++left_out_[std::string(kind)];
+      return false;
+    }
     if (kind == "MultiTrack" && outer_mode.empty()) {  // its tracks may leave the mode to it
       const std::string_view mode = xml_.child_text(part, "altitudeMode");
       if (!mode.empty()) xml_.walk(part, [&](XmlTree::Node inner) { return add(inner, name, mode); });
       return mode.empty();
     }
-    if (kind != "LineString" && kind != "Track" && kind != "Point") return true;
+    const bool is_list = kind == "LineString" || kind == "LinearRing" || kind == "Point";
+    if (!is_list && kind != "Track") {
+      refuse_misspelt(part);
+      return true;
+    }
+    for (const char* const only : {"coordinates", "altitudeMode"}) refuse_second(part, only);
     PlanTrack track;
     track.name = name;
     track.place = line_of(xml_, part);
@@ -78,6 +97,29 @@ class KmlTracks {
       tracks_.push_back(std::move(track));
     }
     return false;
+  }
+
+  /// Names of XML count upper and lower case.
+  void refuse_misspelt(XmlTree::Node part) const {
+    for (const std::string_view name : {"LineString", "LinearRing", "Track", "MultiTrack", "Point", "Placemark"}) {
+      const std::string_view kind = xml_.name(part);
+      const bool is_alike = std::equal(kind.begin(), kind.end(), name.begin(), name.end(), [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+      });
+      if (!is_alike || kind == name) continue;
+      source_.fail(ErrorCode::plan_syntax, line_of(xml_, part), "KML has no " + in_quotes(kind),
+                   "write " + in_quotes(name));
+    }
+  }
+
+  void refuse_second(XmlTree::Node part, const char* name) const {
+    XmlTree::Node node = xml_.child(part, name);
+    if (node == XmlTree::kNone) return;
+    for (node = xml_.next(node); node != XmlTree::kNone; node = xml_.next(node)) {
+      if (xml_.name(node) != name) continue;
+      source_.fail(ErrorCode::conflicting_keys, line_of(xml_, node), in_quotes(name) + " is given twice",
+                   "keep one of them");
+    }
   }
 
   /// Adds what the placemark says: <Data name="..."><value>, or <SimpleData name="...">.
@@ -124,6 +166,7 @@ class KmlTracks {
   const PlanSource& source_;
   std::vector<PlanTrack> tracks_;
   DetailPoints points_;
+  std::map<std::string, std::size_t> left_out_;
   std::size_t total_ = 0;
 };
 

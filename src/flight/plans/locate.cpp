@@ -76,17 +76,23 @@ class Locator {
   void add_waypoint(std::size_t index);
   void add_arc(std::size_t index);
   void add_spline(std::size_t index);
-  Vec3 spline_begin(std::size_t index, bool above_ground);
+  Vec3 spline_begin(std::size_t index, const Corner& to, bool above_ground);
   Vec3 spline_end(std::size_t index, const Corner& from, const Corner& to, bool above_ground);
-  bool check_alike(std::size_t spline, const Corner& corner, bool above_ground);
+  bool check_alike(std::size_t spline, const Corner& corner, const Corner& to);
   void add_curve(const std::vector<Vec3>& points, bool above_ground, const Corner& to);
+  void add_item(std::size_t index);
+  void add_from_other_end(std::size_t index);
+  void add_back_to(Corner from, const Corner& to);
   void add_takeoff(std::size_t index);
   void add_loiter(std::size_t index);
+  void add_levels(const PlanItem& item, const std::vector<Corner>& circle);
+  void tell_open_circle(std::size_t index);
   void add_landing(std::size_t index);
+  bool is_at_home(const Corner& corner) const;
   void add_return(std::size_t index);
   double loiter_radius(const PlanItem& item) const;
   double loiter_turns(const PlanItem& item, double radius_m);
-  std::vector<Corner> with_cut_corners() const;
+  std::vector<Corner> with_cut_corners();
   void add_leg(const Corner& from, const Corner& to);
   void add_following(const Corner& from, const Corner& to, bool is_last);
   void cut_geodesic(const Point& from, const Point& to, double begin, double end, int depth,
@@ -112,11 +118,12 @@ class Locator {
   std::optional<plans::GroundProfile> profile_;
   std::optional<double> home_z_;
   std::vector<Corner> corners_;
+  std::optional<Corner> other_end_;     ///< of the last item: the way to the next one may begin there, too
   Vec3 spline_tangent_ = Vec3::Zero();  ///< at the end of the last spline
   LocatedPlan located_;
   plans::NotJudged not_judged_{plan_.file, located_.flight.not_judged};
-  std::size_t timed_circles_ = 0, level_returns_ = 0;
-  bool has_curves_ = false, has_following_ = false;
+  std::size_t timed_circles_ = 0, level_returns_ = 0, open_circles_ = 0;
+  bool has_curves_ = false, has_following_ = false, has_levels_ = false;
   mutable double bent_m_ = 0;  // geodesics lie at most so far from their chords
 };
 
@@ -397,10 +404,9 @@ void Locator::add_arc(std::size_t index) {
 void Locator::add_spline(std::size_t index) {
   const Corner from = corners_.back(), to = corner_of(index);
   const bool above_ground = to.follows_ground && from.above_ground_m && to.above_ground_m;
-  check_alike(index, from, above_ground);
-  check_alike(index, to, above_ground);
+  check_alike(index, from, to);
   const Vec3 begin = with_height(from, above_ground), end = with_height(to, above_ground);
-  Vec3 first = spline_begin(index, above_ground), last = spline_end(index, from, to, above_ground);
+  Vec3 first = spline_begin(index, to, above_ground), last = spline_end(index, from, to, above_ground);
   spline_tangent_ = last;
   constexpr double kMostOfLength = 4;
   const double most = kMostOfLength * (end - begin).norm(), length = first.norm() + last.norm();
@@ -412,10 +418,12 @@ void Locator::add_spline(std::size_t index) {
   add_curve(plans::spline_points(begin, end, first, last, arc_error_m()), above_ground, to);
 }
 
-/// Where a corner's height is not measured as those of the spline are, Copter takes tangents of its own: not judged,
-/// and false.
-bool Locator::check_alike(std::size_t spline, const Corner& corner, bool above_ground) {
-  if (corner.above_ground_m.has_value() == above_ground) return true;
+/// Where a corner's height is not measured as that of the spline's end is, Copter takes tangents of its own: not
+/// judged, and false. Of heights above ground some are sent as heights above sea level: no legs follow the ground
+/// there.
+bool Locator::check_alike(std::size_t spline, const Corner& corner, const Corner& to) {
+  const bool is_like = corner.above_ground_m.has_value() == to.above_ground_m.has_value();
+  if (is_like && (to.follows_ground || !corner.follows_ground)) return true;
   not_judged_.name(place(spline),
                    "it is a spline, and of the heights before and behind it some are above ground and some are not: "
                    "give all of them in one frame");
@@ -423,13 +431,13 @@ bool Locator::check_alike(std::size_t spline, const Corner& corner, bool above_g
 }
 
 /// How the vehicle comes from the item before: not at all where it stops there.
-Vec3 Locator::spline_begin(std::size_t index, bool above_ground) {
+Vec3 Locator::spline_begin(std::size_t index, const Corner& end, bool above_ground) {
   const PlanItem& before = plan_.items[index - 1];
   const bool stops = before.kind != PlanItemKind::waypoint || before.hold_s > 0 || corners_.size() < 2;
   if (stops) return Vec3::Zero();
   if (before.is_spline) return spline_tangent_;
   const Corner &from = corners_[corners_.size() - 2], &to = corners_.back();
-  if (!check_alike(index, from, above_ground)) return Vec3::Zero();
+  if (!check_alike(index, from, end)) return Vec3::Zero();
   return with_height(to, above_ground) - with_height(from, above_ground);
 }
 
@@ -443,12 +451,16 @@ Vec3 Locator::spline_end(std::size_t index, const Corner& from, const Corner& to
   if (after.kind == PlanItemKind::land) {
     next.position.z() = to.position.z();
     next.above_ground_m = to.above_ground_m;
+    next.follows_ground = to.follows_ground;
   }
-  if (!check_alike(index, next, above_ground)) return Vec3::Zero();
+  if (!check_alike(index, next, to)) return Vec3::Zero();
   return with_height(next, above_ground) - with_height(after.is_spline ? from : to, above_ground);
 }
 
-/// A multirotor climbs above the home, and then goes to the place of the item; a fixed wing climbs on the way to it.
+constexpr double kSamePlaceM = 1;  // plans round positions to centimetres
+
+/// A multirotor climbs above the home, or where it is, and then goes to the place of the item; a fixed wing climbs on
+/// the way to it.
 void Locator::add_takeoff(std::size_t index) {
   const Corner corner = corner_of(index);
   const auto home = home_position();
@@ -466,6 +478,18 @@ void Locator::add_takeoff(std::size_t index) {
     constexpr double kSameM = 1e-3;
     const bool is_elsewhere = (corner.position - above.position).norm() > kSameM;
     if (is_elsewhere && plan_.vehicle != PlanVehicle::fixed_wing) add(above);
+  } else if (!corners_.empty() && plan_.vehicle != PlanVehicle::fixed_wing) {
+    const Vec3 last = corners_.back().position;
+    const double away_m = (corner.position - last).head<2>().norm();
+    if (away_m > kSamePlaceM) {
+      not_judged_.name(place(index), "it takes off elsewhere than the vehicle is, and some climb where they are");
+    }
+    Corner above = corner;
+    above.hold_s = 0;
+    above.follows_ground = false;
+    above.above_ground_m.reset();
+    above.position.head<2>() = last.head<2>();
+    if (away_m > 0 && above.position.z() > last.z()) add(above);
   }
   add(corner);
 }
@@ -486,10 +510,20 @@ double Locator::loiter_turns(const PlanItem& item, double radius_m) {
   return 1;
 }
 
+/// What circles, and of a vehicle that nobody knows the stay in the centre first: the next item begins at either.
 void Locator::add_loiter(std::size_t index) {
   const PlanItem& item = plan_.items[index];
   Corner centre = corner_of(index);
-  if (item.turns == 0) return add(centre);
+  const bool is_open = item.may_stay && item.loiter_radius_m == 0 && options_.loiter_radius_m.value_or(0) == 0;
+  if (is_open) tell_open_circle(index);
+  if (item.turns == 0 || is_open) return add_levels(item, {centre});
+  if (item.may_stay) {
+    const std::optional<Corner> from = corners_.empty() ? std::nullopt : std::optional(corners_.back());
+    add_levels(item, {centre});
+    other_end_ = corners_.back();
+    other_end_->hold_s = 0;
+    if (from) add_back_to(*from, centre);
+  }
   const double radius = loiter_radius(item), turns = loiter_turns(item, radius);
   centre.hold_s = 0;
   centre.cut_m = 0;
@@ -503,6 +537,7 @@ void Locator::add_loiter(std::size_t index) {
   if (frame_) about.emplace(frame_->to_lonlat(centre.position.head<2>()));
   const Point towards = about ? about->to_local(frame_->to_lonlat(before)) : Point(before - centre.position.head<2>());
   constexpr double kNoDirectionM = 1e-6;
+  std::vector<Corner> circle;
   for (const Point& p :
        plans::circle_points(towards.norm() > kNoDirectionM ? towards : Point(0, 0), radius, turns, arc_error_m())) {
     Corner corner = centre;
@@ -510,24 +545,85 @@ void Locator::add_loiter(std::size_t index) {
     if (corner.follows_ground && corner.above_ground_m) {
       corner.position.z() = ground_z(corner.position.head<2>(), item.place) + *corner.above_ground_m;
     }
-    add(corner);
+    circle.push_back(corner);
   }
+  add_levels(item, circle);
   has_curves_ = true;
 }
 
-/// At the height before, above the place; with ground legs down to it. A fixed wing comes down on a slope.
+/// A circle, or the place of a stay. It is come to at its own height or at that before, and between these the vehicle
+/// may be anywhere on a circle: all of that is flown. Circles lie so close that none of the heights between is farther
+/// away than the ground's error.
+void Locator::add_levels(const PlanItem& item, const std::vector<Corner>& circle) {
+  const std::optional<Corner> from = corners_.empty() ? std::nullopt : std::optional(corners_.back());
+  for (const Corner& corner : circle) add(corner);
+  if (!item.is_climb || !from) return;
+  const bool above_ground = circle.front().follows_ground && from->above_ground_m && circle.front().above_ground_m;
+  const double first = with_height(*from, above_ground).z(), last = with_height(circle.front(), above_ground).z();
+  if (first == last) return;
+  const double steps = circle.size() > 1 ? std::ceil(std::abs(last - first) / (2 * options_.ground_error_m)) : 1;
+  if (!(steps * static_cast<double>(circle.size()) < static_cast<double>(kMostFlightPoints))) {
+    fail(ErrorCode::work_too_large, item.place, "the circles take more than a million chords",
+         "allow larger errors of chords and of the ground");
+  }
+  for (double step = 1; step <= steps; ++step) {
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+      Corner corner = circle[i];
+      corner.hold_s = 0;
+      corner.follows_ground = above_ground && i > 0;  // the first one lies straight above or below the last one
+      const double height = last + step / steps * (first - last);
+      if (above_ground) corner.above_ground_m = height;
+      corner.position.z() = height + (above_ground ? ground_z(corner.position.head<2>(), item.place) : 0);
+      add(corner);
+    }
+  }
+  add_back_to(*from, circle.front());
+  add(circle.back());
+  has_levels_ = has_levels_ || circle.size() > 1;
+}
+
+/// Goes back to where `to` was come to from.
+void Locator::add_back_to(Corner from, const Corner& to) {
+  from.hold_s = from.cut_m = 0;
+  from.follows_ground = to.follows_ground;
+  from.item = to.item;
+  add(from);
+}
+
+/// Tables of waypoints never say which vehicle it is, and are taken as of ArduPilot's Copter; others leave it out.
+void Locator::tell_open_circle(std::size_t index) {
+  if (plan_.format == PlanFormat::waypoints) {
+    ++open_circles_;
+  } else {
+    not_judged_.name(place(index),
+                     "a multirotor stays there, and others circle with a radius of their own: give a plan that names "
+                     "the vehicle, or the radius with --loiter-radius (loiter_radius_m in Python)");
+  }
+}
+
+bool Locator::is_at_home(const Corner& corner) const {
+  const auto home = home_position();
+  return home && (corner.position.head<2>() - *home).norm() <= kSamePlaceM;
+}
+
+/// At the height before, above the place, and down to the ground; above the home only with ground legs. A fixed wing
+/// comes down on a slope.
 void Locator::add_landing(std::size_t index) {
   const PlanItem& item = plan_.items[index];
   Corner corner = corner_of(index);
   corner.follows_ground = false;
   Corner below = corner;
-  const bool is_first = corners_.empty();
-  if (options_.with_ground_legs || is_first) {
-    below.position.z() = z_of(item.position, corner.position.head<2>(), item.place);
+  const Point at = corner.position.head<2>();
+  const bool is_first = corners_.empty(), is_home = is_at_home(corner),
+             comes_down = !is_first && (options_.with_ground_legs || !is_home);
+  if (comes_down || is_first) {
+    // Whatever height is stated, it goes on down until it is on the ground.
+    const auto ground = options_.ground && !is_home ? ground_level(at) : std::nullopt;
+    below.position.z() = ground ? *ground : z_of(item.position, at, item.place);
   }
   corner.position.z() = is_first ? below.position.z() : corners_.back().position.z();
-  if (!(options_.with_ground_legs && plan_.vehicle == PlanVehicle::fixed_wing)) add(corner);
-  if (options_.with_ground_legs && !is_first) add(below);
+  if (!(comes_down && plan_.vehicle == PlanVehicle::fixed_wing)) add(corner);
+  if (comes_down) add(below);
 }
 
 void Locator::add_return(std::size_t index) {
@@ -554,13 +650,17 @@ void Locator::add_return(std::size_t index) {
   add(corner);
 }
 
-std::vector<Corner> Locator::with_cut_corners() const {
+std::vector<Corner> Locator::with_cut_corners() {
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const Corner& corner = corners_[i];
-    const bool is_cut = corner.cut_m > 0 && corner.hold_s == 0 && i > 0 && i + 1 < corners_.size() &&
-                        !corner.follows_ground && !corners_[i + 1].follows_ground;
-    if (!is_cut) {
+    const bool is_cut = corner.cut_m > 0 && corner.hold_s == 0 && i > 0 && i + 1 < corners_.size(),
+               follows = is_cut && (corner.follows_ground || corners_[i + 1].follows_ground);
+    if (follows) {
+      not_judged_.name(place(corner.item),
+                       "the vehicle turns before it, and how it follows the ground there is not said");
+    }
+    if (!is_cut || follows) {
       corners.push_back(corner);
       continue;
     }
@@ -693,26 +793,38 @@ void Locator::add_following(const Corner& from, const Corner& to, bool is_last) 
   if (jumps_at_end) push_at(1, last.z(), true);
 }
 
+/// Goes to the item and back, and then to the other end of the item before: the item follows from there, too.
+void Locator::add_from_other_end(std::size_t index) {
+  Corner from = *std::exchange(other_end_, std::nullopt);
+  const std::size_t first = corners_.size(), timed_circles = timed_circles_, level_returns = level_returns_,
+                    open_circles = open_circles_;
+  add_item(index);
+  timed_circles_ = timed_circles, level_returns_ = level_returns, open_circles_ = open_circles;  // it is counted again
+  for (std::size_t i = corners_.size(); i-- > first;) add_back_to(corners_[i - 1], corners_[i]);
+  from.item = index;
+  add_back_to(from, from);
+}
+
+void Locator::add_item(std::size_t index) {
+  switch (plan_.items[index].kind) {
+    case PlanItemKind::waypoint:
+      return add_waypoint(index);
+    case PlanItemKind::takeoff:
+      return add_takeoff(index);
+    case PlanItemKind::loiter:
+      return add_loiter(index);
+    case PlanItemKind::land:
+      return add_landing(index);
+    case PlanItemKind::return_home:
+      return add_return(index);
+  }
+}
+
 LocatedPlan Locator::locate() {
   located_.flight.not_judged = plan_.not_judged;
   for (std::size_t i = 0; i < plan_.items.size(); ++i) {
-    switch (plan_.items[i].kind) {
-      case PlanItemKind::waypoint:
-        add_waypoint(i);
-        break;
-      case PlanItemKind::takeoff:
-        add_takeoff(i);
-        break;
-      case PlanItemKind::loiter:
-        add_loiter(i);
-        break;
-      case PlanItemKind::land:
-        add_landing(i);
-        break;
-      case PlanItemKind::return_home:
-        add_return(i);
-        break;
-    }
+    if (other_end_) add_from_other_end(i);
+    add_item(i);
     if (corners_.size() > kMostFlightPoints) {
       fail(ErrorCode::work_too_large, place(i), "the flight takes more than a million points",
            "take a part of the plan, or allow a larger error of chords");
@@ -727,14 +839,20 @@ LocatedPlan Locator::locate() {
       add_leg(corners[i - 1], corners[i]);
     }
   }
-  located_.flight.chord_error_m =
-      (has_curves_ ? options_.chord_error_m : 2 * bent_m_) + (has_following_ ? options_.ground_error_m : 0);
+  located_.flight.chord_error_m = (has_curves_ ? options_.chord_error_m : 2 * bent_m_) +
+                                  (has_following_ ? options_.ground_error_m : 0) +
+                                  (has_levels_ ? options_.ground_error_m : 0);
   const auto home = home_position();
   if (home && known_home_z()) located_.home = scene_of({home->x(), home->y(), *known_home_z()});
   using internal::core::count_text;
   if (timed_circles_ > 0) {
     note(count_text(timed_circles_, "loiter is", "loiters are") +
          " for a time, and no speed is known: one circle is taken");
+  }
+  if (open_circles_ > 0) {
+    note(count_text(open_circles_, "loiter is", "loiters are") +
+         " taken as a stay, as of a multirotor: others circle there, judged where the radius is given with "
+         "--loiter-radius (loiter_radius_m in Python)");
   }
   if (level_returns_ > 0) {
     note(

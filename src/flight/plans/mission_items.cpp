@@ -22,11 +22,11 @@ bool moves_nothing(const MissionItem& item) {
   constexpr int kGuidedEnable = 92, kParachute = 208;
   if (item.command == kGuidedEnable && item.parameters[0] == 0) return true;                         // off
   if (item.command == kParachute && item.parameters[0] >= 0 && item.parameters[0] < 2) return true;  // no release
-  constexpr std::array kCommands = {112,  114,  180,  181,  182,   183,   184,   187,   188,   189,   194,  196,  198,
-                                    200,  202,  203,  204,  206,   207,   209,   211,   212,   214,   215,  220,  221,
-                                    222,  223,  240,  241,  247,   530,   531,   532,   533,   534,   600,  2000, 2001,
-                                    2003, 2500, 2501, 2502, 2503,  2510,  2511,  2520,  4000,  4501,  5000, 5001, 5002,
-                                    5003, 5004, 5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
+  constexpr std::array kCommands = {112,  114,  181,   182,   183,   184,   187,   188,   194,  196,  198,  200,  202,
+                                    203,  204,  206,   207,   209,   211,   212,   214,   215,  220,  221,  222,  223,
+                                    240,  241,  247,   530,   531,   532,   533,   534,   600,  2000, 2001, 2003, 2500,
+                                    2501, 2502, 2503,  2510,  2511,  2520,  4000,  4501,  5000, 5001, 5002, 5003, 5004,
+                                    5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
   return std::find(kCommands.begin(), kCommands.end(), item.command) != kCommands.end();
 }
 
@@ -66,6 +66,8 @@ constexpr Mover kMovers[] = {{23, "NAV_LAND_LOCAL"},
                              {3000, "DO_VTOL_TRANSITION"},
                              {4001, "GUIDED_SUBMODE_CIRCLE"},
                              {42702, "NAV_SCRIPT_TIME"},
+                             {43001, "GUIDED_CHANGE_ALTITUDE"},
+                             {43002, "GUIDED_CHANGE_HEADING"},
                              {42703, "NAV_ATTITUDE_TIME"}};
 
 bool is_given(double latitude, double longitude) {
@@ -104,7 +106,7 @@ class Runner {
   PlanItem& add(PlanItemKind kind, const MissionItem& item);
   void take_zero_height(const PlanItem* before, bool is_here, const MissionItem& item, PlanItem& added);
   void keep_height(const PlanItem& before, const MissionItem& item, PlanItem& added);
-  void look_for_fences_and_rally_points();
+  void look_for_fences_and_returns();
   void add_notes();
   void note(WarningCode code, const std::string& text) { plan_.notes.push_back({code, source_.name + ": " + text}); }
   [[noreturn]] static void fail(ErrorCode code, const MissionItem& item, const std::string& problem,
@@ -128,7 +130,7 @@ class Runner {
   // For notes.
   std::map<std::string, std::size_t> unknown_;
   std::size_t splines_ = 0, old_arcs_ = 0, airspeeds_ = 0, unlimited_ = 0, climbs_ = 0, endless_jumps_ = 0,
-              kept_heights_ = 0, not_flown_ = 0;
+              kept_heights_ = 0, not_flown_ = 0, settings_ = 0, until_times_ = 0;
 };
 
 void Runner::run() {
@@ -150,18 +152,21 @@ void Runner::run() {
     ++at;
     if (is_over_) not_flown_ = mission_.size() - at;
   }
-  look_for_fences_and_rally_points();
+  look_for_fences_and_returns();
   add_notes();
 }
 
 /// Wherever they are: also behind the return.
-void Runner::look_for_fences_and_rally_points() {
+void Runner::look_for_fences_and_returns() {
   const auto count = [this](int first, int last) {
     return std::count_if(mission_.begin(), mission_.end(),
                          [&](const MissionItem& item) { return first <= item.command && item.command <= last; });
   };
   name_rally_points(static_cast<std::size_t>(count(kRallyPoint, kRallyPoint)), plan_);
   if (count(kFencePolygonIn, kFenceCircleOut) > 0) note_fence(plan_);
+  if (count(kDoLandStart, kDoLandStart) > 0) {
+    name_returns("the plan has a landing (DO_LAND_START), and the vehicle may fly to it instead of the home", plan_);
+  }
 }
 
 PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
@@ -172,11 +177,14 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
     added.position = position_of(item);
     const PlanItem* const before = plan_.items.size() > 1 ? &*std::prev(plan_.items.end(), 2) : nullptr;
     const bool is_here = !added.position.horizontal.allFinite();
-    if (is_here && kind != PlanItemKind::takeoff) {
-      if (!before || !before->position.horizontal.allFinite()) {
+    const bool has_before = before && before->position.horizontal.allFinite();
+    if (is_here && (has_before || kind != PlanItemKind::takeoff)) {
+      if (!has_before) {
         fail(ErrorCode::plan_empty, item, "the item has no position, and none is before it", "give it one");
       }
       added.position.horizontal = before->position.horizontal;
+      const bool may_circle = before->turns > 0 && !(before->may_stay && before->loiter_radius_m == 0);
+      if (may_circle) not_judged(item, "it has no position, and the circle before it may end anywhere on it");
     }
     const bool may_keep = kind == PlanItemKind::waypoint || kind == PlanItemKind::loiter;
     if (may_keep && added.position.height_m == 0) take_zero_height(before, is_here, item, added);
@@ -193,15 +201,17 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
 }
 
 /// Where nobody knows which vehicle it is, that does not matter if the height before is 0, too. The first item comes
-/// from the home.
+/// from the home. ArduPilot's Copter climbs in a loiter to its own height, also to 0.
 void Runner::take_zero_height(const PlanItem* before, bool is_here, const MissionItem& item, PlanItem& added) {
-  const bool keeps = zero_height_ == ZeroHeight::keeps || (is_here && zero_height_ != ZeroHeight::flown);
+  if (item.command == kNavLoiterToAltitude && zero_height_ == ZeroHeight::keeps) return;
+  const bool keeps = zero_height_ == ZeroHeight::keeps || (is_here && zero_height_ == ZeroHeight::keeps_here);
+  const bool is_open = zero_height_ == ZeroHeight::unknown || (is_here && zero_height_ == ZeroHeight::unknown_here);
   if (keeps && before) keep_height(*before, item, added);
-  if (keeps || zero_height_ != ZeroHeight::unknown) return;
+  if (!is_open) return;
   const PlanPosition kept = before ? before->position : PlanPosition{{0, 0}, 0, HeightDatum::home};
   if (kept.height_m == 0 && kept.datum == added.position.datum) return;
   not_judged(item,
-             "its height of 0 keeps the height before with ArduPilot's Copter, and is one to fly at with others: write "
+             "its height of 0 keeps the height before with some autopilots, and is one to fly at with others: write "
              "the height, or give a .plan that names the autopilot and the vehicle");
 }
 
@@ -228,6 +238,9 @@ void Runner::come_to(const MissionItem& item) {
   added.is_spline = is_spline;
   splines_ += is_spline ? 1 : 0;
   added.acceptance_radius_m = is_spline ? 0 : or_zero(1);
+  if (!is_spline && or_zero(2) != 0) {
+    not_judged(item, "its third parameter, " + shortest(p[2]) + ", lets the vehicle pass by the waypoint: write 0");
+  }
   // 0 is north in the standard, and "not given" to those who write the files.
   if (or_zero(3) != 0) added.yaw_deg = p[3];
 }
@@ -253,14 +266,14 @@ bool Runner::move(const MissionItem& item) {
       ++unlimited_;
       loiter(item, or_zero(2), 1, 0);
       return true;
-    case kNavLoiterTurns:
-      loiter(item, or_zero(2), std::max(or_zero(0), 0.0), 0);
+    case kNavLoiterTurns:  // no number, or one below 0: a whole circle at least
+      loiter(item, or_zero(2), p[0] > 0 ? p[0] : std::max(std::abs(or_zero(0)), 1.0), 0);
       return true;
     case kNavLoiterTime:
       loiter(item, or_zero(2), 1, std::max(or_zero(0), 0.0));
       return true;
     case kNavLoiterToAltitude:
-      ++climbs_;
+      climbs_ += plan_.vehicle == PlanVehicle::multirotor ? 0 : 1;
       loiter(item, or_zero(1), 1, 0);
       return true;
     case kNavReturn:
@@ -277,6 +290,7 @@ bool Runner::move(const MissionItem& item) {
       return true;
     case kNavDelay:
       if (!plan_.items.empty() && or_zero(0) > 0) plan_.items.back().hold_s += p[0];
+      until_times_ += or_zero(0) > 0 ? 0 : 1;
       if (!plan_.items.empty() && plan_.items.back().is_spline) not_judged(item, "it is a delay behind a spline");
       return true;
     default:
@@ -284,15 +298,15 @@ bool Runner::move(const MissionItem& item) {
   }
 }
 
-/// A multirotor that is told to loiter for a time stays where it is; others circle. Without a kind of vehicle the
-/// radius tells.
+/// A multirotor that is told to loiter for a time stays where it is; others circle.
 void Runner::loiter(const MissionItem& item, double radius_m, double turns, double hold_s) {
   PlanItem& added = add(PlanItemKind::loiter, item);
-  const bool can_stay =
-      plan_.vehicle == PlanVehicle::multirotor || (plan_.vehicle == PlanVehicle::unknown && radius_m == 0);
-  const bool is_circle = item.command == kNavLoiterTurns || item.command == kDoOrbit || !can_stay;
+  const bool all_circle = item.command == kNavLoiterTurns || item.command == kDoOrbit;
+  const bool is_circle = all_circle || plan_.vehicle != PlanVehicle::multirotor;
   added.loiter_radius_m = is_circle ? radius_m : 0;
   added.turns = is_circle ? turns : 0;
+  added.may_stay = !all_circle && plan_.vehicle == PlanVehicle::unknown;
+  added.is_climb = item.command == kNavLoiterToAltitude;
   added.hold_s = hold_s;
 }
 
@@ -358,6 +372,11 @@ bool Runner::set(const MissionItem& item) {
       if (!plan_.items.empty()) {
         not_judged(item, "it sets another home in flight, and heights and the return are measured from that");
       }
+      return true;
+    case kDoSetParameter:
+      ++settings_;
+      return true;
+    case kDoLandStart:  // look_for_fences_and_returns
       return true;
     case kConditionYaw:
       if (p[3] == 0 && !std::isnan(p[0])) yaw_deg_ = p[0];
@@ -429,6 +448,10 @@ void Runner::add_notes() {
     note(WarningCode::plan_left_out,
          core::count_text(not_flown_, "item is", "items are") + " after the return to the home, and not flown");
   }
+  if (settings_ > 0) {
+    note(WarningCode::plan_left_out, core::count_text(settings_, "item changes", "items change") +
+                                         " a setting of the vehicle (DO_SET_PARAMETER), which is not followed");
+  }
   const auto assume = [this](std::size_t count, const char* one, const char* many, const char* what) {
     if (count > 0) note(WarningCode::plan_assumed, core::count_text(count, one, many) + what);
   };
@@ -439,7 +462,9 @@ void Runner::add_notes() {
          "position is given)");
   assume(airspeeds_, "speed is", "speeds are", " through the air, and taken as over ground");
   assume(unlimited_, "loiter has", "loiters have", " no end: one circle is taken, or a point, and then what follows");
-  assume(climbs_, "climb in circles is", "climbs in circles are", " taken as one circle at the height that it ends at");
+  assume(climbs_, "climb in circles is", "climbs in circles are",
+         " taken as circles at all heights from that before: its length and its time are not those of the flight");
+  assume(until_times_, "delay is", "delays are", " until a time of the day, and taken as none");
   assume(endless_jumps_, "jump has", "jumps have", " no end: taken once");
 }
 
@@ -485,13 +510,17 @@ void run_mission(const std::vector<MissionItem>& mission, const PlanSource& sour
   Runner(mission, source, zero_height, plan).run();
 }
 
-void name_rally_points(std::size_t count, FlightPlan& plan) {
+void name_returns(const std::string& why, FlightPlan& plan) {
   const auto returns = std::find_if(plan.items.begin(), plan.items.end(),
                                     [](const PlanItem& item) { return item.kind == PlanItemKind::return_home; });
-  if (count == 0 || returns == plan.items.end()) return;
-  plan.not_judged.push_back(returns->place + ": the plan has " +
-                            core::count_text(count, "rally point", "rally points") +
-                            ", and the vehicle may return to one of them instead of the home");
+  if (returns != plan.items.end()) plan.not_judged.push_back(returns->place + ": " + why);
+}
+
+void name_rally_points(std::size_t count, FlightPlan& plan) {
+  if (count == 0) return;
+  name_returns("the plan has " + core::count_text(count, "rally point", "rally points") +
+                   ", and the vehicle may return to one of them instead of the home",
+               plan);
 }
 
 void note_fence(FlightPlan& plan) {

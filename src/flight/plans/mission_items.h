@@ -32,6 +32,8 @@ enum MissionCommand : int {
   kDoJump = 177,
   kDoChangeSpeed = 178,
   kDoSetHome = 179,
+  kDoSetParameter = 180,
+  kDoLandStart = 189,
   kDoSetRoiLocation = 195,
   kDoSetRoiNone = 197,
   kDoSetRoi = 201,
@@ -68,16 +70,20 @@ struct MissionItem {
 
 /// What a height of 0 is for a waypoint or a loiter.
 enum class ZeroHeight {
-  flown,       ///< a height as any other: PX4
-  keeps,       ///< that of the item before: ArduPilot's Copter
-  keeps_here,  ///< the same where the item has no position: ArduPilot's Plane
-  unknown,     ///< one of these: the plan does not say which vehicle flies it
+  flown,         ///< a height as any other: PX4
+  keeps,         ///< that of the item before: ArduPilot's Copter
+  keeps_here,    ///< the same where the item has no position: ArduPilot's Plane
+  unknown,       ///< one of these: the plan does not say which vehicle flies it
+  unknown_here,  ///< flown, or keeps_here: a fixed wing of an autopilot that the plan does not say
 };
 
 /// Runs the mission from its first item to its last, jumps followed, into `plan`, whose vehicle and home are set.
 /// Throws Error(input) with the item's place.
 void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height,
                  FlightPlan& plan);
+
+/// Names the first return, if there is one, as not judged.
+void name_returns(const std::string& why, FlightPlan& plan);
 
 /// Autopilots return to the nearest rally point instead of the home, if their settings say so: a plan that returns is
 /// not judged.

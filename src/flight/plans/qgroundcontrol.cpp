@@ -95,9 +95,10 @@ class GroundStationPlan {
     constexpr double kArduPilot = 3, kPx4 = 12;  // MAV_AUTOPILOT
     const double autopilot = member_or_nan(mission, "firmwareType", source_.place("mission"));
     if (autopilot == kPx4) return ZeroHeight::flown;
-    if (plan_.vehicle == PlanVehicle::fixed_wing || plan_.vehicle == PlanVehicle::vtol) return ZeroHeight::keeps_here;
-    const bool is_copter = autopilot == kArduPilot && plan_.vehicle == PlanVehicle::multirotor;
-    return is_copter ? ZeroHeight::keeps : ZeroHeight::unknown;
+    const bool has_wings = plan_.vehicle == PlanVehicle::fixed_wing || plan_.vehicle == PlanVehicle::vtol;
+    if (autopilot != kArduPilot) return has_wings ? ZeroHeight::unknown_here : ZeroHeight::unknown;
+    if (has_wings) return ZeroHeight::keeps_here;
+    return plan_.vehicle == PlanVehicle::multirotor ? ZeroHeight::keeps : ZeroHeight::unknown;
   }
 
   void look_for_rally_points(const json& root) {
@@ -176,21 +177,44 @@ class GroundStationPlan {
       added.parameters[i] = number_or_nan((*parameters)[i], where, "params[" + std::to_string(i) + "]");
     }
     added.id = id_of(item, where);
-    // 3: above terrain, from which the ground station computes the height above sea level; null where it has no
-    // terrain.
-    constexpr double kRelative = 1, kAbsolute = 2, kAboveTerrain = 3, kTerrainFrame = 4;
-    const auto mode = item.find("AltitudeMode");
-    const double kind =
-        mode == item.end() || mode->is_string() ? kNoNumber : member_or_nan(item, "AltitudeMode", where);
-    const double stated = member_or_nan(item, "Altitude", where);
-    if (kind == kAboveTerrain || (mode != item.end() && *mode == "CalcAboveTerrain")) {
-      const double above_sea = member_or_nan(item, "AMSLAltAboveTerrain", where);
+    take_height(item, added);
+  }
+
+  /// Above terrain the ground station computes the height above sea level from its own; null where it has none.
+  static void take_height(const json& item, MissionItem& added) {
+    const std::string mode = mode_of(item, added.place);
+    const double stated = member_or_nan(item, "Altitude", added.place);
+    if (mode == "CalcAboveTerrain") {
+      const double above_sea = member_or_nan(item, "AMSLAltAboveTerrain", added.place);
       if (std::isnan(added.parameters[6])) added.parameters[6] = above_sea;
       check_same_height(added, "AMSLAltAboveTerrain", above_sea);
       added.above_ground_m = stated;
-    } else if (kind == kRelative || kind == kAbsolute || kind == kTerrainFrame) {
+    } else {
       check_same_height(added, "Altitude", stated);
     }
+    const int frame = added.frame;
+    const bool is_relative = frame == kGlobalRelative || frame == kGlobalRelativeInt,
+               is_absolute = frame == kGlobal || frame == kGlobalInt,
+               is_terrain = frame == kGlobalTerrain || frame == kGlobalTerrainInt;
+    const bool contradicts = (mode == "Relative" && !is_relative) || (mode == "Absolute" && !is_absolute) ||
+                             (mode == "CalcAboveTerrain" && !is_absolute) || (mode == "TerrainFrame" && !is_terrain);
+    if (std::isnan(stated) || frame == kMission || !contradicts) return;
+    PlanSource::fail_at(ErrorCode::conflicting_keys, added.place,
+                        "its height is measured from two levels: the frame is " + std::to_string(frame) +
+                            ", and the AltitudeMode " + mode,
+                        "open the plan in the ground station, set the height anew, and save it");
+  }
+
+  /// A name, or its number.
+  static std::string mode_of(const json& item, const std::string& where) {
+    const auto mode = item.find("AltitudeMode");
+    if (mode == item.end()) return {};
+    if (mode->is_string()) return printable(mode->get<std::string>());
+    const double number = number_or_nan(*mode, where, in_quotes("AltitudeMode"));
+    if (number == 1) return "Relative";
+    if (number == 2) return "Absolute";
+    if (number == 3) return "CalcAboveTerrain";
+    return number == 4 ? "TerrainFrame" : "";
   }
 
   /// The vehicle is given params[6], and the ground station shows the other one. Which is meant, nobody knows.

@@ -1,5 +1,7 @@
 // WPML, the plans of DJI: https://developer.dji.com/doc/cloud-api-tutorial/en/api-reference/dji-wpml/overview.html.
 // waylines.wpml is what the aircraft flies; template.kml is what a person has drawn, and is read where it is alone.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -32,8 +34,10 @@ class Waylines {
     for (XmlTree::Node node = xml_.first_child(document); node != XmlTree::kNone; node = xml_.next(node)) {
       if (xml_.name(node) == "Folder") add_folder(node);
     }
+    check_all_read(document);
     take_tracks(std::move(tracks_), "wayline", "waylines", source_, plan_);
     if (config != XmlTree::kNone && !plan_.items.empty()) add_ends(config);
+    name_unknown_actions(document);
     if (curves_ > 0) {
       plan_.not_judged.push_back(
           first_curve_ + ": it is flown through in a curve of the aircraft's own, which the plan does not hold" +
@@ -50,6 +54,40 @@ class Waylines {
   }
   std::string_view word(XmlTree::Node parent, const char* name) const {
     return parent == XmlTree::kNone ? std::string_view() : xml_.child_text(parent, name);
+  }
+
+  /// A waypoint in another place, or without a position of its own, would not be flown to.
+  void check_all_read(XmlTree::Node document) const {
+    std::size_t read = 0;
+    xml_.walk(document, [&](XmlTree::Node node) {
+      if (xml_.name(node) != "Placemark") return true;
+      if (read < placemarks_.size() && placemarks_[read] == node) {
+        ++read;
+        return true;
+      }
+      source_.fail(
+          ErrorCode::value_unsupported, line_of(xml_, node),
+          "the waypoint is not one of a wayline: it lies outside of its folder, or its position is not a Point "
+          "directly in it",
+          "write it as the plans of DJI have it, or leave it out");
+    });
+  }
+
+  /// Of the actions those that leave the vehicle where it is.
+  void name_unknown_actions(XmlTree::Node document) {
+    constexpr std::array<std::string_view, 16> kKnown = {
+        "hover",     "rotateYaw",     "gimbalRotate",     "gimbalEvenlyRotate",
+        "takePhoto", "startRecord",   "stopRecord",       "focus",
+        "zoom",      "customDirName", "orientedShoot",    "accurateShoot",
+        "panoShot",  "setFocusType",  "recordPointCloud", "megaphone"};
+    xml_.walk(document, [&](XmlTree::Node node) {
+      const std::string_view name = xml_.text(node);
+      if (xml_.name(node) == "actionActuatorFunc" && std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+        not_judged_.name(source_.place(line_of(xml_, node)),
+                         "the action " + in_quotes(name) + " is not known here, and may move the vehicle");
+      }
+      return true;
+    });
   }
 
   /// "latitude,longitude,height", the height above the ellipsoid.
@@ -103,12 +141,19 @@ class Waylines {
     const Heights heights = heights_of(folder);
     const double folder_speed = number(folder, "autoFlightSpeed");
     const std::string_view folder_turn = xml_.child_text(folder, "globalWaypointTurnMode");
-    double speed = kNoValue;  // of the leg to come: that of the waypoint before
+    const std::string_view type = xml_.child_text(folder, "waylineType");
+    if (!type.empty() && type != "waypoint") {
+      not_judged_.name(source_.place(track.place),
+                       "it is a wayline of the type " + in_quotes(type) + ", which is not followed here");
+    }
+    bool turns_somewhere = false;  // at the last waypoint, if there is another behind it
+    double speed = kNoValue;       // of the leg to come: that of the waypoint before
     double last_index = kNoValue;
     camera_ = {};
     for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
       source_.progress.tick();
       if (xml_.name(node) != "Placemark" || xml_.child(node, "Point") == XmlTree::kNone) continue;
+      placemarks_.push_back(node);
       const double index = number(node, "index");
       if (index < last_index) {
         source_.fail(ErrorCode::value_unsupported, line_of(xml_, node),
@@ -123,7 +168,11 @@ class Waylines {
       const double own_speed =
           xml_.child_text(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
       speed = own_speed > 0 ? own_speed : folder_speed > 0 ? folder_speed : kNoValue;
-      read_turn(node, folder_turn, item);
+      if (turns_somewhere) {
+        not_judged_.name(track.items[track.items.size() - 2].place,
+                         "it is turned before, and the plan does not say how far (waypointTurnDampingDist)");
+      }
+      turns_somewhere = read_turn(node, folder_turn, item) && track.items.size() > 1;
       read_camera(node, item);
     }
     if (!track.items.empty()) tracks_.push_back(std::move(track));
@@ -144,16 +193,22 @@ class Waylines {
     }
   }
 
-  void read_turn(XmlTree::Node placemark, std::string_view folder_turn, PlanItem& item) {
+  /// Whether it turns before the waypoint, and does not say how far.
+  bool read_turn(XmlTree::Node placemark, std::string_view folder_turn, PlanItem& item) {
     const XmlTree::Node turn = xml_.child(placemark, "waypointTurnParam");
     const bool is_global = turn == XmlTree::kNone || xml_.child_text(placemark, "useGlobalTurnParam") == "1";
     const std::string_view mode = is_global ? folder_turn : xml_.child_text(turn, "waypointTurnMode");
     if (mode == "coordinateTurn") {
       const double distance = number(turn, "waypointTurnDampingDist");
       item.cut_m = distance > 0 ? distance : 0;
+      return !(distance > 0);
     }
     const bool is_curve = mode.find("ContinuityCurvature") != std::string_view::npos;  // not "Discontinuity..."
     if (is_curve && xml_.child_text(placemark, "useStraightLine") != "1" && ++curves_ == 1) first_curve_ = item.place;
+    if (!is_curve && !mode.empty() && mode != "toPointAndStopWithDiscontinuityCurvature") {
+      not_judged_.name(item.place, "how it is turned there is not known here: " + in_quotes(mode));
+    }
+    return false;
   }
 
   /// What an action has set stays so.
@@ -227,6 +282,8 @@ class Waylines {
     } else if (finish == "gotoFirstWaypoint") {
       last.position = plan_.items.front().position;
       plan_.items.push_back(last);
+    } else if (!finish.empty() && finish != "noAction") {
+      not_judged_.name(last.place, "what the vehicle does at the end is not known here: " + in_quotes(finish));
     }
     const double security = number(config, "takeOffSecurityHeight");
     if (!plan_.home || !(security > 0)) return;
@@ -244,7 +301,9 @@ class Waylines {
   const XmlTree& xml_;
   const PlanSource& source_;
   FlightPlan plan_;
+  NotJudged not_judged_{source_.name, plan_.not_judged};
   std::vector<PlanTrack> tracks_;
+  std::vector<XmlTree::Node> placemarks_;  ///< that were read, in the order of the file
   Camera camera_;
   std::string first_curve_;
   std::size_t curves_ = 0, total_ = 0;
