@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/zone_file.h"
 #include "common/input.h"
@@ -317,16 +318,17 @@ TEST(ZoneFiles, RefusesPositionsOfAnotherSystem) {
 }
 
 TEST(ZoneFiles, APolygonWithoutItsOutlineIsNotEmpty) {
-  refuse("{\"type\": \"Polygon\", \"coordinates\": [[], " + kSquare.substr(1), kSyntax, "/data/zones");
+  refuse("{\"type\": \"Polygon\", \"coordinates\": [[], " + kSquare.substr(1) + "}", kSyntax, "/data/zones");
   const std::string corners = "<coordinates>11,48 11.001,48 11.001,48.001 11,48</coordinates>";
   const auto drawn = [](const std::string& inside) {
     return kml("<Placemark><name>Z</name><Polygon>" + inside + "</Polygon></Placemark>");
   };
-  for (const std::string inside :
-       {"<outerBoundaryIs><linearring>" + corners + "</linearring></outerBoundaryIs>",
-        "<outerBoundaryIs><LinearRing><Coordinates>11,48 11.001,48</Coordinates></LinearRing></outerBoundaryIs>",
-        "<innerBoundaryIs><LinearRing>" + corners + "</LinearRing></innerBoundaryIs>", std::string("<outer>9</outer>"),
-        std::string("<outerBoundaryIs/>")}) {
+  const std::vector<std::string> unread = {
+      "<outerBoundaryIs><linearring>" + corners + "</linearring></outerBoundaryIs>",
+      "<outerBoundaryIs><LinearRing><Coordinates>11,48 11.001,48</Coordinates></LinearRing></outerBoundaryIs>",
+      "<innerBoundaryIs><LinearRing>" + corners + "</LinearRing></innerBoundaryIs>", "<outer>9</outer>",
+      "<outerBoundaryIs/>"};
+  for (const std::string& inside : unread) {
     const ZoneList list = parsed(drawn(inside));
     ASSERT_EQ(list.unread.size(), 1u) << inside;
     EXPECT_EQ(list.unread[0].zone.names, std::vector<std::string>{"Z"});
