@@ -9,32 +9,32 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kNone = std::string_view::npos;
+constexpr std::size_t kNowhere = std::string_view::npos;
 
 bool is_slash(char c) { return c == '/' || c == '\\'; }
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char small_letter(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 /// Where a mark is first from `from` on, as it is or escaped: that means the same to some servers.
 std::size_t find_mark(std::string_view text, std::string_view marks, std::size_t from = 0) {
   constexpr std::string_view kHex = "0123456789abcdef";
   for (std::size_t i = from; i < text.size(); ++i) {
-    if (marks.find(text[i]) != kNone) return i;
+    if (marks.find(text[i]) != kNowhere) return i;
     if (text[i] != '%' || i + 2 >= text.size()) continue;
-    const std::size_t high = kHex.find(lower(text[i + 1])), low = kHex.find(lower(text[i + 2]));
-    if (high != kNone && low != kNone && marks.find(static_cast<char>(high * 16 + low)) != kNone) return i;
+    const std::size_t high = kHex.find(small_letter(text[i + 1])), low = kHex.find(small_letter(text[i + 2]));
+    if (high != kNowhere && low != kNowhere && marks.find(static_cast<char>(high * 16 + low)) != kNowhere) return i;
   }
-  return kNone;
+  return kNowhere;
 }
 
 /// Of what follows "https://". Nothing where it is not clear what of it is a password.
 std::string without_user(std::string_view rest) {
   constexpr std::string_view kEnds = "/\\?#";
   const std::size_t first = find_mark(rest, "@");
-  if (first != kNone && rest.find_first_of(kEnds) < first) {
+  if (first != kNowhere && rest.find_first_of(kEnds) < first) {
     // Of a query with an "@" and of a password with a "/" or a "?" the parts that may be shown are not the same ones.
     const bool is_path = is_slash(rest[rest.find_first_of(kEnds)]);
     if (!is_path || find_mark(rest, ":") < first) return {};
-  } else if (first != kNone) {
+  } else if (first != kNowhere) {
     const std::size_t path = std::min(rest.find_first_of("/\\", first), rest.size());
     std::size_t last = first;
     for (std::size_t at = first; at < path; at = find_mark(rest, "@", at + 1)) last = at;
@@ -44,8 +44,8 @@ std::string without_user(std::string_view rest) {
   // A name before a colon and no port behind it: a user and a password that are cut off.
   const std::string_view host = rest.substr(0, find_mark(rest, "/\\?#;&"));
   const std::size_t colon = host.find(':', host.starts_with('[') ? std::min(host.find(']'), host.size()) : 0);
-  const std::string_view port = colon == kNone ? "" : host.substr(colon + 1);
-  if (port.find_first_not_of("0123456789") != kNone) return {};
+  const std::string_view port = colon == kNowhere ? "" : host.substr(colon + 1);
+  if (port.find_first_not_of("0123456789") != kNowhere) return {};
   return std::string(rest.substr(0, find_mark(rest, "?#;&")));
 }
 
@@ -62,9 +62,9 @@ std::size_t find_address(std::string_view text, std::size_t from) {
     const std::size_t rest = std::min(text.find_first_not_of("/\\", at + 1), text.size());
     if (has_scheme) return rest;
     const std::string_view host = text.substr(rest, text.find_first_of("/\\ ", rest) - rest);
-    if (find_mark(host, "@") != kNone) return rest;
+    if (find_mark(host, "@") != kNowhere) return rest;
   }
-  return kNone;
+  return kNowhere;
 }
 
 bool is_of_scheme(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '.' || c == '-'; }
@@ -73,7 +73,7 @@ bool is_of_scheme(char c) { return std::isalnum(static_cast<unsigned char>(c)) |
 std::size_t end_of_address(std::string_view text, std::size_t done, std::size_t from, bool to_the_end) {
   std::size_t end = text.size();
   // "zip://a.osm::https://..." is two of them.
-  for (std::size_t at = text.find("::", from); at != kNone && end == text.size(); at = text.find("::", at + 1)) {
+  for (std::size_t at = text.find("::", from); at != kNowhere && end == text.size(); at = text.find("::", at + 1)) {
     std::size_t scheme = at + 2;
     while (scheme < text.size() && is_of_scheme(text[scheme])) ++scheme;
     if (scheme > at + 2 && scheme + 1 < text.size() && text[scheme] == ':' && is_slash(text[scheme + 1])) end = at;
@@ -81,7 +81,7 @@ std::size_t end_of_address(std::string_view text, std::size_t done, std::size_t 
   if (to_the_end) return end;
   constexpr std::string_view kBegins = " '\"";
   std::size_t begin = from;
-  while (begin > done && kBegins.find(text[begin - 1]) == kNone) --begin;
+  while (begin > done && kBegins.find(text[begin - 1]) == kNowhere) --begin;
   if (begin > done && text[begin - 1] != ' ') end = std::min(end, text.find(text[begin - 1], from));
   for (const std::string_view mark : {", ", ": ", "; "}) end = std::min(end, text.find(mark, from));
   return end;
@@ -92,7 +92,7 @@ std::size_t end_of_address(std::string_view text, std::size_t done, std::size_t 
 std::string without_secrets(std::string_view text, bool is_address) {
   std::string shown;
   std::size_t done = 0;
-  for (std::size_t at = find_address(text, 0); at != kNone; at = find_address(text, done)) {
+  for (std::size_t at = find_address(text, 0); at != kNowhere; at = find_address(text, done)) {
     const std::size_t end = end_of_address(text, done, at, is_address);
     shown += text.substr(done, at - done);
     shown += without_user(text.substr(at, end - at));
