@@ -413,6 +413,24 @@ TEST_F(CliScene, ErrorsShowNoKeysOfServers) {
     EXPECT_EQ(told.exit_code, 2) << told.err;
     EXPECT_EQ((told.out + told.err).find("SECRET"), std::string::npos) << told.err;
   }
+  write("map.osm", "<osm/>");
+  const std::string in_map = "scene: {osm: map.osm}\n";
+  const std::string target(kTarget), sensor(kSensor);
+  for (std::string text :
+       {"scene: @\n" + target + sensor, "scene: {mesh: @}\n" + target + sensor, "scene: {osm: @}\n" + target + sensor,
+        "scene: {raster: @}\n" + target + sensor, "scene: {osm: map.osm, terrain: @}\n" + target + sensor,
+        "scene: {tiles: @, crs: @}\n" + target + sensor, "scene: {tiles: x, missing: @}\n" + target,
+        "scene: {@: x}\n" + target, in_map + sensor + "target: {file: @}\n", in_map + sensor + "target: {volume: @}\n",
+        in_map + target + sensor + "navigation: {meshes: [@]}\n",
+        in_map + target + sensor + "navigation: {keep_out: [{file: @}]}\n"}) {
+    for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + address.size())) {
+      text.replace(at, 1, "\" ftp" + address.substr(5) + "\"");
+    }
+    write("web.yaml", text);
+    const ProgramRun told = run({"compute", "web.yaml", "-o", "volume.ply"});
+    EXPECT_EQ(told.exit_code, 2) << told.err;
+    EXPECT_EQ((told.out + told.err).find("SECRET"), std::string::npos) << told.err;
+  }
 }
 
 }  // namespace

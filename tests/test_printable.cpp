@@ -3,9 +3,11 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/input.h"
+#include "common/shown_address.h"
 #include "core/text.h"
 #include "support/internals.h"
 #include "support/random.h"
@@ -32,6 +34,45 @@ TEST(Printable, TakesAwayWhatATerminalObeys) {
   EXPECT_EQ(printable("a\x9b"
                       "31m\xe2\x80"),
             "a 31m\u00e2 ");  // a C1 byte, and a character that is cut off
+}
+
+TEST(Printable, AddressesAreCutToWhatIsNoSecret) {
+  for (const auto& [address, shown] : std::vector<std::pair<std::string, std::string>>{
+           {"https://me:secret@a.example:8/t@1.json?key=1#x", "https://a.example:8/t@1.json"},
+           {"https://me:p@ss@a.example/t.json", "https://a.example/t.json"},
+           {"https://me%3Asecret%40a.example/t.json", "https://a.example/t.json"},
+           {"https://a.example/t.json%3fkey=secret", "https://a.example/t.json"},
+           {"https://a.example/t.json&key=secret", "https://a.example/t.json"},
+           {"https://a.example/t.json%26key=secret", "https://a.example/t.json"},
+           {"https://a.example/t.json;key=secret", "https://a.example/t.json"},
+           {"https://me:top?secret@a.example/x", "https://"},
+           {"https://me:top/secret@a.example/x", "https://"},
+           {"https://me:secr", "https://"},  // cut off by others
+           {"https://a.example?user=me@b.example&key=secret", "https://"},
+           {"https://a.example/x?user=me@b.example&key=secret", "https://a.example/x"},
+           {"http://me:secret@[::1]:80/x", "http://[::1]:80/x"},
+           {"ftp://me:secret@a.example/x", "ftp://a.example/x"},
+           {"s3://me:secret@bucket/x", "s3://bucket/x"},
+           {"http:/me:secret@a.example/x", "http:/a.example/x"},
+           {"http:\\\\me:secret@a.example\\x", "http:\\\\a.example\\x"},
+           {" http://m\ne:secret@a.example/x", " http://a.example/x"},
+           {"//me:secret@a.example/x", "//a.example/x"},
+           {"/data/http:/me:secret@a.example/x?key=1", "/data/http:/a.example/x"},
+           {"zip://a.osm::https://me:secret@a.example/a.zip?key=1", "zip://a.osm::https://a.example/a.zip"},
+           {"s3://bucket/a@b.osm", "s3://bucket/a@b.osm"},
+           {"C:\\data\\a@b?.osm", "C:\\data\\a@b?.osm"},
+           {"/data/me@home/a&b?.osm", "/data/me@home/a&b?.osm"}}) {
+    EXPECT_EQ(without_secrets(address, true), shown);
+    const Error error(ErrorCode::file_not_found, "no file " + in_quotes(address) + ", is there?", address, "");
+    EXPECT_EQ(std::string(error.what()).find("secr"), std::string::npos) << error.what();
+    EXPECT_TRUE(error.problem().ends_with("', is there?")) << error.problem();
+  }
+  EXPECT_EQ(
+      without_secrets("not at 'http://me:secret@a.example/x?key=1' & me@b.org; why? As http://c.example/?k is none"),
+      "not at 'http://a.example/x' & me@b.org; why? As http://c.example/");
+  EXPECT_EQ(without_secrets("why? At a:/b"), "why? At a:/b");
+  const std::string many(100'000, '/');
+  EXPECT_EQ(without_secrets(many).size(), many.size());
 }
 
 TEST(Printable, EveryByteIsHarmlessAndUtf8) {

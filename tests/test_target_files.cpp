@@ -322,6 +322,23 @@ TEST_F(TargetFiles, KmzIsUnpacked) {
   EXPECT_EQ(mission.navigation.keep_out[0].name, "zones.kmz park");
 }
 
+TEST_F(TargetFiles, OtherZonesOfAnArchiveAreNotLost) {
+  const std::string park = kml(placemark("park", "", kSquare));
+  for (const std::string name : {"nfz.kml", "doc.kml", "files/Other.KML"}) {
+    write("zones.kmz", zip({{"doc.kml", park}, {name, park}, {"__MACOSX/doc.kml", "notes"}, {"a.png", "x"}}));
+    write("yard.kml", park);
+    const auto resolve = [&](const std::string& more) {
+      write("mission.yaml",
+            "scene: {osm: city.osm, center: [48.1374, 11.5755], radius: 300}\nsensor: {max_range: 90}\n"
+            "target: {file: yard.kml}\nnavigation: {keep_out: [{file: zones.kmz, z: [0, 9]" +
+                more + "}]}\n");
+      return resolve_mission(read_mission(folder_ / "mission.yaml"));
+    };
+    testing::expect_error([&] { resolve(""); }, ErrorCode::value_unsupported, "zones.kmz, " + name);
+    EXPECT_EQ(resolve(", skip: true").navigation.keep_out.size(), 1u);
+  }
+}
+
 TEST_F(TargetFiles, HostileArchivesAreRefused) {
   const std::string yard = kml(placemark("yard", "", kSquare));
   const auto refuse_archive = [&](const std::string& bytes, ErrorCode code = ErrorCode::zone_file_syntax) {

@@ -587,6 +587,28 @@ TEST(Tileset, HoldsThePlaceOfTilesThatAreMissing) {
   expect_error([&] { tiles.read(options); }, ErrorCode::scene_incomplete, "tileset.json");
 }
 
+// Results and reports have the ids and the reasons of the ledger.
+TEST(Tileset, TheLedgerHasNoKeysOfServers) {
+  json root = tile_json(10);
+  root["refine"] = "ADD";
+  root["children"] = json::array({tile_json(0, "a.glb")});
+  const std::vector<std::string> uris = {"http://me:SECRET@a.example/x.b3dm?key=SECRET", "ftp://me:SECRET@a.example/x",
+                                         "//me:SECRET@a.example/x.b3dm", "data:text/plain;base64,SECRET",
+                                         "gone.b3dm?key=SECRET"};
+  for (const std::string& uri : uris) root["children"].push_back(tile_json(0, uri));
+  Tileset tiles(tileset_json(root));
+  tiles.add("a.glb", box_glb({{}}));
+  const TilesetScene read = tiles.read();
+  ASSERT_EQ(read.scene.ledger.size(), uris.size());
+  for (const LedgerEntry& entry : read.scene.ledger) {
+    EXPECT_EQ((entry.object.source_id + entry.reason).find("SECRET"), std::string::npos)
+        << entry.object.source_id << ": " << entry.reason;
+    EXPECT_FALSE(entry.object.source_id.empty());
+  }
+  EXPECT_EQ(read.report.first_hole.find("SECRET"), std::string::npos) << read.report.first_hole;
+  EXPECT_TRUE(ledger_of(read).contains("ftp://a.example/x"));
+}
+
 TEST(Tileset, ACoarserTileHoldsThePlaceOfAFinerOne) {
   json root = tile_json(50, "coarse.glb");
   root["refine"] = "REPLACE";

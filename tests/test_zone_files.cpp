@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/zone_file.h"
 #include "common/input.h"
@@ -211,6 +212,11 @@ TEST(ZoneFiles, RefusesBrokenPlans) {
   refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2]}}"), kSyntax, "geoFence.circles[0]");
   refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2], \"radius\": -1}}"),
          ErrorCode::value_out_of_range, "geoFence.circles[0]");
+  refuse("{\"geoFence\": {\"polygons\": [], \"circle\": [], \"version\": 2}}", kSyntax, "geoFence.circle");
+  refuse("{\"geoFence\": {\"Polygons\": []}}", kSyntax, "geoFence.Polygons");
+  const ZoneList empty = parsed(plan("{\"inclusion\": false, \"polygon\": []}"));
+  EXPECT_TRUE(empty.zones.empty() && empty.unread.empty());
+  EXPECT_EQ(empty.left_out.at(app::kEmptyArea), 1u);
 }
 
 TEST(ZoneFiles, RefusesBrokenKml) {
@@ -293,6 +299,70 @@ TEST(ZoneFiles, ReadsListsOfZonesByOtherNames) {
     EXPECT_EQ(list.zones[0].lower->metres, 10);
   }
   refuse("{\"a\": [" + one + "], \"b\": [" + one + "]}", kSyntax, "/data/zones");
+  const std::string features = "{\"type\": \"FeatureCollection\", \"features\": [" + feature(polygon()) + "]";
+  refuse(features + ", \"UASZoneList\": [" + one + "]}", kSyntax, "/data/zones");
+  refuse(features + ", \"geoFence\": {\"polygons\": []}}", kSyntax, "/data/zones");
+}
+
+TEST(ZoneFiles, RefusesPositionsOfAnotherSystem) {
+  const auto crs = [](const std::string& name) {
+    return ", \"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"" + name + "\", \"was\": \"EPSG:4326\"}}";
+  };
+  for (const char* const name : {"urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326", "EPSG:4326"}) {
+    EXPECT_EQ(parsed(polygon(crs(name))).zones.size(), 1u) << name;
+  }
+  refuse(polygon(crs("EPSG:3857")), ErrorCode::value_unsupported, "crs");
+  refuse(collection(feature(polygon(crs("EPSG:3857")))), ErrorCode::value_unsupported, "features[0].crs");
+  refuse(collection(feature(polygon()).substr(0, feature(polygon()).size() - 1) + crs("EPSG:3857") + "}"),
+         ErrorCode::value_unsupported, "features[0].crs");
+}
+
+TEST(ZoneFiles, APolygonWithoutItsOutlineIsNotEmpty) {
+  refuse("{\"type\": \"Polygon\", \"coordinates\": [[], " + kSquare.substr(1) + "}", kSyntax, "/data/zones");
+  const std::string corners = "<coordinates>11,48 11.001,48 11.001,48.001 11,48</coordinates>";
+  const auto drawn = [](const std::string& inside) {
+    return kml("<Placemark><name>Z</name><Polygon>" + inside + "</Polygon></Placemark>");
+  };
+  const std::vector<std::string> unread = {
+      "<outerBoundaryIs><linearring>" + corners + "</linearring></outerBoundaryIs>",
+      "<outerBoundaryIs><LinearRing><Coordinates>11,48 11.001,48</Coordinates></LinearRing></outerBoundaryIs>",
+      "<innerBoundaryIs><LinearRing>" + corners + "</LinearRing></innerBoundaryIs>", "<outer>9</outer>",
+      "<outerBoundaryIs/>"};
+  for (const std::string& inside : unread) {
+    const ZoneList list = parsed(drawn(inside));
+    ASSERT_EQ(list.unread.size(), 1u) << inside;
+    EXPECT_EQ(list.unread[0].zone.names, std::vector<std::string>{"Z"});
+    EXPECT_TRUE(list.left_out.empty());
+  }
+  const ZoneList blank =
+      parsed(drawn("<outerBoundaryIs><LinearRing><coordinates> </coordinates></LinearRing></outerBoundaryIs>"));
+  EXPECT_TRUE(blank.unread.empty());
+  EXPECT_EQ(blank.left_out.at(app::kEmptyArea), 1u);
+}
+
+TEST(ZoneFiles, AnUnknownGeometryOfAPlacemarkIsUnread) {
+  const auto with = [](const std::string& part) {
+    return parsed(kml("<Placemark><name>C</name>" + part +
+                      "<Style><LineStyle><width>2</width></LineStyle></Style>"
+                      "<Point><coordinates>11,48</coordinates></Point></Placemark>"));
+  };
+  const ZoneList list = with("<Circle><center>11,48</center><radius>50</radius></Circle>");
+  ASSERT_EQ(list.unread.size(), 1u);
+  EXPECT_EQ(list.unread[0].zone.name, "C");
+  EXPECT_EQ(with("<MultiGeometry><Arc><a/></Arc></MultiGeometry>").unread.size(), 1u);
+  EXPECT_TRUE(with("<number>5</number><wpml:action><wpml:x/></wpml:action>").unread.empty());
+}
+
+TEST(ZoneFiles, AltitudeOffsetsCount) {
+  const std::string before = "<extrude>1</extrude><altitudeMode>absolute</altitudeMode>";
+  const std::string offset = "<gx:altitudeOffset>100</gx:altitudeOffset>", at = "<LinearRing>";
+  const auto top = [](const std::string& text) { return parsed(kml(text)).zones.at(0).upper->metres; };
+  EXPECT_EQ(top(placemark(before + offset, ",520")), 620);
+  std::string of_ring = placemark(before, ",520");
+  of_ring.insert(of_ring.find(at) + at.size(), offset);
+  EXPECT_EQ(top(of_ring), 620);
+  EXPECT_EQ(parsed(kml(of_ring)).zones[0].corner_z_m, std::vector<double>(3, 620.0));
+  refuse(kml(placemark(before + "<altitudeOffset>a</altitudeOffset>", ",520")), kSyntax, "line 2");
 }
 
 TEST(ZoneFiles, OneAreaThatCannotBeReadLeavesTheOthers) {
@@ -802,6 +872,32 @@ TEST(ZoneFiles, ZonesWiderThanHalfTheEarthAreRefused) {
     mission.write("zones.json", "{\"type\": \"Polygon\", \"coordinates\": [[" + ring + "]]}");
     expect_error([&] { mission.resolve(limits); }, ErrorCode::value_unsupported, "zones.json");
   }
+}
+
+// A frame from -179 to 179 degrees is two strips of two degrees, or all the rest of the world.
+TEST(ZoneFiles, SidesThatMayGoEitherWayRoundAreNotFar) {
+  const ZoneMission mission;
+  const auto resolve = [&](const std::string& low, const std::string& high) {
+    mission.write("zones.json",
+                  collection(feature(polygon()) + ", " +
+                             feature("{\"type\": \"Polygon\", \"coordinates\": [[[-179, " + low + "], [179, " + low +
+                                     "], [179, " + high + "], [-179, " + high + "], [-179, " + low + "]]]}")));
+    return mission.resolve("keep_out: [{file: zones.json, heights: any}]");
+  };
+  expect_error([&] { resolve("-80", "80"); }, ErrorCode::value_unsupported, "features[1]");
+  EXPECT_EQ(resolve("-20", "-10").navigation.keep_out.size(), 1u);  // Fiji, either way
+}
+
+TEST(ZoneFiles, HeightsThatLeaveNothingAboveTheGroundAreRefused) {
+  const ZoneMission mission;
+  const auto resolve = [&](const std::string& lower, const std::string& upper) {
+    mission.write("zones.json", volume(polygon(), "\"uomDimensions\": \"M\", \"lowerLimit\": " + lower +
+                                                      ", \"lowerVerticalReference\": \"AMSL\", \"upperLimit\": " +
+                                                      upper + ", \"upperVerticalReference\": \"AGL\""));
+    return mission.resolve("keep_out: [{file: zones.json}]", ", sea_level: -500");  // the ground is 500 m high
+  };
+  expect_error([&] { resolve("600", "30"); }, ErrorCode::limits_reversed, "features[0].geometry[0]");
+  EXPECT_EQ(resolve("600", "130").navigation.keep_out.size(), 1u);
 }
 
 TEST(ZoneFiles, NeedASceneOnTheEarth) {

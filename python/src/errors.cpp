@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "common/shown_address.h"
 #include "interpreter.h"
 #include "vantage/error.h"
 
@@ -65,6 +66,13 @@ void bind_errors(nb::module_& module) {
     for (const WarningCode code : warning_codes()) names.emplace_back(vantage::name_of(code));
     return names;
   });
+  module.def(
+      "without_secrets",
+      [](const nb::bytes& text, bool is_address) {  // bytes: names of files may be no UTF-8
+        const std::string shown = without_secrets({text.c_str(), text.size()}, is_address);
+        return nb::bytes(shown.data(), shown.size());
+      },
+      nb::arg("text"), nb::arg("is_address"));
 }
 
 }  // namespace vantage::python

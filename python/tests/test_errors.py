@@ -29,6 +29,15 @@ def test_of_the_argument(scene):
     assert error.where == "method"
 
 
+def test_without_keys_of_servers():
+    for name in ("https://me:SECRET@a.example/x.obj?key=SECRET", "https://me:SE/CRET@a.example/x.obj", "ftp:/me:SECRET@a/x"):
+        with pytest.raises(vt.Error) as raised:
+            vt.Scene.from_mesh(name)
+        assert "SECRET" not in str(raised.value) and "CRET" not in raised.value.where
+    error = vt.Error("input", "file-not-found", "not at 'https://a.example/x?key=SECRET': why?", "s3://me:SECRET@b/\udcff", "")
+    assert error.problem == "not at 'https://a.example/x': why?" and error.where == "s3://b/\udcff"
+
+
 def test_of_too_much_work(scene):
     parts = [SQUARE, [[0, 12, 0], [10, 12, 0], [10, 20, 0], [0, 20, 0]]]
     targets = [vt.Target(vertices=part) for part in parts]

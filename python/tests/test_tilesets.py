@@ -108,12 +108,14 @@ def test_keys_are_not_written_into_results():
     request = _scenes.request_of("https://example.org/a/tileset.json?key=SECRET")
     assert request == {"tiles": "https://example.org/a/tileset.json?key=SECRET"}
     assert _scenes.shown_request(request) == {"tiles": "https://example.org/a/tileset.json"}
-    for address, shown in {  # as in TilesetHttp.ShowsNoKeysAndNoPasswords
+    for address, shown in {  # as in Printable.AddressesAreCutToWhatIsNoSecret
             "https://me:secret@a.example:8/t@1.osm?key=1#x": "https://a.example:8/t@1.osm",
             "https://me%3Asecret%40a.example/t.osm%3fkey=1": "https://a.example/t.osm",
             "https://me:top;secret@a.example/t.osm;token=1": "https://a.example/t.osm",
             "https://me:secret%3F@a.example/x": "https://a.example/x",
             "https://me:top?secret@a.example/x": "https://",
+            "https://me:top/secret@a.example/x": "https://",
+            "https://a.example/t.osm%26key=secret": "https://a.example/t.osm",
             "https://a.example?user=me@b.example&key=secret": "https://",
             "sftp://me:secret@a.example/t.osm": "sftp://a.example/t.osm",
             "zip://t.osm::https://me:secret@a.example/t.zip?key=1": "zip://t.osm::https://a.example/t.zip",

@@ -4,6 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from . import _core
+
+
+def without_secrets(text: str, is_address: bool = False) -> str:
+    """The text without what may be keys of servers in it: a user, a password, a query of an address."""
+    kept = "surrogatepass"  # names of files may be no UTF-8
+    return _core.without_secrets(text.encode("utf-8", kept), is_address).decode("utf-8", kept)
+
 
 class Error(Exception):
     """What is wrong, where, and what to do about it.
@@ -19,6 +27,7 @@ class Error(Exception):
     """
 
     def __init__(self, kind: str, code: str, problem: str, where: str = "", fix: str = "", object: int | None = None):
+        problem, where, fix = without_secrets(problem), without_secrets(where, True), without_secrets(fix)
         lines = [problem]
         if where:
             lines.append(f"where: {where}")

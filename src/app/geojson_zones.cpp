@@ -63,7 +63,7 @@ class GeoJsonReader {
   void add_polygon(const json& rings, const std::string& place, const std::string& name, const Heights& heights);
   void add_circle(const json& centre, const json& radius, bool may_be_feet, const std::string& place,
                   const std::string& name, const Heights& heights);
-  void check_crs(const json& root) const;
+  void check_crs(const json& object, const std::string& place) const;
 
   Heights heights_of(const json& layer, const HeightKeys& keys, const std::string& place) const;
   std::optional<ZoneHeight> height(const json& layer, const char* key, const char* reference, const char* unit,
@@ -104,18 +104,6 @@ std::string word_in(const json* value) {
 bool is_word(std::string_view text, std::string_view word) {
   const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
   return std::equal(text.begin(), text.end(), word.begin(), word.end(), is_same);
-}
-
-/// The list of features where it is not called "features": InterUSS calls it "UASZoneList".
-const std::string* other_list(const json& root) {
-  const std::string* name = nullptr;
-  for (const auto& [key, value] : root.items()) {
-    const bool is_list = value.is_array() && !value.empty() && find_member(&value[0], "geometry") != nullptr;
-    if (!is_list) continue;
-    if (name != nullptr) return nullptr;
-    name = &key;
-  }
-  return name;
 }
 
 /// What people call a feature.
@@ -176,11 +164,14 @@ ZoneList GeoJsonReader::read(const json& root) {
     read_features(root, "");
     return std::move(result_);
   }
-  check_crs(root);
+  check_crs(root, "");
   const std::string type = root.contains("type") ? type_of(root, "") : "FeatureCollection";
+  const std::vector<std::string> lists = lists_of_features(root);
+  if (lists.size() > (type == "FeatureCollection" ? 1U : 0U)) {
+    fail("", "the file has zones in several places, as in " + in_quotes(lists.back()), "make several files of it");
+  }
   if (type == "FeatureCollection") {
-    const std::string* const other = root.contains("features") ? nullptr : other_list(root);
-    const std::string key = other == nullptr ? "features" : *other;
+    const std::string key = lists.empty() ? "features" : lists.front();
     read_features(list(root, key.c_str(), ""), key);
   } else if (type == "Feature") {
     guarded("", "", [&] { read_feature(root, "", 0); });
@@ -190,16 +181,15 @@ ZoneList GeoJsonReader::read(const json& root) {
   return std::move(result_);
 }
 
-/// RFC 7946 has taken this member out, but older files have it.
-void GeoJsonReader::check_crs(const json& root) const {
-  const auto crs = root.find("crs");
-  if (crs == root.end() || crs->is_null()) return;
-  const std::string text = crs->dump(-1, ' ', true, json::error_handler_t::replace);
-  for (const char* known : {"CRS84", "EPSG::4326", "EPSG:4326"}) {
-    const std::size_t at = text.find(known), end = at + std::string_view(known).size();
-    if (at != std::string::npos && !(end < text.size() && text[end] >= '0' && text[end] <= '9')) return;
+/// RFC 7946 has taken this member out, but older files have it: of a collection, a feature or a geometry.
+void GeoJsonReader::check_crs(const json& object, const std::string& place) const {
+  const json* const crs = find_member(&object, "crs");
+  if (crs == nullptr) return;
+  const std::string name = word_in(crs->is_string() ? crs : find_member(find_member(crs, "properties"), "name"));
+  for (const char* known : {"CRS84", "CRS84h", "EPSG::4326", "EPSG:4326"}) {
+    if (name.ends_with(known)) return;
   }
-  fail("crs", "its positions are not in WGS 84",
+  fail(place.empty() ? "crs" : place + ".crs", "its positions are not in WGS 84",
        "convert the file to longitudes and latitudes (ogr2ogr -t_srs EPSG:4326)", ErrorCode::value_unsupported);
 }
 
@@ -221,6 +211,7 @@ void GeoJsonReader::read_feature(const json& feature, const std::string& place, 
   const std::string name = std::move(names.first);
   names_ = std::move(names.all);
   properties_ = find_member(&feature, "properties");
+  check_crs(feature, place);
   if (!read_fence(feature, place)) {
     ++result_.left_out[kDisabledArea];
     return;
@@ -263,6 +254,7 @@ bool GeoJsonReader::read_fence(const json& feature, const std::string& place) {
 void GeoJsonReader::read_geometry(const json& geometry, const std::string& place, const std::string& name,
                                   Heights heights) {
   if (!geometry.is_object()) fail(place, "the geometry is not an object");
+  check_crs(geometry, place);
   if (const auto layer = geometry.find("layer"); layer != geometry.end() && !layer->is_null()) {
     heights = heights_of(*layer, kLayerKeys, place);
   }
@@ -416,7 +408,8 @@ ListedZone GeoJsonReader::zone_of(const std::string& place, const std::string& n
 void GeoJsonReader::add_polygon(const json& rings, const std::string& place, const std::string& name,
                                 const Heights& heights) {
   if (!rings.is_array()) fail(place, "a polygon is not an array of rings");
-  if (rings.empty() || (rings[0].is_array() && rings[0].empty())) {
+  const auto is_empty = [](const json& ring) { return ring.is_array() && ring.empty(); };
+  if (std::all_of(rings.begin(), rings.end(), is_empty)) {
     ++result_.left_out[kEmptyArea];
     return;
   }
@@ -440,6 +433,16 @@ void GeoJsonReader::add_circle(const json& centre, const json& radius, bool may_
 
 ZoneList geojson_zones(const json& root, const std::filesystem::path& file, const core::ProgressReporter& progress) {
   return GeoJsonReader(file, progress).read(root);
+}
+
+std::vector<std::string> lists_of_features(const json& root) {
+  const auto has_geometry = [](const json& one) { return find_member(&one, "geometry") != nullptr; };
+  std::vector<std::string> names;
+  for (const auto& [key, value] : root.items()) {
+    const bool is_list = value.is_array() && std::any_of(value.begin(), value.end(), has_geometry);
+    if (is_list || key == "features") names.push_back(key);
+  }
+  return names;
 }
 
 std::optional<double> number_in(const json& value) {

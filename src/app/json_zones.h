@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/zone_file.h"
 
@@ -23,6 +25,9 @@ ZoneList plan_zones(const nlohmann::json& root, const std::filesystem::path& fil
 /// The same of ArduPilot, in a list of waypoints ("QGC WPL"), as Mission Planner saves it.
 ZoneList waypoint_zones(std::string_view text, const std::filesystem::path& file,
                         const core::ProgressReporter& progress);
+
+/// The members of a GeoJSON that are lists of features. InterUSS calls its one "UASZoneList".
+std::vector<std::string> lists_of_features(const nlohmann::json& root);
 
 /// A number, also one that is written as text; nothing for another value, or one that is not finite.
 std::optional<double> number_in(const nlohmann::json& value);

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,7 +27,9 @@ namespace {
 struct DrawnPolygon {
   ListedZone zone;
   double low_m = INFINITY, high_m = -INFINITY;
+  double offset_m = 0;  ///< altitudeOffset of Google, in all of its altitudes
   bool is_absolute = false, has_all_altitudes = true;
+  bool has_other = false;  ///< elements that are none of a polygon
   std::optional<Error> fault;
 
   bool is_level() const { return has_all_altitudes && low_m == high_m; }
@@ -137,10 +141,25 @@ std::vector<ListedZone> joined_solids(std::vector<DrawnPolygon> drawn) {
   return zones;
 }
 
+template <std::size_t N>
+bool is_any(std::string_view name, const std::string_view (&names)[N]) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+constexpr std::string_view kOfPolygon[] = {"outerBoundaryIs", "innerBoundaryIs", "LinearRing",
+                                           "coordinates",     "extrude",         "tessellate",
+                                           "altitudeMode",    "altitudeOffset",  "drawOrder"};
+/// Of those that have elements themselves: geometries, and what is known to be none.
+constexpr std::string_view kOfPlacemark[] = {
+    "MultiGeometry", "Point",  "LineString", "LinearRing", "Polygon",      "Model",          "Track",
+    "MultiTrack",    "author", "link",       "Camera",     "LookAt",       "TimeSpan",       "TimeStamp",
+    "Style",         "Region", "StyleMap",   "Metadata",   "ExtendedData", "AddressDetails", "description"};
+
 class KmlReader {
  public:
   KmlReader(const std::filesystem::path& file, const core::ProgressReporter& progress)
       : file_(file), progress_(progress), parser_(XML_ParserCreate(nullptr)) {
+    if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), on_start, on_end);
     XML_SetCharacterDataHandler(parser_.get(), on_text);
@@ -167,7 +186,8 @@ class KmlReader {
     }
   }
   static void on_start(void* reader, const char* name, const char**) {
-    guarded(reader, [&](KmlReader& self) { self.start(local_name(name)); });
+    guarded(reader,
+            [&](KmlReader& self) { self.start(local_name(name), std::string_view(name).starts_with("wpml:")); });
   }
   static void on_end(void* reader, const char* name) {
     guarded(reader, [&](KmlReader& self) { self.end(local_name(name)); });
@@ -181,12 +201,14 @@ class KmlReader {
   /// "kml:Polygon" is "Polygon".
   static std::string local_name(std::string_view name) { return std::string(name.substr(name.rfind(':') + 1)); }
 
-  void start(const std::string& name);
+  void start(const std::string& name, bool is_of_dji);
   void end(const std::string& name);
+  void end_in_polygon(const std::string& name);
   void end_boundary();
   void end_line();
   void end_polygon();
   void end_placemark();
+  void leave_unknown();
   ListedRing positions() const;
   bool is_in(const char* name) const { return !open_.empty() && open_.back() == name; }
   std::string place() const { return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())); }
@@ -202,7 +224,10 @@ class KmlReader {
   std::vector<std::string> open_;
   std::string text_, name_, altitude_mode_, extrude_;
   std::optional<DrawnPolygon> polygon_;  // that is open
-  std::vector<DrawnPolygon> drawn_;      // of the placemark that is open
+  std::optional<ListedRing> ring_;       // of the boundary that is open, as far as it has coordinates
+  double ring_offset_m_ = 0;
+  bool is_known_ = true;             // the part of a placemark that is open
+  std::vector<DrawnPolygon> drawn_;  // of the placemark that is open
   std::size_t placemarks_ = 0, polygons_ = 0;
   ZoneList result_;
 };
@@ -217,13 +242,32 @@ ZoneList KmlReader::read(std::string_view text) {
   return std::move(result_);
 }
 
-void KmlReader::start(const std::string& name) {
+/// An element of a placemark that holds others may be an area.
+void KmlReader::leave_unknown() {
+  is_known_ = true;  // it is told once
+  ListedZone zone;
+  if (!name_.empty()) zone.names = {name_};
+  zone.name = name_.empty() ? place() : name_;
+  zone.place = place();
+  zone.feature = placemarks_ > 0 ? placemarks_ - 1 : 0;
+  const Error fault(ErrorCode::value_unsupported, "KML has no <" + io::clean_name(open_.back()) + "> in a placemark",
+                    file_.string() + ", " + zone.place, "draw it as a polygon");
+  leave_unread(std::move(zone), fault, result_);
+}
+
+void KmlReader::start(const std::string& name, bool is_of_dji) {
   constexpr std::size_t kDeepest = 100;
   if (open_.empty() && name != "kml") {
     fail("not a file of zones: XML about <" + io::clean_name(name) + ">", "give KML");
   }
   if (open_.size() >= kDeepest) fail("elements are nested deeper than 100 levels");
   if (!open_.empty() && open_.back() == "coordinates") fail("there is an element among coordinates");
+  const bool is_of_placemark = is_in("Placemark") || is_in("MultiGeometry");
+  if (is_of_placemark) is_known_ = is_of_dji || is_any(name, kOfPlacemark);
+  if (!is_of_placemark && !is_known_) leave_unknown();
+  if (polygon_ && !is_any(name, kOfPolygon)) polygon_->has_other = true;
+  if (is_any(name, {"LinearRing", "outerBoundaryIs", "innerBoundaryIs"})) ring_.reset();
+  if (name == "LinearRing") ring_offset_m_ = 0;
   open_.push_back(name);
   text_.clear();
   if (name == "Placemark") {
@@ -248,11 +292,10 @@ void KmlReader::end(const std::string& name) {
   progress_.tick();
   open_.pop_back();
   if (name == "name" && is_in("Placemark")) name_ = io::clean_name(text_);
-  if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
-  if (name == "extrude" && is_in("Polygon")) extrude_ = io::clean_name(text_);
-  if (name == "coordinates" && is_in("LinearRing") && polygon_) {
+  if (is_in("Placemark") || is_in("MultiGeometry")) is_known_ = true;
+  if (polygon_) {
     try {
-      end_boundary();
+      end_in_polygon(name);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::input) throw;
       if (!polygon_->fault) polygon_->fault = error;
@@ -298,14 +341,34 @@ void KmlReader::end_line() {
   leave_closed_line(std::move(zone), file_, result_);
 }
 
+void KmlReader::end_in_polygon(const std::string& name) {
+  if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
+  if (name == "extrude" && is_in("Polygon")) extrude_ = io::clean_name(text_);
+  if (name == "altitudeOffset") {
+    const std::string text = io::clean_name(text_);
+    const ParsedNumber offset = parse_number(text);
+    if (offset.fault != NumberFault::none) fail("an altitudeOffset is not a number: " + in_quotes(text));
+    (is_in("LinearRing") ? ring_offset_m_ : polygon_->offset_m) = offset.value;
+  }
+  if (name == "coordinates") {
+    if (!is_in("LinearRing")) fail("coordinates of a polygon are in no ring");
+    if (ring_) fail("a ring has coordinates twice");
+    ring_ = positions();
+  }
+  if (name == "LinearRing") end_boundary();
+  if ((name == "outerBoundaryIs" || name == "innerBoundaryIs") && !ring_) {
+    fail("a boundary of a polygon has no coordinates");
+  }
+}
+
 void KmlReader::end_boundary() {
-  const std::string around = open_.size() > 1 ? open_[open_.size() - 2] : "";
-  const bool is_outer = around == "outerBoundaryIs";
-  if (!is_outer && around != "innerBoundaryIs") fail("a ring of a polygon is neither its outer nor an inner boundary");
+  const bool is_outer = is_in("outerBoundaryIs");
+  if (!is_outer && !is_in("innerBoundaryIs")) fail("a ring of a polygon is neither its outer nor an inner boundary");
   if (is_outer && !polygon_->zone.outer.empty()) fail("a polygon has two outer boundaries");
-  const ListedRing corners = positions();
-  if (corners.corners.empty()) return;
-  for (const double altitude_m : corners.z_m) {
+  if (!ring_ || ring_->corners.empty()) return;
+  ListedRing corners = *ring_;
+  for (double& altitude_m : corners.z_m) {
+    altitude_m += ring_offset_m_;
     polygon_->has_all_altitudes = polygon_->has_all_altitudes && !std::isnan(altitude_m);
     polygon_->low_m = std::fmin(polygon_->low_m, altitude_m);
     polygon_->high_m = std::fmax(polygon_->high_m, altitude_m);
@@ -325,10 +388,19 @@ void KmlReader::end_polygon() {
     leave_unread(std::move(zone), *polygon.fault, result_);
     return;
   }
+  if (zone.outer.empty() && (polygon.has_other || !zone.holes.empty())) {
+    const Error fault(ErrorCode::zone_file_syntax, "the polygon has no outer boundary",
+                      file_.string() + ", " + zone.place, "correct it");
+    leave_unread(std::move(zone), fault, result_);
+    return;
+  }
   if (zone.outer.empty()) {
     ++result_.left_out[kEmptyArea];
     return;
   }
+  polygon.low_m += polygon.offset_m;
+  polygon.high_m += polygon.offset_m;
+  for (double& z_m : zone.corner_z_m) z_m += polygon.offset_m;
   const bool is_above_ground = altitude_mode_ == "relativeToGround", has_altitude = polygon.low_m < INFINITY;
   polygon.is_absolute = altitude_mode_ == "absolute";
   if (polygon.is_absolute && (extrude_ == "1" || extrude_ == "true") && polygon.is_level()) {

@@ -1,6 +1,7 @@
 // Fences of ground stations: https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/plan.html,
 // "GeoFence", and https://mavlink.io/en/file_formats/. Latitudes come first.
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "app/json_zones.h"
 #include "common/input.h"
+#include "io/mesh_builder.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -27,10 +29,27 @@ class PlanReader {
     }
     read_list(fence, "polygons", "polygon", [this](const json& entry, ListedZone& zone) { polygon(entry, zone); });
     read_list(fence, "circles", "circle", [this](const json& entry, ListedZone& zone) { circle(entry, zone); });
+    for (const auto& [key, value] : fence.items()) {
+      constexpr std::string_view kKnown[] = {"polygons", "circles", "breachReturn", "version"};
+      if (value.is_null() || std::find(std::begin(kKnown), std::end(kKnown), key) != std::end(kKnown)) continue;
+      leave_unknown(io::clean_name(key));
+    }
     return std::move(result_);
   }
 
  private:
+  /// It may be a list of fences.
+  void leave_unknown(const std::string& key) {
+    ListedZone zone;
+    zone.name = key;
+    zone.names = {key};
+    zone.place = "geoFence." + key;
+    zone.feature = static_cast<std::size_t>(-1);  // of none
+    const Error fault(ErrorCode::zone_file_syntax, "a fence has no such member", file_.string() + ", " + zone.place,
+                      "write \"polygons\" or \"circles\"");
+    leave_unread(std::move(zone), fault, result_);
+  }
+
   template <typename Read>
   void read_list(const json& fence, const char* key, const char* one, const Read& read) {
     const auto list = fence.find(key);
@@ -51,7 +70,11 @@ class PlanReader {
         }
         zone.is_inclusion = inclusion->get<bool>();
         read(entry, zone);
-        result_.zones.push_back(std::move(zone));
+        if (zone.outer.empty() && !zone.circle) {
+          ++result_.left_out[kEmptyArea];
+        } else {
+          result_.zones.push_back(std::move(zone));
+        }
       } catch (const Error& error) {
         leave_unread(std::move(zone), error, result_);
       }

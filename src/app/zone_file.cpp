@@ -1,5 +1,6 @@
 #include "app/zone_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "app/kml_zones.h"
 #include "common/input.h"
 #include "io/json_text.h"
+#include "io/mesh_builder.h"
 #include "io/zip.h"
 
 namespace vantage::internal::app {
@@ -34,18 +36,36 @@ nlohmann::json json_of_zones(std::string_view text, const std::filesystem::path&
   }
 }
 
-/// Of a KMZ file: "doc.kml", or else the first one.
-std::string kml_of_archive(std::string_view text, const std::filesystem::path& file) {
+/// Of a KMZ file: "doc.kml", or else the first one. The others are unread.
+ZoneList archive_zones(std::string_view text, const std::filesystem::path& file,
+                       const core::ProgressReporter& progress) {
+  constexpr const char* kFirst = "doc.kml";
+  std::string kml;
+  std::vector<std::string> others;
   try {
-    std::string kml = io::unzipped(text, "doc.kml", ".kml", kMostZoneBytes);
-    if (!io::is_zip(kml)) return kml;
+    kml = io::unzipped(text, kFirst, ".kml", kMostZoneBytes);
+    others = io::names_in_zip(text, ".kml");
   } catch (const io::ZipProblem& problem) {
     const bool is_too_large = problem.kind == io::ZipProblem::Kind::too_large;
     fail_in_zones(is_too_large ? ErrorCode::file_too_large : ErrorCode::zone_file_syntax, file, "",
                   "the file is a zip archive, as KMZ is, and " + problem.text,
                   "give a KMZ file, or the .kml that is in it");
   }
-  fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a zip archive in a zip archive", "unpack it");
+  if (io::is_zip(kml)) {
+    fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a zip archive in a zip archive", "unpack it");
+  }
+  ZoneList list = parse_zones(kml, file, progress);
+  const auto first = std::find(others.begin(), others.end(), kFirst);
+  others.erase(first == others.end() ? others.begin() : first);
+  for (const std::string& other : others) {
+    ListedZone zone;
+    zone.name = zone.place = io::clean_name(other);
+    zone.feature = static_cast<std::size_t>(-1);  // of none
+    const Error fault(ErrorCode::value_unsupported, "the archive holds several KML files, and one is read",
+                      file.string() + ", " + zone.place, "unpack it, and name each file in the mission");
+    leave_unread(std::move(zone), fault, list);
+  }
+  return list;
 }
 
 }  // namespace
@@ -56,14 +76,19 @@ ZoneList parse_zones(std::string_view text, const std::filesystem::path& file, c
   const char begin = first == std::string_view::npos ? '\0' : text[first];
   const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
   if (begin == '<' || is_utf16) return parse_kml_zones(text, file, progress);
-  if (io::is_zip(text)) return parse_zones(kml_of_archive(text, file), file, progress);
+  if (io::is_zip(text)) return archive_zones(text, file, progress);
   if (text.starts_with("QGC WPL")) return waypoint_zones(text, file, progress);
   if (begin != '{' && begin != '[') {
     fail_in_zones(ErrorCode::zone_file_syntax, file, "",
                   "not a file of zones: it is neither JSON nor XML, and no list of waypoints", kZoneFileAdvice);
   }
   const nlohmann::json root = json_of_zones(text, file, progress);
-  return root.contains("geoFence") ? plan_zones(root, file) : geojson_zones(root, file, progress);
+  if (!root.contains("geoFence")) return geojson_zones(root, file, progress);
+  if (root.contains("type") || !lists_of_features(root).empty()) {
+    fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a plan with a fence and GeoJSON in one",
+                  "make two files of it");
+  }
+  return plan_zones(root, file);
 }
 
 void leave_unread(ListedZone zone, const Error& fault, ZoneList& list) {

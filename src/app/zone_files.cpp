@@ -24,6 +24,7 @@
 #include "geo/local_frame.h"
 #include "geo/on_globe.h"
 #include "vantage/error.h"
+#include "vantage/ground.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -78,9 +79,11 @@ class FileZones {
   ListedZone near_part(const ListedZone& listed) const;
   Zone::Ring circle(const ListedCircle& circle, double z_m, double lean_m) const;
   void add_heights(const ListedZone& listed, bool has_none, Zone& zone) const;
+  bool has_no_heights(const Zone& zone);
   double z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const;
   double distance_m(const ListedZone& listed) const;
   Zone::Ring unwrapped(Zone::Ring ring, const std::string& place) const;
+  bool may_go_round(const ListedZone& listed) const;
   bool seems_swapped(const ListedZone& listed) const;
   void note_left_out(const ZoneList& list) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& place, const std::string& problem,
@@ -106,6 +109,7 @@ class FileZones {
   ZoneWalls walls_;
   Left left_;
   std::set<std::string> names_;
+  std::optional<Heights> ground_;  // z of its lowest and highest place, once it is needed
 };
 
 /// Sides may cross the antimeridian: each is taken the short way round, and all of the ring is turned to be nearest to
@@ -166,6 +170,22 @@ bool FileZones::seems_swapped(const ListedZone& listed) const {
   };
   if (listed.circle) return is_near(listed.circle->centre);
   return std::all_of(listed.outer.begin(), listed.outer.end(), is_near);
+}
+
+/// Of a zone out of reach: whether a side was taken the short way round the earth that would pass at the scene's
+/// latitude on the long one, as RFC 7946 has it.
+bool FileZones::may_go_round(const ListedZone& listed) const {
+  constexpr double kHalfRound = 180, kDegreeM = 111e3;
+  const double latitude = globe_.map().origin().latitude_deg;
+  double low = kInfinity, high = -kInfinity, longest = 0;
+  for (std::size_t i = 0; i < listed.outer.size(); ++i) {
+    const Point &from = listed.outer[i], &to = listed.outer[(i + 1) % listed.outer.size()];
+    low = std::min(low, from.y());
+    high = std::max(high, from.y());
+    longest = std::max(longest, std::abs(to.x() - from.x()));
+  }
+  const double reach_deg = farthest_viewpoint_m(mission_) / kDegreeM;
+  return longest > kHalfRound && latitude > low - reach_deg && latitude < high + reach_deg;
 }
 
 /// With so many corners that the sides leave the circle by 5 cm at most, 720 corners at most. They lie on it to stay
@@ -238,6 +258,24 @@ void FileZones::add_heights(const ListedZone& listed, bool has_none, Zone& zone)
   zone.above_ground = {is_above_ground(listed.lower) ? listed.lower->metres : -kInfinity,
                        is_above_ground(listed.upper) ? listed.upper->metres : kInfinity,
                        {}};
+}
+
+/// Whether one bound above the ground and one above a level leave nothing between them, wherever the ground is.
+bool FileZones::has_no_heights(const Zone& zone) {
+  if (!zone.above_ground) return false;
+  const auto& [min_m, max_m, none] = *zone.above_ground;
+  const bool may_be =
+      (std::isfinite(zone.min_z_m) && std::isfinite(max_m)) || (std::isfinite(zone.max_z_m) && std::isfinite(min_m));
+  if (!may_be) return false;
+  if (!ground_) {
+    const Ground ground = ground_of(mission_);
+    ground_ = Heights{ground.plane_z_m, ground.plane_z_m};
+    if (ground.surface) {
+      const Box box = bounding_box(*ground.surface);
+      ground_ = Heights{box.min.z(), box.max.z()};
+    }
+  }
+  return zone.min_z_m >= ground_->high_m + max_m || zone.max_z_m <= ground_->low_m + min_m;
 }
 
 /// Whether rings touch each other, or cross by rounding, and are sound by themselves: holes that touch the outline are
@@ -452,6 +490,11 @@ bool FileZones::add_one(const ListedZone& listed, bool has_none, std::vector<Zon
     const double distance = distance_m(near);
     left_.nearest_m = std::min(left_.nearest_m, distance);
     if (distance > farthest_viewpoint_m(mission_)) {
+      if (may_go_round(listed)) {
+        fail(ErrorCode::value_unsupported, listed.place,
+             "a side of the zone is longer than 180 degrees of longitude: it may be meant either way round the earth",
+             "cut the zone into parts, at the antimeridian and near the scene");
+      }
       ++left_.far;
       left_.swapped += seems_swapped(listed) ? 1 : 0;
       return false;
@@ -479,6 +522,12 @@ bool FileZones::add_one(const ListedZone& listed, bool has_none, std::vector<Zon
     zone = placed(near, zone);
   } catch (const Error& error) {
     skip(listed, error);
+    return false;
+  }
+  if (has_no_heights(zone)) {
+    skip(listed, Error(ErrorCode::limits_reversed, "over the scene's ground its lower limit is above its upper one",
+                       file_.file.string() + ", " + listed.place,
+                       "correct its heights, or the levels that they are measured from; or write 'heights: any'"));
     return false;
   }
   const std::string name = file_.file.filename().string() + " " + listed.name;

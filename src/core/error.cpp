@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/input.h"
+#include "common/shown_address.h"
 
 namespace vantage {
 namespace {
@@ -19,7 +20,9 @@ std::string joined(const std::string& problem, const std::string& where, const s
 
 Error::Error(ErrorCode code, std::string problem, std::string where, std::string fix,
              std::optional<std::uint32_t> object)
-    : std::runtime_error(joined(problem = printable(problem), where = printable(where), fix = printable(fix))),
+    : std::runtime_error(joined(problem = printable(without_secrets(problem)),
+                                where = printable(without_secrets(where, true)),
+                                fix = printable(without_secrets(fix)))),
       code_(code),
       problem_(std::move(problem)),
       where_(std::move(where)),

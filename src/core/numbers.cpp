@@ -5,6 +5,7 @@
 #include <span>
 
 #include "common/input.h"
+#include "common/shown_address.h"
 
 namespace vantage {
 namespace {
@@ -148,7 +149,9 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kLongest = 60, kMost = 10'000;
+  const std::string whole = without_secrets(text.substr(0, kMost), true);  // before it is cut
+  text = whole;
   std::string shown(text.substr(0, kLongest));
   // Never cut in the middle of a UTF-8 sequence: continuation bytes are 10xxxxxx.
   if (text.size() > kLongest) {

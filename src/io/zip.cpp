@@ -124,6 +124,11 @@ std::string inflated(std::string_view packed, std::size_t size) {
   return made;
 }
 
+bool is_wanted(std::string_view name, std::string_view extension) {
+  const bool is_of_macos = name.substr(0, 9) == "__MACOSX/";  // notes beside the files, with their names
+  return ends_with(name, extension) && !is_of_macos;
+}
+
 }  // namespace
 
 bool is_zip(std::string_view bytes) { return bytes.substr(0, 4) == kFile || bytes.substr(0, 4) == kEnd; }
@@ -132,13 +137,7 @@ std::string unzipped(std::string_view archive, std::string_view name, std::strin
                      std::uintmax_t most_bytes) {
   const Archive files(archive);
   std::optional<Entry> found = files.first([&](std::string_view other) { return other == name; });
-  if (!found) {
-    const auto is_wanted = [&](std::string_view other) {
-      const bool is_of_macos = other.substr(0, 9) == "__MACOSX/";  // notes beside the files, with their names
-      return ends_with(other, extension) && !is_of_macos;
-    };
-    found = files.first(is_wanted);
-  }
+  if (!found) found = files.first([&](std::string_view other) { return is_wanted(other, extension); });
   if (!found) throw ZipProblem("there is no " + std::string(extension) + " in it", ZipProblem::Kind::missing);
   if (found->flags & 1) fail("what it holds is encrypted");
   if (found->packed_bytes == kIsElsewhere || found->bytes == kIsElsewhere || found->offset == kIsElsewhere) {
@@ -161,6 +160,15 @@ std::string unzipped(std::string_view archive, std::string_view name, std::strin
   const auto checksum = crc32(0, reinterpret_cast<const Bytef*>(made.data()), static_cast<uInt>(made.size()));
   if (checksum != found->checksum) fail("its bytes are broken");
   return made;
+}
+
+std::vector<std::string> names_in_zip(std::string_view archive, std::string_view extension) {
+  std::vector<std::string> names;
+  Archive(archive).first([&](std::string_view name) {
+    if (is_wanted(name, extension)) names.emplace_back(name);
+    return false;
+  });
+  return names;
 }
 
 std::string first_file_begins(std::string_view archive_begins, std::size_t most_bytes) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace vantage::internal::io {
 
@@ -28,6 +29,10 @@ bool is_zip(std::string_view bytes);
 /// whatever the archive says of itself. Throws ZipProblem.
 std::string unzipped(std::string_view archive, std::string_view name, std::string_view extension,
                      std::uintmax_t most_bytes);
+
+/// The files in the archive whose names end so, in upper or lower case, without the notes that macOS puts beside files.
+/// Throws ZipProblem.
+std::vector<std::string> names_in_zip(std::string_view archive, std::string_view extension);
 
 /// What the first file of an archive begins with, up to `most_bytes`; of the archive's own beginning alone. Empty for
 /// what is none, or is packed by another method than "deflate".

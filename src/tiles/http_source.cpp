@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/input.h"
+#include "common/shown_address.h"
 #include "io/json_text.h"
 #include "io/mesh_source.h"
 #include "vantage/error.h"
@@ -92,25 +93,12 @@ bool is_http(std::string_view text) {
   return scheme == "http://" || scheme == "https://";
 }
 
-std::string without_query(std::string_view url) {
-  const std::size_t scheme = url.find("://");
-  if (scheme == std::string_view::npos || scheme > url.find_first_of("?#")) {
-    return std::string(url.substr(0, url.find_first_of("?#")));
-  }
-  std::string shown(url);
-  const std::size_t host = scheme + 3;
-  // The user and the password first: what ends an address may be part of them.
-  for (const std::string_view mark : {"%40", "@"}) {
-    const std::size_t at = shown.substr(0, shown.find('/', host)).rfind(mark);
-    if (at == std::string::npos || at < host) continue;
-    // Of a query with an "@" and of a password with a "?" the parts that may be shown are not the same ones.
-    if (shown.find_first_of("?#", host) < at) return shown.substr(0, host);
-    shown.erase(host, at + mark.size() - host);
-  }
-  // ";" begins parameters of the path; what is escaped means the same to some servers.
-  for (const std::string_view mark : {"?", "#", ";", "%3f", "%3F", "%23", "%3b", "%3B"})
-    shown.resize(std::min(shown.size(), shown.find(mark)));
-  return shown;
+std::string without_query(std::string_view uri) {
+  if (uri.starts_with("data:")) return "data:";
+  if (uri.starts_with("//")) return without_query("https:" + std::string(uri)).substr(6);
+  if (uri.find("://") < uri.find_first_of("?#")) return without_secrets(uri, true);
+  const std::string shown = without_secrets("https://a/" + std::string(uri.substr(0, uri.find_first_of("?#"))), true);
+  return shown.substr(std::min<std::size_t>(shown.size(), 10));
 }
 
 HttpSource::HttpSource(std::string url, const HttpPatience& patience)
@@ -119,7 +107,7 @@ HttpSource::HttpSource(std::string url, const HttpPatience& patience)
 std::string HttpSource::name(const std::string& address) const {
   const std::string path = split_url(address).path, root = split_url(root_).path;
   const std::string folder = root.substr(0, root.rfind('/') + 1);
-  return path.starts_with(folder) ? path.substr(folder.size()) : path;
+  return without_query(path.starts_with(folder) ? path.substr(folder.size()) : path);
 }
 
 std::string HttpSource::resolve(const std::string& base, const std::string& uri) const {

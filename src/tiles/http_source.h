@@ -14,8 +14,8 @@ namespace vantage::internal::tiles {
 /// Whether a text is the address of a tileset on the network.
 bool is_http(std::string_view text);
 
-/// An address without what follows its path, and without a password: keys and sessions are nobody's business.
-std::string without_query(std::string_view url);
+/// A URI without what follows its path, and without a password: keys and sessions are nobody's business.
+std::string without_query(std::string_view uri);
 
 /// Files of one server, by HTTP or HTTPS. What the address of a file has as `key` and `session` is passed on to all
 /// files that it names and that have none. Nothing is kept on disk. A session that has ended is replaced by the one

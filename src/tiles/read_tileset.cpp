@@ -249,13 +249,8 @@ std::vector<std::string> notes_of(const TilesetReport& report) {
 
 bool is_web_address(const std::filesystem::path& file) { return internal::tiles::is_http(file.string()); }
 
-std::filesystem::path shown_address(const std::filesystem::path& file) {
-  if (!is_web_address(file)) return file;
-  return internal::tiles::without_query(file.string());
-}
-
 TilesetScene read_tileset(const std::filesystem::path& file, const TilesetOptions& options, const Progress& callback) {
-  const internal::core::ProgressReporter progress(callback, internal::tiles::without_query(file.string()));
+  const internal::core::ProgressReporter progress(callback, shown_address(file).string());
   try {
     const std::string address = file.string();
     if (internal::tiles::is_http(address)) {

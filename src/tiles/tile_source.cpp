@@ -5,6 +5,7 @@
 
 #include "common/input.h"
 #include "io/mesh_source.h"
+#include "tiles/http_source.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::tiles {
@@ -38,7 +39,8 @@ std::string FolderSource::resolve(const std::string& base, const std::string& ur
     throw Error(code, problem, shown(base), fix);
   };
   if (uri.find("://") < uri.find_first_of("/?#") || uri.starts_with("data:")) {
-    fail(ErrorCode::mesh_unsupported, "the tileset refers to " + in_quotes(uri) + ", which is no file beside it",
+    fail(ErrorCode::mesh_unsupported,
+         "the tileset refers to " + in_quotes(without_query(uri)) + ", which is no file beside it",
          "download the whole tileset");
   }
   const std::string path = without_percents(std::string_view{uri}.substr(0, uri.find_first_of("?#")));
@@ -49,7 +51,7 @@ std::string FolderSource::resolve(const std::string& base, const std::string& ur
   const std::filesystem::path joined = (std::filesystem::path(base).parent_path() / path).lexically_normal();
   if (joined.is_absolute() || joined.empty() || *joined.begin() == "..") {
     fail(ErrorCode::mesh_unsupported,
-         "the tileset refers to " + in_quotes(uri) + ", which is not below the folder of the tileset",
+         "the tileset refers to " + in_quotes(without_query(uri)) + ", which is not below the folder of the tileset",
          "put all files of the tileset into its folder");
   }
   return joined.generic_string();

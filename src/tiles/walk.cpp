@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "tiles/http_source.h"
+
 namespace vantage::internal::tiles {
 namespace {
 
@@ -293,7 +295,7 @@ std::string Walk::id_of(const std::string& base, const std::string& uri) const {
   try {
     return source_.name(source_.resolve(base, uri));
   } catch (const Error&) {
-    return uri;
+    return without_query(uri);
   }
 }
 

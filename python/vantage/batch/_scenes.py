@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 import os
-import re
 import threading
 import zipfile
 import zlib
@@ -14,7 +13,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from .._errors import input_error, make
+from .._errors import input_error, make, without_secrets
 from .._extras import require
 from .._folders import Folder
 from .._objects import SceneObject
@@ -66,23 +65,7 @@ def request_of(scene: AnyScene) -> dict[str, Any]:
 
 def shown_request(request: Mapping[str, Any]) -> dict[str, Any]:
     """The same with addresses as others may read them: keys and passwords are not written into results."""
-    return {key: _shown(os.fspath(value)) if key in _FILES else value for key, value in request.items()}
-
-
-def _shown(address: str) -> str:
-    """As without_query in src/tiles/http_source.cpp; of a chain of fsspec ("zip://a.osm::https://...") each part by itself."""
-    return "::".join(_shown_link(link) for link in re.split(r"::(?=[\w.+-]+://)", address))
-
-
-def _shown_link(address: str) -> str:
-    scheme, mark, rest = address.partition("://")
-    if not mark:
-        return address
-    host, slash, path = rest.partition("/")
-    shown = re.split("@|%40", host)[-1]
-    if shown != host and re.search("[?#].*(@|%40)", host):  # a query with an "@", or a password with a "?": which is it?
-        return scheme + mark
-    return scheme + mark + re.split("[?#;]|%3f|%23|%3b", shown + slash + path, flags=re.IGNORECASE)[0]
+    return {key: without_secrets(os.fspath(value), True) if key in _FILES else value for key, value in request.items()}
 
 
 def load(request: Mapping[str, Any], store: Store, progress: Progress = None) -> Scene:
