@@ -151,6 +151,66 @@ TEST_F(CityTest, WhatStandsOnARoofLeavesNoShaftBelow) {
   EXPECT_NEAR(object_volume(city.scene, "way/2"), 10 * 10 * 5, 1);
 }
 
+TEST_F(CityTest, WhatIsNoWallTakesNoBuildingAway) {
+  const std::vector<MapText::TagList> parts = {{{"building:part", "yes"}},
+                                               {{"building:part", "yes"}, {"height", "tall"}},
+                                               {{"building:part", "yes"}, {"layer", "-1"}, {"height", "3"}},
+                                               {{"building:part", "yes"}, {"building:levels", "0"}, {"layer", "-2"}},
+                                               {{"building:part", "roof"}, {"height", "102"}},
+                                               {{"building:part", "yes"}, {"wall", "no"}, {"height", "102"}}};
+  for (const MapText::TagList& tags : parts) {
+    MapText map;
+    map.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "100"}});
+    map.box(0, 0, 12, 20, tags);
+    const City city = build(map);
+    EXPECT_NEAR(object_volume(city.scene, "way/1"), 20 * 20 * 100, 80) << tags.back().second;
+    EXPECT_GT(object_volume(city.scene, "way/2"), 0) << tags.back().second;
+  }
+  MapText low;
+  low.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "100"}});
+  low.box(0, 0, 20, 20, {{"building:part", "yes"}, {"building:levels", "2"}});
+  EXPECT_EQ(object_volume(build(low).scene, "way/1"), 0) << "a part that says its levels";
+}
+
+TEST_F(CityTest, ManySmallPiecesThatPartsLeaveOpenAreBuilt) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "100"}});
+  for (int i = 0; i < 20; ++i) map.box(i, 0, i + 0.955, 20, {{"building:part", "yes"}, {"height", "3"}});
+  EXPECT_NEAR(record_of(build(map), "way/1").footprint_m2, 18, 2);
+}
+
+TEST_F(CityTest, HeightsOfPiecesAndRelationsCount) {
+  for (const bool tagged : {false, true}) {
+    MapText map;
+    const long a = map.node(0, 0), b = map.node(20, 0), c = map.node(20, 20), d = map.node(0, 20);
+    const long south = map.way({a, b, c}, {{"building", "yes"}, {"height", "100"}});
+    const long north = map.way({c, d, a}, {{"building", "yes"}, {"height", "90"}});
+    MapText::TagList tags = {{"type", "multipolygon"}};
+    if (tagged) tags.insert(tags.end(), {{"building", "yes"}, {"height", "50"}});
+    map.relation({{"way", south, "outer"}, {"way", north, "outer"}}, tags);
+    EXPECT_NEAR(object_volume(build(map).scene, "relation/1"), 20 * 20 * 100, 80) << tagged;
+  }
+  MapText group;
+  const long outline = group.box(0, 0, 20, 20, {{"building", "yes"}});
+  group.relation({{"way", outline, "outline"}}, {{"type", "building"}, {"height", "100"}});
+  EXPECT_NEAR(object_volume(build(group).scene, "way/1"), 20 * 20 * 100, 80);
+}
+
+TEST_F(CityTest, APieceOfARingMaySayWhatItBounds) {
+  for (const bool named : {false, true}) {
+    MapText map;
+    const long a = map.node(0, 0), b = map.node(20, 0), c = map.node(20, 20), d = map.node(0, 20);
+    const MapText::TagList tags = {{"building", "yes"}, {"height", "20"}};
+    const long south = map.way({a, b, c}, tags), north = map.way({c, d, a}, named ? tags : MapText::TagList());
+    MapText::TagList own = {{"type", "multipolygon"}};
+    if (named) own.emplace_back("amenity", "school");
+    map.relation({{"way", south, "outer"}, {"way", north, "outer"}}, own);
+    const City city = build(map);
+    EXPECT_NEAR(record_of(city, "relation/1").footprint_m2, 20 * 20, 1) << named;
+    EXPECT_TRUE(city.scene.ledger.empty()) << named;
+  }
+}
+
 TEST_F(CityTest, ARelationJoinsPartsThatLieOutside) {
   MapText map;
   const long outline = map.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "10"}});

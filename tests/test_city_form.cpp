@@ -167,6 +167,19 @@ TEST(CityForm, PartsInheritTheKindAlone) {
   EXPECT_EQ(part.form.top_m, 12);
   EXPECT_EQ(part.form.bottom_m, 0);
   EXPECT_EQ(read({{"building:part", "roof"}}, &church).form.deck_m, 0.5);
+  const osm::Tags roof = tagged({{"building", "roof"}, {"height", "5"}});
+  EXPECT_EQ(read({{"building:part", "yes"}, {"height", "5"}}, &roof).form.deck_m, 0) << "it does not say so itself";
+}
+
+TEST(CityForm, AHeightIsAGuessWhereNoTagSaysIt) {
+  for (const auto& [key, value] : {std::pair{"name", "Hall"}, {"height", "tall"}, {"height", "-5"}, {"height", "0"},
+                                   {"building:levels", "0"}, {"min_height", "20"}, {"roof:height", "3"}}) {
+    EXPECT_TRUE(read({{"building:part", "yes"}, {key, value}}).form.is_guessed) << key << "=" << value;
+  }
+  for (const auto& [key, value] : {std::pair{"height", "3"}, {"height", "10-30"}, {"building:levels", "2"}}) {
+    EXPECT_FALSE(read({{"building:part", "yes"}, {key, value}}).form.is_guessed) << key << "=" << value;
+  }
+  EXPECT_FALSE(read({{"building:part", "yes"}, {"building:levels", "0"}, {"roof:height", "4"}}).form.is_guessed);
 }
 
 TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {

@@ -248,6 +248,9 @@ TEST(CitySolid, PitchesAndDecks) {
   BuildingForm form = form_of(RoofShape::gabled, 0, 30, 0);
   form.pitch = BuildingForm::Pitch{45, true, 1};
   EXPECT_NEAR(bounding_box(make_solid(footprint, form, 0).mesh).max.z(), 35, 1e-9);
+  form.is_box = true;
+  EXPECT_NEAR(enclosed_volume(make_solid(footprint, form, 0).mesh), 20 * 10 * 35, 1e-6) << "what stands in for it";
+  form.is_box = false;
   form.pitch = BuildingForm::Pitch{60, false, 1.0 / 3};
   EXPECT_NEAR(bounding_box(make_solid(footprint, form, 0).mesh).max.z(), 30, 1e-9);
   EXPECT_NEAR(settled(form, roof_frame(footprint, form)).roof_m, std::tan(std::numbers::pi / 3) * 5, 1e-9);

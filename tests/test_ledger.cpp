@@ -194,6 +194,34 @@ TEST_F(LedgerTest, ABuildingRelationWithoutATaggedOutlineIsBuilt) {
   EXPECT_TRUE(scene.ledger.empty());
 }
 
+TEST_F(LedgerTest, ABuildingRelationWithUntaggedMembersIsBuilt) {
+  for (const std::string role : {"", "outer", "part"}) {
+    MapText map;
+    const long member = map.box(-30, -30, 30, 30, {}), part = map.box(-5, -5, 5, 5, {{"building:part", "yes"}});
+    std::vector<MapText::Member> members = {{"way", member, role}};
+    if (role != "part") members.push_back({"way", part, "part"});
+    map.relation(members, {{"type", "building"}, {"building", "yes"}, {"height", "40"}});
+    const Scene scene = build(map);
+    expect_block(scene, "relation/1");
+    EXPECT_TRUE(scene.ledger.empty()) << role;
+  }
+}
+
+TEST_F(LedgerTest, ABuildingRelationTellsOfAllThatIsWrong) {
+  MapText map;
+  const long a = map.node(-30, -30), b = map.node(30, -30), c = map.node(30, 30);
+  const long open = map.way({a, b, c}, {});
+  map.relation({{"way", open, "outline"}, {"way", 99, "part"}},
+               {{"type", "building"}, {"building", "yes"}, {"height", "40"}});
+  map.relation({{"way", 99, "part"}}, {{"type", "building"}});
+  write_bytes(folder_ / "city.osm", map.text());
+  const Scene scene = build_city(folder_ / "city.osm").scene;
+  const std::string& reason = entry_of(scene, "relation/1").reason;
+  EXPECT_NE(reason.find("1 of 2 outlines and parts"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("open"), std::string::npos) << reason;
+  EXPECT_FALSE(entry_of(scene, "relation/2").stand_in) << "nothing of it is known";
+}
+
 TEST_F(LedgerTest, ARelationOfAnotherTypeIsOnlyTold) {
   MapText map;
   const long outline = map.box(-30, -30, 30, 30, {});
@@ -375,6 +403,53 @@ TEST_F(LedgerTest, StandInsAreAsLargeAsTheTagsSay) {
   EXPECT_TRUE(entry_of(scene, "node/3").may_be_larger);
   EXPECT_TRUE(covers(scene, "way/1", 1210, 11)) << "a tank whose outline is open";
   EXPECT_TRUE(covers(scene, "way/2", 1310, 11)) << "closed, and no wall";
+}
+
+TEST_F(LedgerTest, ClosedLinesAreNotFilledAndAreasAreBuiltOnce) {
+  const std::vector<MapText::TagList> lines = {{{"barrier", "jersey_barrier"}},
+                                               {{"man_made", "dyke"}},
+                                               {{"man_made", "pipeline"}},
+                                               {{"roller_coaster", "track"}}};
+  MapText map;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    MapText::TagList tags = lines[i];
+    tags.emplace_back("height", "5");
+    const double east = 50.0 * static_cast<double>(i);
+    map.box(east, 0, east + 20, 20, tags);
+  }
+  const long bridge = map.box(0, 100, 20, 120, {{"man_made", "bridge"}, {"highway", "footway"}});
+  const long wood = map.box(50, 100, 70, 120, {{"landuse", "forest"}, {"barrier", "guard_rail"}, {"height", "12"}});
+  map.line({{100, 100}, {115, 100}, {130, 100}}, {{"man_made", "aqueduct"}, {"height", "50"}, {"width", "6"}});
+  const Scene scene = build(map);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string id = "way/" + std::to_string(i + 1);
+    EXPECT_FALSE(covers(scene, id, 50.0 * static_cast<double>(i) + 10, 11)) << lines[i].back().second;
+    EXPECT_NEAR(box_of(scene, id).max.z(), 5, 1e-6) << lines[i].back().second;
+  }
+  for (const long id : {bridge, wood}) {
+    EXPECT_EQ(std::count_if(scene.objects.begin(), scene.objects.end(),
+                            [&](const auto& one) { return one.source_id == "way/" + std::to_string(id); }),
+              1);
+  }
+  const Box aqueduct = box_of(scene, "way/7");
+  EXPECT_NEAR(aqueduct.max.y() - aqueduct.min.y(), 6, 0.05);
+}
+
+TEST_F(LedgerTest, ReasonsAreRightAndComeOnce) {
+  MapText map;
+  map.line({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{"man_made", "storage_tank"}});
+  map.box(100, 0, 100.0074, 20, {{"building", "yes"}, {"height", "9"}});
+  map.node(200, 0, {{"generator:source", "wind"}, {"height:hub", "80"}, {"rotor:diameter", "500"}});
+  CityOptions warn;
+  warn.missing = MissingPolicy::warn;
+  for (const CityOptions& options : {CityOptions(), warn}) {
+    const Scene scene = build(map, options);
+    EXPECT_EQ(entry_of(scene, "way/1").reason, "it is not closed");
+    EXPECT_EQ(entry_of(scene, "way/1").without, "towers");
+    EXPECT_EQ(entry_of(scene, "way/2").reason, "its outline has no area");
+    EXPECT_EQ(entry_of(scene, "way/2").without, "") << "no kind of occluder has buildings";
+    EXPECT_EQ(entry_of(scene, "node/9").reason.rfind("rotor:diameter"), 0u);
+  }
 }
 
 TEST_F(LedgerTest, WhatWasThereOrIsPlannedDoesNotTakeAwayWhatStands) {

@@ -244,9 +244,15 @@ TEST(OsmMultipolygons, StandForWaysThatSayNothingMore) {
                       osm_relation(20, {"way 11 outer", "way 12 inner"}, relation_tags));
   };
   const Extract repeated = read(kBuilding + osm_tag("height", "9"), relation_tags);
-  EXPECT_EQ(repeated.areas.size(), 1u);
+  EXPECT_EQ(repeated.areas.size(), 2u) << "with a house in the courtyard";
   expect_problem(repeated, way_id(11), Kind::repeated_outline, true, "it bounds relation/20, which stands for it");
-  expect_problem(repeated, way_id(12), Kind::repeated_outline, true, "tagged like relation/20, whose hole it bounds");
+  EXPECT_EQ(testing::find_problem(repeated, way_id(12)), nullptr);
+  const std::string wood = osm_tag("natural", "wood");
+  const Extract clearing =
+      extract_of(kNodes + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5), wood) +
+                 osm_relation(20, {"way 11 outer", "way 12 inner"}, kMultipolygon + wood));
+  EXPECT_EQ(clearing.areas.size(), 1u);
+  expect_problem(clearing, way_id(12), Kind::repeated_outline, true, "tagged like relation/20, whose hole it bounds");
   // A tower of its own over the same outline, and a house in the courtyard.
   const Extract different = read(kBuilding + osm_tag("height", "90"), kBuilding);
   EXPECT_EQ(different.areas.size(), 3u);
@@ -273,6 +279,19 @@ TEST(OsmMultipolygons, JoinPiecesOfRings) {
       extract_of(kNodes + pieces + osm_relation(20, {"way 11 outer", "way 12 outer"}, kMultipolygon + kBuilding));
   EXPECT_EQ(repeated.areas.size(), 1u);
   expect_problem(repeated, way_id(11), Kind::repeated_outline, true, "it bounds relation/20, which stands for it");
+}
+
+TEST(OsmMultipolygons, AreMadeOfThoseThatAreTheirMembers) {
+  const std::string tags = kMultipolygon + kBuilding;
+  const Extract extract = extract_of(kNodes + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5)) +
+                                     osm_relation(20, {"way 12 inner"}, kMultipolygon) +
+                                     osm_relation(21, {"way 11 outer", "relation 20 inner"}, tags) +
+                                     osm_relation(22, {"way 11 outer", "relation 99 "}, tags));
+  const Area* const nested = testing::find_object(extract.areas, relation_id(21));
+  ASSERT_NE(nested, nullptr);
+  EXPECT_EQ(nested->polygons.at(0).holes.size(), 1u);
+  EXPECT_EQ(testing::find_problem(extract, relation_id(21)), nullptr);
+  expect_problem(extract, relation_id(22), Kind::missing_members, false, "1 of 2 ways is not in the file");
 }
 
 TEST(OsmMultipolygons, AnInnerMemberOutsideIsBuiltAndTold) {
@@ -336,6 +355,13 @@ TEST(OsmBuildingRelations, NameOutlinesAndParts) {
   expect_problem(extract, relation_id(21), Kind::missing_members, false,
                  "1 of 3 outlines and parts is not in the file");
   expect_problem(extract, relation_id(22), Kind::degenerate, true, "neither an outline nor parts");
+  // Without a role: what its tags say, or else an outline.
+  const Extract roles = extract_of(
+      kNodes + osm_way(11, osm_ring(1), kBuilding) + osm_way(12, osm_ring(5), osm_tag("building:part", "yes")) +
+      osm_way(13, osm_ring(5), kBuilding) + osm_relation(20, {"way 11 ", "way 12 ", "way 13 outer"}, type));
+  ASSERT_EQ(roles.building_relations.size(), 1u);
+  EXPECT_EQ(roles.building_relations[0].outlines, (std::vector<ObjectId>{way_id(11), way_id(13)}));
+  EXPECT_EQ(roles.building_relations[0].parts, std::vector<ObjectId>{way_id(12)});
 }
 
 TEST(OsmFixtures, HugeAreasAreRead) {

@@ -22,7 +22,9 @@ class FormReader {
   FormReader(const osm::Tags& tags, const osm::Tags* outline, const BuildingDefaults& defaults,
              std::vector<TagRemark>& remarks)
       : tags_(tags), defaults_(defaults), remarks_(remarks), kind_(kind_of(tags, outline)) {
-    on_posts_ = kind_ == "roof" || kind_ == "carport" || kind_ == "canopy" || tags.get("wall") == "no";
+    // By its own tags alone: what stands under a roof is no roof.
+    const std::string own = kind_of(tags, nullptr);
+    on_posts_ = own == "roof" || own == "carport" || own == "canopy" || tags.get("wall") == "no";
   }
 
   BuildingForm read() {
@@ -38,6 +40,7 @@ class FormReader {
     if (!height && !roof_m_) {
       for (const std::size_t i : roof_unheard_) remarks_[i].unsure = true;
     }
+    form_.is_guessed = !height && !(levels_ && (*levels_ > 0 || roof_m_));
     read_bottom(height);
     if (height) {
       form_.top_m = *height;

@@ -49,6 +49,7 @@ struct BuildingForm {
     double most_share = 1;  ///< of the height above the bottom that the roof may take
   };
   std::optional<Pitch> pitch;
+  bool is_guessed = false;  ///< no tag says how high it is, or how many levels it has: the default of its kind
   /// > 0: stands on posts. The bottom is this far below the eaves, `bottom_m` only a lower limit (`settled`).
   double deck_m = 0;
 };
@@ -101,8 +102,8 @@ std::optional<double> parse_direction_deg(std::string_view text);
 std::optional<RoofShape> parse_roof_shape(std::string_view text);
 
 /// Heights and roof of a building or a part. `outline`: the tags of the building that a part lies in, for what the part
-/// does not say itself (nothing is inherited but building, the kind that defaults go by). Never fails: nonsense is
-/// remarked on and taken as untagged. Heights are taken from, in this order:
+/// does not say itself (nothing is inherited but building, the kind that default levels go by). Never fails: nonsense
+/// is remarked on and taken as untagged. Heights are taken from, in this order:
 ///   top     height, building:height, est_height; else building:levels (or the default of the kind) and the roof
 ///   bottom  min_height; else building:min_level; else, for building=roof, carport and the like and for wall=no, the
 ///           thickness of a deck below the eaves; else the ground

@@ -81,7 +81,6 @@ LedgerEntry entry_of(const internal::city::Item& item, const Mesh& solid, std::u
     std::vector<std::array<double, 2>>& ring = entry.outlines.emplace_back();
     for (const internal::city::Vec2& corner : shape.footprint.outer) ring.push_back({corner.x(), corner.y()});
   }
-  if (entry.reason.empty()) entry.reason = "its outline has no area";
   entry.box = bounding_box(solid);
   entry.stand_in = index;
   entry.instead.append(entry.instead.empty() ? "" : ", ");

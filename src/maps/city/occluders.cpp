@@ -250,6 +250,31 @@ std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& p
 
 }  // namespace
 
+void PlanBounds::extend(const Vec2& point) {
+  min = min.cwiseMin(point);
+  max = max.cwiseMax(point);
+}
+
+void PlanBounds::extend(const Footprint& footprint) {
+  for (const Vec2& corner : footprint.outer) extend(corner);
+}
+
+bool PlanBounds::meets(const PlanBounds& other) const {
+  return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
+}
+
+PlanBounds bounds_of(const std::vector<Shape>& shapes) {
+  PlanBounds bounds;
+  for (const Shape& shape : shapes) {
+    bounds.extend(shape.footprint);
+    if (!shape.tree) continue;
+    const Vec2 crown = Vec2::Constant(shape.tree->crown_m / 2);
+    bounds.extend(shape.tree->foot - crown);
+    bounds.extend(shape.tree->foot + crown);
+  }
+  return bounds;
+}
+
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   const std::optional<ObjectKind> kind = kind_of(tags, Geometry::line);

@@ -1,6 +1,7 @@
 // What hides besides buildings: walls, towers, bridges and trees, as shapes to build on some ground.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,19 @@ struct Shape {
   BuildingForm form;
   std::optional<Tree> tree;
 };
+
+/// A rectangle in plan; empty at first.
+struct PlanBounds {
+  Vec2 min = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 max = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void extend(const Vec2& point);
+  void extend(const Footprint& footprint);
+  bool meets(const PlanBounds& other) const;
+};
+
+/// Holds all solids that are made of some shapes.
+PlanBounds bounds_of(const std::vector<Shape>& shapes);
 
 /// The shapes of a line: walls, tree rows, bridges, stand-ins. `points`: in scene metres, of a closed line the first
 /// repeated at the end. `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in

@@ -39,24 +39,38 @@ std::string what_of(const osm::Tags& tags) {
   return tags.all.empty() ? "untagged" : tags.all.front().first + "=" + tags.all.front().second;
 }
 
-LedgerEntry entry_of(const CityRecord& record, const osm::Tags& tags) {
+/// What switches a kind off; nothing for buildings.
+const OccluderSwitch* switch_of(ObjectKind kind, const osm::Tags& tags) {
+  if (kind == ObjectKind::stand_in) return &stand_in_switch(tags);
+  const std::string name = std::string(name_of(kind)) + "s";
+  const auto all = occluder_switches();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const OccluderSwitch& one) { return name == one.name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// `kind`: what it is by its tags, whatever stands in for it.
+LedgerEntry entry_of(const CityRecord& record, const osm::Tags& tags, ObjectKind kind) {
   LedgerEntry entry;
   entry.object = record.object;
   entry.what = what_of(tags);
   entry.height_m = parse_length_m(tags.get("height"));
-  if (record.object.kind == ObjectKind::stand_in) entry.without = stand_in_switch(tags).name;
+  const OccluderSwitch* const one = switch_of(kind, tags);
+  if (one != nullptr && record.object.kind == ObjectKind::stand_in) entry.without = one->name;
   return entry;
+}
+
+/// Holds a place whatever is built there.
+Box box_over(const PlanBounds& place) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  return {{place.min.x(), place.min.y(), -kUnknown}, {place.max.x(), place.max.y(), kUnknown}};
 }
 
 /// Of what is lost the place is known as far as positions of it are.
 void lose(Site& site, const CityRecord& record, const osm::Tags& tags, const std::string& reason,
           const PlanBounds& place = {}) {
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  LedgerEntry entry = entry_of(record, tags);
+  LedgerEntry entry = entry_of(record, tags, record.object.kind);
   entry.reason = reason;
-  if (place.min.x() <= place.max.x()) {
-    entry.box = Box{{place.min.x(), place.min.y(), -kUnknown}, {place.max.x(), place.max.y(), kUnknown}};
-  }
+  if (place.min.x() <= place.max.x()) entry.box = box_over(place);
   site.lost.push_back(std::move(entry));
 }
 
@@ -89,14 +103,21 @@ void add_faults(std::vector<Fault>& faults, const Repairs& repairs) {
 void add_faults(std::vector<Fault>& faults, const std::vector<TagRemark>& remarks) {
   for (const TagRemark& remark : remarks) {
     if (!remark.unsure) continue;
+    const std::string reason = remark.key + "=" + remark.value;
+    const auto is_told = [&](const Fault& fault) { return fault.reason == reason; };
+    if (std::any_of(faults.begin(), faults.end(), is_told)) continue;
     // Nothing tells it: the default.
     const bool is_guessed = remark.fault != TagFault::rough && remark.fault != TagFault::unknown_roof;
-    faults.push_back({remark.key + "=" + remark.value, remark.key + " " + remark.outcome, is_guessed});
+    faults.push_back({reason, remark.key + " " + remark.outcome, is_guessed});
   }
 }
 
 void note_remarks(CityRecord& record, const std::vector<TagRemark>& remarks) {
-  for (const TagRemark& remark : remarks) record.remarks.push_back(remark.for_people());
+  for (const TagRemark& remark : remarks) {
+    const CityRemark told = remark.for_people();
+    const auto is_told = [&](const CityRemark& one) { return one.text == told.text; };
+    if (std::none_of(record.remarks.begin(), record.remarks.end(), is_told)) record.remarks.push_back(told);
+  }
 }
 
 /// Calls `visit` with the ends of each side; a single position is a side from it to itself.
@@ -210,11 +231,19 @@ class BuildingSorter {
     return parts;
   }
 
-  /// What parts leave open. One that is guessed from a faulty outline may be too large: it covers nothing.
+  /// Whether a part takes the place of what it lies in. One that is guessed from a faulty outline may be too large, one
+  /// below the ground and a roof on posts are no walls, and one whose height is a guess may be too low.
+  bool covers(const Structure& part, const Structure& building) const {
+    if (part.repairs.any() || at_fault_.contains(part.source->id)) return false;
+    if (parse_levels(part.source->tags.get("layer")).value_or(0) < 0) return false;
+    const BuildingForm form = form_of(part), replaced = form_of(building);
+    if (form.deck_m > 0 && replaced.deck_m == 0) return false;
+    return !form.is_guessed || form.top_m >= replaced.top_m;
+  }
+
+  /// What parts leave open.
   std::vector<Footprint> uncovered_by(const Structure& building, std::vector<std::size_t> parts) const {
-    std::erase_if(parts, [&](std::size_t part) {
-      return structures_[part].repairs.any() || at_fault_.contains(structures_[part].source->id);
-    });
+    std::erase_if(parts, [&](std::size_t part) { return !covers(structures_[part], building); });
     return uncovered(building, structures_, parts);
   }
 
@@ -246,17 +275,13 @@ class BuildingSorter {
     Item item;
     const BuildingForm form = form_of(structure, &remarks);
     note_remarks(record, remarks);
-    item.entry = entry_of(record, structure.source->tags);
+    item.entry = entry_of(record, structure.source->tags, ObjectKind::building);
     add_faults(item.faults, structure.repairs);
     add_faults(item.faults, remarks);
     item.record = std::move(record);
     if (outline) item.record.building = osm::text(outline->source->id);
     for (Footprint& footprint : footprints) item.shapes.push_back({std::move(footprint), form, {}});
-    if (outline) {
-      item.standing = outline->footprints;
-    } else if (!structure.parts.empty()) {
-      item.standing = structure.footprints;
-    }
+    if (outline || !structure.parts.empty()) item.standing = (outline ? *outline : structure).footprints;
     site_.items.push_back(std::move(item));
   }
 
@@ -267,12 +292,8 @@ class BuildingSorter {
 };
 
 bool is_switched_on(std::optional<ObjectKind> kind, const osm::Tags& tags, const Occluders& occluders) {
-  if (kind == ObjectKind::stand_in) return occluders.*stand_in_switch(tags).on;
-  if (kind == ObjectKind::wall) return occluders.walls;
-  if (kind == ObjectKind::tower) return occluders.towers;
-  if (kind == ObjectKind::bridge) return occluders.bridges;
-  if (kind == ObjectKind::tree) return occluders.trees;
-  return kind.has_value();
+  const OccluderSwitch* const one = kind ? switch_of(*kind, tags) : nullptr;
+  return kind && (one == nullptr || occluders.*one->on);
 }
 
 /// Of things without a model of their own, and of buildings that are drawn as a point.
@@ -302,18 +323,20 @@ class OccluderSorter {
     }
     for (const osm::Line& line : extract.lines) {
       std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);
-      // A wood or a tank whose outline is not closed is none the less an area; so is what is closed and has no model.
-      const bool is_area = kind ? kind == ObjectKind::stand_in && (line.is_closed() || osm::means_area(line.tags))
+      const bool has_model = kind && kind != ObjectKind::stand_in, means_area = osm::means_area(line.tags);
+      if (line.is_closed() && means_area && !has_model) continue;  // it is among the areas
+      // A wood or a tank whose outline is not closed is none the less an area; so is what is closed and no line.
+      const bool is_area = kind ? !has_model && (line.is_closed() ? !osm::is_linear(line.tags) : means_area)
                                 : !overhead_height_m(line.tags);
       if (is_area) kind = kind_of(line.tags, Geometry::area);
       if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders)) continue;
-      if (is_area) {
-        const auto end = line.points.end() - (line.is_closed() ? 1 : 0);
-        add(osm::Area{line.id, line.tags, {{{line.points.begin(), end}, {}, !line.is_closed()}}}, *kind);
-        continue;
-      }
       std::vector<Vec2> points;
       for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
+      if (is_area) {
+        const auto end = line.points.end() - (line.is_closed() ? 1 : 0);
+        add(osm::Area{line.id, line.tags, {{{line.points.begin(), end}, {}, !line.is_closed()}}}, *kind, points);
+        continue;
+      }
       PlanBounds drawn;
       for (const Vec2& at : points) drawn.extend(at);
       add(line.id, line.tags, *kind, line.points, drawn, {},
@@ -380,13 +403,26 @@ class OccluderSorter {
     }
   }
 
-  void add(const osm::Area& area, ObjectKind kind) {
+  /// `line`: of what is drawn as a line. Where it says its width, it may be wider than what it bounds.
+  void add(const osm::Area& area, ObjectKind kind, const std::vector<Vec2>& line = {}) {
     Repairs repairs;
     const std::vector<Footprint> footprints = footprints_of(area, frame_, repairs);
     PlanBounds drawn;
     for (const Footprint& footprint : footprints) drawn.extend(footprint);
-    add(area.id, area.tags, repairs.enclosed ? ObjectKind::stand_in : kind, area, drawn, repairs,
-        [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
+    const bool is_wide = !line.empty() && (area.tags.has("width") || area.tags.has("est_width"));
+    const std::size_t before = site_.items.size();
+    add(area.id, area.tags, kind, area, drawn, repairs, [&](auto& remarks) {
+      std::vector<Shape> shapes = shapes_of_area(area.tags, footprints, defaults_, remarks);
+      if (!is_wide) return shapes;
+      const std::vector<Shape> wide = shapes_of_line(area.tags, line, piece_m_, defaults_, remarks);
+      shapes.insert(shapes.end(), wide.begin(), wide.end());
+      return shapes;
+    });
+    const bool is_open = !line.empty() && area.polygons.front().incomplete;
+    if (is_open && site_.items.size() > before) {
+      std::vector<Fault>& faults = site_.items.back().faults;
+      faults.insert(faults.begin(), {"it is not closed", ""});
+    }
   }
 
   template <typename Positions, typename MakeShapes>
@@ -396,18 +432,18 @@ class OccluderSorter {
     std::vector<TagRemark> remarks;
     item.shapes = make_shapes(remarks);
     if (!belongs(positions, item.shapes)) return;
-    item.record = record_of(id, tags, kind);
+    item.record = record_of(id, tags, repairs.enclosed ? ObjectKind::stand_in : kind);
     if (is_underground(tags)) return pass_over(site_, item.record, kUnderground);
     note_remarks(item.record, remarks);
     if (item.shapes.empty()) return lose(site_, item.record, tags, "without a length or an area", drawn);
-    item.entry = entry_of(item.record, tags);
+    item.entry = entry_of(item.record, tags, kind);
     add_faults(item.faults, repairs);
     add_faults(item.faults, remarks);
     if (kind == ObjectKind::stand_in && !repairs.enclosed) item.faults.push_back(stand_in_fault(id, tags));
     const PlanBounds built = bounds_of(item.shapes);
     site_.reach_m = std::max({site_.reach_m, (drawn.min - built.min).norm(), (built.max - drawn.max).norm()});
     if (kind == ObjectKind::wall || kind == ObjectKind::tree) item.stand = Item::Stand::each;
-    if (kind == ObjectKind::bridge) item.stand = Item::Stand::above;
+    if (kind == ObjectKind::bridge && !repairs.enclosed) item.stand = Item::Stand::above;
     site_.items.push_back(std::move(item));
   }
 
@@ -423,6 +459,7 @@ class OccluderSorter {
 std::optional<ObjectKind> kind_of_lost(const osm::Problem& problem) {
   const bool is_point = problem.object.type == osm::ObjectType::node;
   const std::optional<ObjectKind> as_area = kind_of(problem.tags, is_point ? Geometry::point : Geometry::area);
+  if (!as_area && problem.tags.get("type") == "building") return ObjectKind::building;
   return !as_area && !is_point ? kind_of(problem.tags, Geometry::line) : as_area;
 }
 
@@ -444,14 +481,15 @@ void add_lost(Site& site, const osm::Extract& extract, const geo::LocalFrame& fr
 }
 
 /// Relations that only say which outline and parts belong together, but are tagged as if they were a building. They
-/// belong to the region when one of their members does. What of their members is not in the file is lost.
-void pass_over_groups(Site& site, const osm::Extract& extract, const osm::RegionFilter& region,
-                      const geo::LocalFrame& frame) {
+/// belong to the region when one of their members does. What of their members is not in the file is lost, and so is one
+/// of which no member is built, or is another object.
+void pass_over_groups(Site& site, const osm::Extract& extract, const geo::LocalFrame& frame) {
   std::map<osm::ObjectId, const osm::Problem*> problems;
   for (const osm::Problem& problem : extract.problems) {
     if (!problem.lost) problems[problem.object] = &problem;
   }
-  std::set<std::string> built, not_built;
+  std::set<std::string> built, not_built, read;
+  for (const osm::Area& area : extract.areas) read.insert(osm::text(area.id));
   for (const Item& item : site.items) built.insert(item.record.object.source_id);
   for (const CityPassedOver& one : site.passed_over) not_built.insert(one.object.source_id);
   for (const LedgerEntry& entry : site.lost) not_built.insert(entry.object.source_id);
@@ -466,19 +504,20 @@ void pass_over_groups(Site& site, const osm::Extract& extract, const osm::Region
              std::any_of(relation.parts.begin(), relation.parts.end(), is_in);
     };
     if (built.contains(osm::text(relation.id))) continue;
-    const bool is_built = has_member_in(built), is_read = is_built || has_member_in(not_built);
-    if (!is_read && !region.everything()) continue;
-    if (problem != problems.end()) {
+    const bool is_built = has_member_in(built), is_told = is_built || has_member_in(not_built);
+    if (!is_told && has_member_in(read)) continue;  // outside, or left out by choice
+    const CityRecord record = record_of(relation.id, relation.tags, kind.value_or(ObjectKind::building));
+    if (problem != problems.end() || !is_told) {
       PlanBounds place;
-      for (const geo::LonLat& position : problem->second->places) place.extend(frame.to_local(position));
-      const CityRecord record = record_of(relation.id, relation.tags, kind.value_or(ObjectKind::building));
-      lose(site, record, relation.tags, problem->second->what, place);
-      continue;
+      std::string reason = "none of its members could be read";
+      if (problem != problems.end()) {
+        reason = problem->second->what;
+        for (const geo::LonLat& position : problem->second->places) place.extend(frame.to_local(position));
+      }
+      lose(site, record, relation.tags, reason, place);
+    } else {
+      pass_over(site, record, is_built ? "its members are built in its place" : "its members are not built either");
     }
-    pass_over(site, record_of(relation.id, relation.tags, *kind),
-              is_built  ? "its members are built in its place"
-              : is_read ? "its members are not built either"
-                        : "none of its members could be read");
   }
 }
 
@@ -522,9 +561,10 @@ void note_reading_faults(Site& site, const osm::Extract& extract) {
   }
   for (Item& item : site.items) {
     const auto found = problems.find(item.record.object.source_id);
-    if (found == problems.end()) continue;
-    const auto fault = reading_fault(*found->second);
+    const auto fault = found == problems.end() ? std::nullopt : reading_fault(*found->second);
     if (fault) item.faults.insert(item.faults.begin(), *fault);
+    if (item.faults.empty() || !item.faults.front().reason.empty()) continue;
+    item.faults.front().reason = "its outline has no area";
   }
 }
 
@@ -533,40 +573,13 @@ void drop_stand_ins(Site& site) {
   for (const Item& item : site.items) {
     if (item.record.object.kind != ObjectKind::stand_in) continue;
     site.lost.push_back(item.entry);
-    const PlanBounds place = bounds_of(item.shapes);
-    const double unknown = std::numeric_limits<double>::infinity();
     site.lost.back().reason = item.faults.front().reason;
-    site.lost.back().box = Box{{place.min.x(), place.min.y(), -unknown}, {place.max.x(), place.max.y(), unknown}};
+    site.lost.back().box = box_over(bounds_of(item.shapes));
   }
   std::erase_if(site.items, [](const Item& item) { return item.record.object.kind == ObjectKind::stand_in; });
 }
 
 }  // namespace
-
-void PlanBounds::extend(const Vec2& point) {
-  min = min.cwiseMin(point);
-  max = max.cwiseMax(point);
-}
-
-void PlanBounds::extend(const Footprint& footprint) {
-  for (const Vec2& corner : footprint.outer) extend(corner);
-}
-
-bool PlanBounds::meets(const PlanBounds& other) const {
-  return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
-}
-
-PlanBounds bounds_of(const std::vector<Shape>& shapes) {
-  PlanBounds bounds;
-  for (const Shape& shape : shapes) {
-    bounds.extend(shape.footprint);
-    if (!shape.tree) continue;
-    const Vec2 crown = Vec2::Constant(shape.tree->crown_m / 2);
-    bounds.extend(shape.tree->foot - crown);
-    bounds.extend(shape.tree->foot + crown);
-  }
-  return bounds;
-}
 
 std::vector<std::string> reasons_of(const Site& site) {
   std::vector<std::string> reasons;
@@ -584,7 +597,7 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   BuildingSorter(site, std::move(structures), options.defaults, extract.problems).sort(region, frame);
   OccluderSorter(site, region, frame, options).sort(extract);
   add_lost(site, extract, frame, options);
-  pass_over_groups(site, extract, region, frame);
+  pass_over_groups(site, extract, frame);
   note_reading_faults(site, extract);
   if (options.missing == MissingPolicy::warn) drop_stand_ins(site);
   set_bounds(site);

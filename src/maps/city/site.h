@@ -1,7 +1,6 @@
 // Everything that is to be built, in the frame's metres, before it becomes solid.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,19 +13,6 @@
 #include "vantage/city.h"
 
 namespace vantage::internal::city {
-
-/// A rectangle in plan; empty at first.
-struct PlanBounds {
-  Vec2 min = Vec2::Constant(std::numeric_limits<double>::infinity());
-  Vec2 max = Vec2::Constant(-std::numeric_limits<double>::infinity());
-
-  void extend(const Vec2& point);
-  void extend(const Footprint& footprint);
-  bool meets(const PlanBounds& other) const;
-};
-
-/// Holds all solids that are made of some shapes.
-PlanBounds bounds_of(const std::vector<Shape>& shapes);
 
 /// Why an object is not built as the map has it, for the ledger.
 struct Fault {

@@ -118,7 +118,8 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   for (const Standing& one : all) {
     is_raised |= one.shape.form.top_m > item.shapes.front().form.top_m;
     CitySolid solid = make_solid(one.shape, one.ground_m);
-    if (!solid.repair.empty()) item.faults.push_back({solid.repair, "a flat roof as high as its top"});
+    const bool is_told = !item.faults.empty() && item.faults.back().reason == solid.repair;  // of the piece before
+    if (!solid.repair.empty() && !is_told) item.faults.push_back({solid.repair, "a flat roof as high as its top"});
     pieces.push_back(std::move(solid.mesh));
   }
   if (is_raised) {
@@ -151,7 +152,7 @@ void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground, const co
   if (wrong.empty()) return;
   if (has_roof(item)) {
     Item flat = item;
-    for (Shape& shape : flat.shapes) shape.form.roof = RoofShape::flat;
+    for (Shape& shape : flat.shapes) shape.form.is_box = true;
     std::vector<Mesh> simpler = build(flat, ground);
     if (fault(simpler, item.record.object.source_id, progress).empty()) {
       pieces = std::move(simpler);

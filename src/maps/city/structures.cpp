@@ -186,15 +186,13 @@ void assign_parts(std::vector<Structure>& structures, const std::vector<osm::Bui
 
 std::vector<Footprint> uncovered(const Structure& building, const std::vector<Structure>& structures,
                                  const std::vector<std::size_t>& parts) {
-  constexpr double kLeast = 1.0;  // m2: a remainder smaller than that comes of how the parts were drawn
+  constexpr double kLeast = 1.0;  // m2: less than that, all together, comes of how the parts were drawn
   std::vector<Footprint> covered;
   for (const std::size_t part : parts) {
     covered.insert(covered.end(), structures[part].footprints.begin(), structures[part].footprints.end());
   }
   std::vector<Footprint> rest = subtract(building.footprints, covered);
-  rest.erase(std::remove_if(rest.begin(), rest.end(), [&](const Footprint& f) { return area_m2(f) < kLeast; }),
-             rest.end());
-  return rest;
+  return area_m2(rest) < kLeast ? std::vector<Footprint>() : rest;
 }
 
 }  // namespace vantage::internal::city

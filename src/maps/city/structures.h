@@ -37,8 +37,8 @@ std::vector<Footprint> footprints_of(const osm::Area& area, const geo::LocalFram
 /// as the buildings in it. Its own outline is the one of the relation, or else the smallest.
 void assign_parts(std::vector<Structure>& structures, const std::vector<osm::BuildingRelation>& relations);
 
-/// What of a building none of these structures covers, seen from above. Slivers that come of careless drawing are left
-/// out.
+/// What of a building none of these structures covers, seen from above. Less than 1 m2 in all comes of careless drawing
+/// and is left out.
 std::vector<Footprint> uncovered(const Structure& building, const std::vector<Structure>& structures,
                                  const std::vector<std::size_t>& parts);
 

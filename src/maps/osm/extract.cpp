@@ -34,6 +34,7 @@ class ExtractBuilder {
       multipolygons_.add(*relation);
       progress.report(++done, steps);
     }
+    for (const osmium::Relation* const relation : objects_.unwanted) multipolygons_.add_pieces(*relation);
     for (const KeptWay& kept : objects_.ways) {
       if (kept.wanted) add(kept);
       progress.tick(++done, steps);
@@ -41,6 +42,7 @@ class ExtractBuilder {
     for (const Point& point : objects_.points) add(point);
     describe_file();
     sort();
+    raise_outlines();
     return std::move(extract_);
   }
 
@@ -67,6 +69,17 @@ class ExtractBuilder {
     sort_by_id(extract_.building_relations);
     std::stable_sort(extract_.problems.begin(), extract_.problems.end(),
                      [](const Problem& a, const Problem& b) { return a.object < b.object; });
+  }
+
+  /// A building relation may say how high its outline is.
+  void raise_outlines() {
+    for (const BuildingRelation& relation : extract_.building_relations) {
+      for (const ObjectId id : relation.outlines) {
+        const auto area = std::lower_bound(extract_.areas.begin(), extract_.areas.end(), id,
+                                           [](const Area& one, ObjectId wanted) { return one.id < wanted; });
+        if (area != extract_.areas.end() && area->id == id) add_heights(area->tags, relation.tags);
+      }
+    }
   }
 
   void add(const Point& point) {

@@ -49,7 +49,7 @@ struct Polygon {
 };
 
 /// A closed way or a multipolygon relation, assembled. The tags of a multipolygon are the relation's without its type,
-/// or of an old-style one those that all its outer ways have in common.
+/// or of an old-style one those that all its outer ways have in common; heights of pieces of its rings are added.
 struct Area {
   ObjectId id;
   Tags tags;
@@ -93,7 +93,7 @@ struct Problem {
     degenerate,    ///< fewer than 3 different positions (of a line: 2), no area, or nowhere on the earth
     open_outline,  ///< a way tagged as an area that is not closed; a building is, by a straight side
     /// A way that bounds a multipolygon and says nothing that it does not say, or is tagged like the multipolygon whose
-    /// hole it bounds: the multipolygon stands for it
+    /// hole it bounds and no building: the multipolygon stands for it
     repeated_outline
   };
   ObjectId object;

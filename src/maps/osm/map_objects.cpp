@@ -80,7 +80,7 @@ class Loader {
     return !tags.empty() && (wanted_ == nullptr || wanted_(to_tags(tags)));
   }
 
-  /// Returns whether it is kept.
+  /// Returns whether its members are kept.
   bool add(const osmium::Relation& relation) {
     const std::uint32_t version = relation.version();
     relation_versions_.add({relation.id(), version, relation.visible()});
@@ -90,11 +90,11 @@ class Loader {
     bool keep = kind == RelationKind::building;
     if (kind == RelationKind::multipolygon) keep = says_nothing(tags) || is_wanted(relation.tags());
     if (kind == RelationKind::other) keep = wanted_ == nullptr ? means_building(tags) : wanted_(tags);
-    if (!keep) return false;
-    kept_relations_.push_back({relation.id(), version, objects_.relation_buffer.committed(), true});
+    if (!keep && kind != RelationKind::multipolygon) return false;
+    kept_relations_.push_back({relation.id(), version, objects_.relation_buffer.committed(), keep});
     objects_.relation_buffer.add_item(relation);
     objects_.relation_buffer.commit();
-    return true;
+    return keep;
   }
 
   void keep_given(const osmium::Way& way) {
@@ -106,7 +106,8 @@ class Loader {
   void finish_relations() {
     relation_versions_.finish();
     for (const Kept& kept : current_of(std::move(kept_relations_), relation_versions_)) {
-      objects_.relations.push_back(&objects_.relation_buffer.get<osmium::Relation>(kept.offset));
+      auto& list = kept.wanted ? objects_.relations : objects_.unwanted;
+      list.push_back(&objects_.relation_buffer.get<osmium::Relation>(kept.offset));
     }
     for (const osmium::Relation* const relation : objects_.relations) {
       for (const osmium::RelationMember& member : relation->members()) {

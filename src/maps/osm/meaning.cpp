@@ -32,7 +32,13 @@ bool is_linear(std::string_view key, std::string_view value) {
   if (key == "man_made") return contains(kLinearManMade, value);
   if (key == "power") return contains(kLinearPower, value);
   if (key == "aeroway") return contains(kLinearAeroway, value);
-  return key == "historic" && (value == "citywalls" || value == "railway");
+  return (key == "historic" && (value == "citywalls" || value == "railway")) ||
+         (key == "roller_coaster" && value == "track");
+}
+
+/// A feature whose key is used for lines, but which is drawn as an area.
+bool is_areal(std::string_view key, std::string_view value) {
+  return (key == "waterway" && (value == "riverbank" || value == "dock")) || (key == "aerialway" && value == "station");
 }
 
 // Those that libosmium leaves out of account in old-style multipolygons; the last two are of its own test data.
@@ -61,16 +67,18 @@ bool means_area(const Tags& tags) {
   return std::any_of(tags.all.begin(), tags.all.end(), [](const Tag& tag) {
     if (tag.second == "no") return false;
     return tag.first.starts_with("area:") || (contains(kAreaKeys, tag.first) && !is_linear(tag.first, tag.second)) ||
-           (tag.first == "waterway" && (tag.second == "riverbank" || tag.second == "dock"));
+           is_areal(tag.first, tag.second);
   });
 }
 
 bool means_line(const Tags& tags) {
   if (!means_area(tags)) return true;
-  if (tags.get("area") == "yes") return false;
+  return tags.get("area") != "yes" && is_linear(tags);
+}
+
+bool is_linear(const Tags& tags) {
   return std::any_of(tags.all.begin(), tags.all.end(), [](const Tag& tag) {
-    if (tag.second == "no") return false;
-    if (tag.first == "waterway" && (tag.second == "riverbank" || tag.second == "dock")) return false;
+    if (tag.second == "no" || is_areal(tag.first, tag.second)) return false;
     return contains(kLineKeys, tag.first) || is_linear(tag.first, tag.second);
   });
 }
@@ -98,6 +106,20 @@ Tags common_tags(const std::vector<Tags>& all) {
     std::erase_if(common.all, [&tags](const Tag& tag) { return !has_tag(tags, tag); });
   }
   return common;
+}
+
+void add_heights(Tags& tags, const Tags& other) {
+  static constexpr std::array<std::string_view, 5> keys = {"height", "building:height", "est_height", "building:levels",
+                                                           "building:part:levels"};
+  for (const auto& [key, value] : other.all) {
+    if (!contains(keys, key)) continue;
+    const auto own = std::find_if(tags.all.begin(), tags.all.end(), [&](const Tag& tag) { return tag.first == key; });
+    if (own == tags.all.end()) {
+      tags.all.emplace_back(key, value);
+    } else if ((";" + own->second + ";").find(";" + value + ";") == std::string::npos) {
+      own->second += ";" + value;
+    }
+  }
 }
 
 }  // namespace vantage::internal::osm

@@ -21,7 +21,7 @@ void Multipolygons::add(const osmium::Relation& relation) {
   switch (kind_of(tags)) {
     case RelationKind::multipolygon:
       std::erase_if(tags.all, [](const auto& tag) { return tag.first == "type"; });
-      add_multipolygon(relation, std::move(tags));
+      add_area(relation, std::move(tags), members_of(relation));
       return;
     case RelationKind::building:
       add_building(relation, tags);
@@ -54,7 +54,16 @@ std::optional<Multipolygons::Absorbed> Multipolygons::absorbed(std::int64_t way)
 Multipolygons::Members Multipolygons::members_of(const osmium::Relation& relation) const {
   Members members;
   for (const osmium::RelationMember& member : relation.members()) {
+    const std::string_view role = member.role();
     if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
+    if (member.type() != osmium::item_type::relation || (!role.empty() && role != "outer" && role != "inner")) continue;
+    if (member.ref() == relation.id()) continue;
+    const osmium::Relation* const nested = objects_.find_relation(member.ref());
+    if (nested == nullptr) ++members.ways;
+    if (nested == nullptr) continue;
+    for (const osmium::RelationMember& of_nested : nested->members()) {
+      if (of_nested.type() == osmium::item_type::way) add_member(members, of_nested.ref(), of_nested.role());
+    }
   }
   return members;
 }
@@ -70,18 +79,37 @@ void Multipolygons::add_member(Members& members, std::int64_t way, const char* r
   members.any_wanted = members.any_wanted || kept->wanted;
 }
 
-void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags) {
-  add_area(relation, std::move(tags), members_of(relation));
-}
-
-void Multipolygons::add_area(const osmium::Relation& relation, Tags tags, Members members) {
+void Multipolygons::add_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem) {
   const bool old_style = says_nothing(tags);
   if (old_style && !members.any_wanted) return;
   if (!selection_.holds(id_of(relation))) {
     if (!old_style) selection_.leave_out(relation);  // else its ways are counted
     return;
   }
-  ProblemBuilder problem;
+  build_area(relation, std::move(tags), std::move(members), std::move(problem));
+}
+
+void Multipolygons::add_pieces(const osmium::Relation& relation) {
+  Members members = members_of(relation);
+  std::vector<Tags> pieces;
+  bool is_held = false;
+  for (const MemberWay& member : members.there) {
+    const KeptWay& kept = *objects_.find_way(member.way->id());
+    if (!kept.wanted || kept.closed) return;
+    is_held = is_held || selection_.holds(ObjectId{ObjectType::way, member.way->id()});
+    pieces.push_back(to_tags(member.way->tags()));
+  }
+  const Tags common = common_tags(pieces);
+  if (!is_held || members.there.size() < members.ways || !wanted_(common)) return;
+  if (assemble(relation, members.there).polygons.empty()) return;
+  Tags tags = to_tags(relation.tags());
+  std::erase_if(tags.all, [&](const auto& tag) { return tag.first == "type" || common.has(tag.first); });
+  tags.all.insert(tags.all.end(), common.all.begin(), common.all.end());
+  build_area(relation, std::move(tags), std::move(members), {});
+}
+
+void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem) {
+  const bool old_style = says_nothing(tags);
   if (relation.tags().get_value_by_key("type") == nullptr) {
     problem.add(Kind::broken_multipolygon, "it is a relation without a type; taken for a multipolygon");
   }
@@ -115,7 +143,14 @@ void Multipolygons::add_area(const osmium::Relation& relation, Tags tags, Member
       if (member.outer) outer.push_back(to_tags(member.way->tags()));
     }
     tags = common_tags(outer);
-    if (wanted_ != nullptr && !wanted_(tags)) return;  // its ways mean different things: each on its own
+    if (wanted_ != nullptr && !wanted_(tags)) {
+      std::erase_if(outer, says_nothing);  // a ring of which one piece alone is tagged
+      tags = common_tags(outer);
+      if (!wanted_(tags)) return;  // its ways mean different things: each on its own
+    }
+  }
+  for (const MemberWay& member : members.there) {
+    if (member.outer && !objects_.find_way(member.way->id())->closed) add_heights(tags, to_tags(member.way->tags()));
   }
   absorb(relation, tags, old_style, members.there);
   if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), tags, false));
@@ -128,7 +163,8 @@ void Multipolygons::absorb(const osmium::Relation& relation, const Tags& area_ta
     const KeptWay* const kept = objects_.find_way(member.way->id());
     if (!kept->wanted || (!member.outer && !member.inner)) continue;
     const Tags tags = to_tags(member.way->tags());
-    const bool hole = member.inner && !member.outer;
+    const bool hole = member.inner && !member.outer && !member.stray;
+    if (kept->closed && hole && means_building(tags)) continue;  // a house in the courtyard
     // A piece of a ring bounds nothing by itself. A hole that is tagged like what it is a hole in is a hole.
     const bool absorbed = !kept->closed || (hole ? says_the_same(tags, area_tags) : repeats(tags, area_tags));
     if (absorbed) absorbed_[member.way->id()] = {id_of(relation), !old_style || hole, hole};
@@ -140,8 +176,9 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
   BuildingRelation building{id_of(relation), tags, {}, {}};
   std::size_t missing = 0, named = 0;
   for (const osmium::RelationMember& member : relation.members()) {
-    const bool outline = std::strcmp(member.role(), "outline") == 0;
-    if (!outline && std::strcmp(member.role(), "part") != 0) continue;
+    const std::string_view role = member.role();
+    const bool outline = role == "outline" || role == "outer" || (role.empty() && !is_part(member));
+    if (!outline && role != "part" && !role.empty()) continue;
     if (member.type() == osmium::item_type::node) continue;
     const bool is_way = member.type() == osmium::item_type::way;
     const ObjectId id{is_way ? ObjectType::way : ObjectType::relation, member.ref()};
@@ -157,30 +194,41 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
   problem.add_share(Kind::missing_members, missing, named, "outlines and parts", "not in the file");
   const bool empty = building.outlines.empty() && building.parts.empty();
   if (empty && problem.empty()) problem.add(Kind::degenerate, "it has neither an outline nor parts");
-  if (wanted_ != nullptr && wanted_(tags)) add_outline(relation, tags, building);
-  const bool is_told = !extract_.problems.empty() && extract_.problems.back().object == building.id;
+  const bool is_told = wanted_ != nullptr && wanted_(tags) && add_outline(relation, tags, building, problem);
   if (!problem.empty() && !is_told) add_problem(problem.build(building.id, tags, empty), members_of(relation));
   if (!empty) extract_.building_relations.push_back(std::move(building));
 }
 
-void Multipolygons::add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building) {
+bool Multipolygons::is_part(const osmium::RelationMember& member) const {
+  Tags tags;
+  const bool is_way = member.type() == osmium::item_type::way;
+  if (const KeptWay* const kept = is_way ? objects_.find_way(member.ref()) : nullptr) tags = to_tags(kept->way->tags());
+  if (const auto* const relation = is_way ? nullptr : objects_.find_relation(member.ref())) {
+    tags = to_tags(relation->tags());
+  }
+  return tags.has("building:part") && tags.get("building:part") != "no";
+}
+
+bool Multipolygons::add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building,
+                                const ProblemBuilder& problem) {
   Members members;
-  for (const ObjectId id : building.outlines) {
+  for (const ObjectId id : building.outlines.empty() ? building.parts : building.outlines) {
     if (id.type == ObjectType::way) {
       add_member(members, id.id, "outer");
       continue;
     }
     const osmium::Relation& outline = *objects_.find_relation(id.id);
-    if (!says_nothing(to_tags(outline.tags()))) return;  // it is built itself
+    if (!says_nothing(to_tags(outline.tags()))) return false;  // it is built itself
     for (const osmium::RelationMember& member : outline.members()) {
       if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
     }
   }
-  if (members.there.empty() || members.any_wanted) return;
+  if (members.there.empty() || members.any_wanted) return false;
   building.outlines.push_back(building.id);
   Tags own = tags;
   std::erase_if(own.all, [](const auto& tag) { return tag.first == "type"; });
-  add_area(relation, std::move(own), std::move(members));
+  add_area(relation, std::move(own), std::move(members), problem);
+  return true;
 }
 
 }  // namespace vantage::internal::osm

@@ -24,6 +24,10 @@ class Multipolygons {
   /// Adds an area, a building relation or a problem to the extract, or nothing when it is not wanted.
   void add(const osmium::Relation& relation);
 
+  /// Of a relation that is not wanted itself: the area that its ways bound, where each is wanted and none a ring of its
+  /// own, such as the building of a school.
+  void add_pieces(const osmium::Relation& relation);
+
   /// A way that a multipolygon stands for.
   struct Absorbed {
     ObjectId by;
@@ -40,11 +44,15 @@ class Multipolygons {
     bool any_wanted = false;
   };
 
-  void add_multipolygon(const osmium::Relation& relation, Tags tags);
-  void add_area(const osmium::Relation& relation, Tags tags, Members members);
+  void add_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem = {});
+  void build_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem);
   void add_building(const osmium::Relation& relation, const Tags& tags);
-  /// Of a building relation that alone says that its outline is a building.
-  void add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building);
+  /// Of a building relation that alone says that its outline, or else its parts, are a building. Returns whether it is
+  /// one, with its problem told.
+  bool add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building,
+                   const ProblemBuilder& problem);
+  bool is_part(const osmium::RelationMember& member) const;
+  /// Ways, and those of members that are multipolygons themselves.
   Members members_of(const osmium::Relation& relation) const;
   /// With the places of members that are known.
   void add_problem(Problem problem, const Members& members);
