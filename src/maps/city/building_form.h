@@ -92,7 +92,9 @@ std::optional<double> parse_levels(std::string_view text);
 std::optional<double> parse_lowest_levels(std::string_view text);
 /// parse_length_m, or else the largest length that the text holds: "13-22", "~22", "22 m (approx)", "1'000" (which may
 /// be thousands), "10 storeys" of `level_m` each. Nothing where it holds no number.
-std::optional<double> any_length_m(std::string_view text, double level_m = BuildingDefaults{}.level_m);
+std::optional<double> any_length_m(std::string_view text, double level_m);
+/// With storeys of the default height.
+std::optional<double> any_length_m(std::string_view text);
 /// The largest number of levels that a text holds which is not plainly one; "G+5" are 6.
 std::optional<double> roughly_levels(std::string_view text);
 /// "45", "45°", "45 deg", "40;45" (the largest); nothing else.

@@ -179,8 +179,8 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   const bool drawn = tags.get("man_made") == "bridge" || (says_yes(bridge) && is_carried(tags));
   if (area && drawn) return ObjectKind::bridge;
   // An area that nothing else makes one is the barrier's own.
-  const bool is_whole = area && (tags.get("area") == "yes" || !osm::means_area(tags));
-  if ((line || is_whole) && is_wall(tags)) return ObjectKind::wall;
+  const auto is_whole = [&] { return area && (tags.get("area") == "yes" || !osm::means_area(tags)); };
+  if (is_wall(tags) && (line || is_whole())) return ObjectKind::wall;
   const std::string_view natural = tags.get("natural");
   if (natural == (line ? "tree_row" : "tree") && !area) return ObjectKind::tree;
   if (line && is_cable(tags)) return std::nullopt;

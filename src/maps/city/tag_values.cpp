@@ -317,7 +317,8 @@ std::optional<double> parse_levels(std::string_view text) { return largest(text,
 std::optional<double> parse_lowest_levels(std::string_view text) { return largest(text, plain_number, std::less<>()); }
 
 std::optional<double> any_length_m(std::string_view text, double level_m) {
-  if (const std::optional<double> length = parse_length_m(text); length || text.empty()) return length;
+  if (text.empty()) return std::nullopt;
+  if (const std::optional<double> length = parse_length_m(text)) return length;
   constexpr double kMost = 1500;  // metres: what is higher was a year, or no thousand
   const std::string plain = plain_text(text);
   const double floors = floors_in_words(plain);
@@ -335,6 +336,11 @@ std::optional<double> any_length_m(std::string_view text, double level_m) {
   const auto says = [&](std::string_view word) { return plain.find(word) != std::string::npos; };
   const bool adds = says("+") || says("\u00b1") || says("plus") || (has_feet && has_inches);
   return largest_up_to(kMost, lengths, adds, floors * level_m);
+}
+
+std::optional<double> any_length_m(std::string_view text) {
+  static const double level_m = BuildingDefaults{}.level_m;
+  return any_length_m(text, level_m);
 }
 
 std::optional<double> roughly_levels(std::string_view text) {
