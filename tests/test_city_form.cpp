@@ -92,18 +92,40 @@ TEST(CityForm, WhatIsNoPlainNumberIsTakenForTheMostThatItMayMean) {
                                                                {"built 2020, 35 m", 35},
                                                                {"35 m, built 2020", 35},
                                                                {"12 in height", 12},
-                                                               {"~12 in", 0.3048}};
+                                                               {"~12 in", 0.3048},
+                                                               {"2,000,000", 2e6},  // which is too large to be one
+                                                               {"1'000", 1000},
+                                                               {"1'050", 1050},
+                                                               {"30'000 mm", 30},
+                                                               {"30.000 mm", 30},
+                                                               {"1.250 ft", 381},
+                                                               {"1.250,5 ft", 381.1524},
+                                                               {"1 250 ft", 381},
+                                                               {"1\u00a0250 ft", 381},
+                                                               {"1\u202f250 ft", 381},
+                                                               {"~48.123", 48.123},
+                                                               {"0.1 mi", 160.9344},
+                                                               {"0.2\u202fkm", 200},
+                                                               {"10 \u00e9tages", 30},
+                                                               {"5F", 15},
+                                                               {"5\u5c42", 15},
+                                                               {"30..50", 50},
+                                                               {"30\u00b12", 32},
+                                                               {"10 m plus 5 m", 15}};
   for (const auto& [text, metres] : lengths) {
-    const std::optional<double> length = roughly_length_m(text, 3);
+    const std::optional<double> length = any_length_m(text, 3);
     ASSERT_TRUE(length) << text;
     EXPECT_NEAR(*length, metres, 1e-9) << text;
   }
-  EXPECT_FALSE(parse_length_m("1,250 ft")) << "a thousand, or one and a quarter";
-  const std::vector<std::pair<const char*, double>> levels = {{"5+1", 6},        {"G+5", 6},      {"2-3", 3},      {"2\u00bd", 2.5},
-                                                              {"2 \u00bd", 2.5}, {"~7", 7},       {"3+", 3},       {"1,250", 1.25},
-                                                              {"R+5", 6},        {"P+5+Pk", 7},   {"2019: 5", 5},  {"2 1/2", 2.5}};
+  for (const char* text : {"1,250 ft", "1.250 ft", "30.000 mm", "1'000"}) {
+    EXPECT_FALSE(parse_length_m(text)) << text << ": a thousand, or one and a quarter";
+  }
+  EXPECT_EQ(parse_length_m("48.123 m"), 48.123);
+  const std::vector<std::pair<const char*, double>> levels = {
+      {"5+1", 6},      {"G+5", 6}, {"2-3", 3},    {"2\u00bd", 2.5}, {"2 \u00bd", 2.5}, {"~7", 7},       {"3+", 3},
+      {"1,250", 1.25}, {"R+5", 6}, {"P+5+Pk", 7}, {"2019: 5", 5},   {"2 1/2", 2.5},    {"1,2,3,4,5", 5}};
   for (const auto& [text, count] : levels) EXPECT_EQ(roughly_levels(text), count) << text;
-  for (const char* text : {"", "high", "-", "?"}) EXPECT_FALSE(roughly_length_m(text, 3)) << text;
+  for (const char* text : {"", "high", "-", "?"}) EXPECT_FALSE(any_length_m(text, 3)) << text;
 }
 
 TEST(CityForm, LevelsAndDirections) {
@@ -194,7 +216,9 @@ TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
   EXPECT_TRUE(negative.has(TagFault::negative, "height"));
   EXPECT_TRUE(read({{"building", "yes"}, {"height", "0"}}).has(TagFault::zero, "height"));
   EXPECT_EQ(read({{"building", "yes"}, {"height", "0"}, {"est_height", "7"}}).form.top_m, 7);
-  EXPECT_TRUE(read({{"building", "yes"}, {"height", "99999"}}).has(TagFault::too_large, "height"));
+  const Reading large = read({{"building", "yes"}, {"height", "99999"}, {"building:levels", "2"}});
+  EXPECT_TRUE(large.has(TagFault::too_large, "height"));
+  EXPECT_TRUE(large.remarks[0].unsure) << "it may be higher than two storeys";
   EXPECT_TRUE(read({{"building", "yes"}, {"building:levels", "0"}}).has(TagFault::zero, "building:levels"));
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}}).form.top_m, 9);
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}, {"roof:height", "4"}}).form.top_m, 4);
@@ -236,7 +260,8 @@ TEST(CityForm, Roofs) {
   EXPECT_EQ(gabled.form.roof_m, 9 - 7.9);
   const Reading high = read({{"building", "yes"}, {"height", "9"}, {"roof:shape", "hipped"}, {"roof:height", "11"}});
   EXPECT_EQ(high.form.roof_m, 9);
-  EXPECT_TRUE(high.has(TagFault::roof_too_high, "roof:height"));
+  EXPECT_TRUE(high.has(TagFault::unknown_roof, "roof:height"));
+  EXPECT_TRUE(high.form.is_box) << "no tent";
   const Reading open = read({{"building", "house"}, {"roof:shape", "gabled"}});
   ASSERT_TRUE(open.form.pitch);
   EXPECT_EQ(open.form.pitch->angle_deg, 30);
@@ -247,7 +272,7 @@ TEST(CityForm, Roofs) {
   EXPECT_EQ(angle.form.pitch->most_share, 1);
   EXPECT_FALSE(angle.form.pitch->on_top);
   EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:angle", "95"}})
-                  .has(TagFault::no_value, "roof:angle"));
+                  .has(TagFault::unknown_roof, "roof:angle"));
   const Reading turned = read({{"building", "yes"},
                                {"roof:shape", "skillion"},
                                {"roof:height", "2"},
@@ -257,9 +282,53 @@ TEST(CityForm, Roofs) {
   EXPECT_TRUE(turned.form.roof_across);
   EXPECT_TRUE(turned.remarks.empty());
   EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:orientation", "2"}})
-                  .has(TagFault::no_value, "roof:orientation"));
+                  .has(TagFault::unknown_roof, "roof:orientation"));
   EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "skillion"}}).has(TagFault::no_direction, "roof:shape"));
   EXPECT_EQ(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:height", "0"}}).form.roof, RoofShape::flat);
+}
+
+TEST(CityForm, RoofsThatCannotBeReadAreBoxes) {
+  const auto roof = [](const char* key, const char* value, const char* shape = "gabled") {
+    return read({{"building", "yes"}, {"height", "20"}, {"roof:shape", shape}, {key, value}});
+  };
+  for (const char* height : {"2;15", "2-15", "30", "-3", "high"}) {
+    const Reading box = roof("roof:height", height);
+    EXPECT_TRUE(box.form.is_box) << height;
+    ASSERT_EQ(box.remarks.size(), 1U) << height;
+    EXPECT_TRUE(box.remarks[0].unsure) << height;
+  }
+  EXPECT_FALSE(roof("roof:height", "15").form.is_box);
+  for (const char* angle : {"45 deg", "45 degrees", "45\u00b0", "45"}) {
+    EXPECT_EQ(roof("roof:angle", angle).form.pitch->angle_deg, 45) << angle;
+    EXPECT_FALSE(roof("roof:angle", angle).form.is_box) << angle;
+  }
+  for (const auto& [angle, degrees] :
+       {std::pair{"40;50", 50.0}, {"~45", 60.0}, {"~70", 70.0}, {"100%", 60.0}, {"1:1", 60.0}, {"steep", 60.0}}) {
+    const Reading box = roof("roof:angle", angle);
+    EXPECT_TRUE(box.form.is_box && box.remarks[0].unsure) << angle;
+    EXPECT_EQ(box.form.pitch->angle_deg, degrees) << angle;
+  }
+  for (const auto& [key, value] : {std::pair{"roof:direction", "up"}, {"roof:orientation", "accross"}}) {
+    const Reading box = roof(key, value);
+    EXPECT_TRUE(box.form.is_box) << key;
+    EXPECT_TRUE(box.remarks[0].unsure) << key;
+  }
+  const Reading anywhere = roof("roof:height", "3", "skillion");
+  EXPECT_TRUE(anywhere.form.is_box) << "any of its sides may be the high one";
+  EXPECT_FALSE(anywhere.remarks[0].unsure) << "which is usual";
+  EXPECT_FALSE(roof("roof:direction", "90", "skillion").form.is_box);
+}
+
+TEST(CityForm, WhereTheTopIsUnsureTheBottomIsTheLowest) {
+  const Reading storeys =
+      read({{"building:part", "yes"}, {"height", "10-30"}, {"building:levels", "5"}, {"building:min_level", "4"}});
+  EXPECT_EQ(storeys.form.bottom_m, 0);
+  EXPECT_EQ(storeys.form.top_m, 30);
+  EXPECT_EQ(read({{"building", "yes"}, {"height", "8-10"}, {"min_height", "10"}}).form.bottom_m, 0);
+  EXPECT_EQ(read({{"building", "yes"}, {"height", "8-10"}, {"min_height", "3"}}).form.bottom_m, 3);
+  for (const char* height : {"4-10", "4;10"}) {
+    EXPECT_EQ(read({{"building", "roof"}, {"height", height}}).form.deck_m, 0) << height;
+  }
 }
 
 TEST(CityForm, RoofsOnPosts) {

@@ -84,9 +84,12 @@ TEST(CityOccluders, Kinds) {
   EXPECT_EQ(kinds({{"building", "entrance"}}), "building//building/");
   EXPECT_EQ(kinds({{"barrier", "fence"}, {"leisure", "garden"}}), "/wall//");
   EXPECT_EQ(kinds({{"barrier", "hedge"}, {"area", "yes"}}), "/wall/wall/");
+  EXPECT_EQ(kinds({{"barrier", "hedge"}}), "/wall/wall/") << "nothing else makes it an area";
   EXPECT_EQ(kinds({{"barrier", "kerb"}}), "///");
   EXPECT_EQ(kinds({{"man_made", "chimney"}}), "tower//tower/");
   EXPECT_EQ(kinds({{"man_made", "pipeline"}}), "///");
+  EXPECT_EQ(kinds({{"man_made", "pipeline"}, {"location", "overground"}, {"height", "3"}}),
+            "stand-in/stand-in/stand-in/");
   EXPECT_EQ(kinds({{"man_made", "bridge"}}), "//bridge/");
   EXPECT_EQ(kinds({{"bridge", "yes"}, {"highway", "primary"}}), "/bridge/bridge/");
   EXPECT_EQ(kinds({{"bridge", "no"}, {"highway", "primary"}}), "///");
@@ -134,6 +137,9 @@ TEST(CityOccluders, Towers) {
   EXPECT_NEAR(tank.box().max.x(), 110, 1e-3);
   EXPECT_NEAR(point({{"man_made", "tower"}, {"tower:type", "lighting"}}).box().max.z(), 15, 1e-9);
   EXPECT_NEAR(point({{"man_made", "mast"}}).box().max.z(), 25, 1e-9);
+  const Built high = point({{"man_made", "mast"}, {"height", "2000"}});
+  EXPECT_NEAR(high.box().max.z(), 1500, 1e-9);
+  EXPECT_TRUE(high.has(TagFault::too_large, "height") && high.remarks[0].unsure);
   const Built odd = point({{"man_made", "chimney"}, {"diameter", "1,5-2,5"}, {"height", "-4"}});
   EXPECT_TRUE(odd.has(TagFault::rough, "diameter"));
   EXPECT_TRUE(odd.has(TagFault::negative, "height"));
@@ -162,6 +168,36 @@ TEST(CityOccluders, BridgesCanBeLookedUnder) {
   EXPECT_TRUE(
       line({{"bridge", "yes"}, {"highway", "footway"}, {"layer", "x"}}, kStraight).has(TagFault::no_value, "layer"));
   EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary_link"}}, kStraight).volume(), 100, 0.05);
+}
+
+TEST(CityOccluders, BridgesAreHeldWhereverTheyMayBe) {
+  const auto bridge = [](std::initializer_list<std::pair<std::string, std::string>> more) {
+    osm::Tags tags = tagged({{"bridge", "yes"}, {"highway", "primary"}});
+    for (const auto& tag : more) tags.all.push_back(tag);
+    Built built;
+    built.shapes = shapes_of_line(tags, kStraight, 0, OccluderDefaults(), built.remarks);
+    return built;
+  };
+  const auto expect = [](const Built& built, double bottom_m, double top_m) {
+    EXPECT_NEAR(built.box().min.z(), bottom_m, 1e-12);
+    EXPECT_NEAR(built.box().max.z(), top_m, 1e-12);
+  };
+  const Built high = bridge({{"height", "134"}});
+  expect(high, 5, 134);
+  EXPECT_TRUE(high.has(TagFault::rough, "height") && high.remarks[0].unsure);
+  expect(bridge({{"height", "3"}}), 2, 6);
+  EXPECT_TRUE(bridge({{"height", "6"}}).remarks.empty());
+  expect(bridge({{"min_height", "5;15"}}), 5, 16);
+  expect(bridge({{"min_height", "8-15"}}), 0, 16);
+  expect(bridge({{"layer", "1;2"}}), 5, 11);
+}
+
+TEST(CityOccluders, PipesAreAsWideAsTheyAre) {
+  for (const char* diameter : {"600", "0.6"}) {
+    const Built pipe = line(
+        {{"man_made", "pipeline"}, {"location", "overground"}, {"height", "3"}, {"diameter", diameter}}, kStraight);
+    EXPECT_NEAR(pipe.volume(), 20 * 0.6 * 3, 0.2) << diameter;
+  }
 }
 
 TEST(CityOccluders, Trees) {

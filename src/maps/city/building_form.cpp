@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
 #include "core/format.h"
 
@@ -13,6 +14,7 @@ constexpr double kHighest = 1500;    // metres: twice what stands; beyond it a u
 constexpr double kThinnest = 0.01;   // metres: a thinner solid is none, next to what rounding does to a large outline
 constexpr double kMostLevels = 300;  // likewise
 constexpr double kSteepest = 85;     // degrees; a steeper roof is a wall
+constexpr double kSteep = 60;        // degrees: of roofs whose angle cannot be read
 constexpr double kRoundPitch = 45;   // of domes and onions: as high as half their width
 constexpr double kRoofShare = 1.0 / 3;
 constexpr double kRounding = 1e-6;  // metres: 9 - 7.9 is 1.1
@@ -29,16 +31,16 @@ class FormReader {
 
   BuildingForm read() {
     read_roof();
+    is_rough_ = false;
     const std::optional<double> height = first_height();
+    const bool is_rough_height = height && is_rough_;
     for (const std::string_view key : {"building:levels", "building:part:levels"}) {
       if (!levels_) levels_ = sized(key, parse_levels, roughly_levels, kMostLevels, "");
     }
+    is_rough_ = is_rough_height || (!height && is_rough_);
     // What the tags say of the height and cannot be understood matters where nothing else of them says it.
     if (!height && !levels_) {
       for (const std::size_t i : unheard_) remarks_[i].unsure = true;
-    }
-    if (!height && !roof_m_) {
-      for (const std::size_t i : roof_unheard_) remarks_[i].unsure = true;
     }
     form_.is_guessed = !height && !(levels_ && (*levels_ > 0 || roof_m_));
     read_bottom(height);
@@ -53,7 +55,7 @@ class FormReader {
     if (parse_levels(tags_.get("layer")).value_or(0) < 0) {
       remark(TagFault::below_ground, "layer", tags_.get("layer"), "its layer is not used");
     }
-    if (on_posts_ && !bottom_tagged_) form_.deck_m = defaults_.roof_deck_m;
+    if (on_posts_ && !bottom_tagged_ && !is_rough_) form_.deck_m = defaults_.roof_deck_m;
     return form_;
   }
 
@@ -72,13 +74,22 @@ class FormReader {
     remarks_.push_back({fault, std::string(key), std::string(value), std::string(outcome)});
   }
 
-  /// A height or a number of levels; one that is not plainly written counts by its largest number.
+  /// What the tags say of a roof cannot be built: a box hides as much as any roof.
+  void make_box(std::string_view key, std::string_view value) {
+    remark(TagFault::unknown_roof, key, value, "built as a box as high as its top");
+    remarks_.back().unsure = true;
+    form_.is_box = true;
+  }
+
+  /// A height or a number of levels; of several, or where it is not plainly written, the largest number counts.
   template <typename Parse, typename Roughly>
   std::optional<double> sized(std::string_view key, const Parse& parse, const Roughly& roughly, double most,
                               std::string_view unit) {
     const std::string_view value = tags_.get(key);
     if (value.empty()) return std::nullopt;
-    if (!parse(value)) {
+    const bool is_plain = parse(value).has_value();
+    is_rough_ = !is_plain || value.find(';') != std::string_view::npos;
+    if (!is_plain) {
       const std::optional<double> rough = roughly(value);
       if (rough && *rough > 0 && *rough <= most) {
         remark(TagFault::rough, key, value, "taken as " + core::format("{:.6g}", *rough) + std::string(unit));
@@ -88,7 +99,10 @@ class FormReader {
     }
     const std::size_t before = remarks_.size();
     const std::optional<double> plain = number({key}, parse, most);
-    for (std::size_t i = before; i < remarks_.size(); ++i) unheard_.push_back(i);
+    for (std::size_t i = before; i < remarks_.size(); ++i) {
+      remarks_[i].unsure = remarks_[i].fault == TagFault::too_large;
+      unheard_.push_back(i);
+    }
     return plain;
   }
 
@@ -108,7 +122,7 @@ class FormReader {
 
   std::optional<double> first_height() {
     for (const std::string_view key : {"height", "building:height", "est_height"}) {
-      const auto roughly = [&](std::string_view value) { return roughly_length_m(value, defaults_.level_m); };
+      const auto roughly = [&](std::string_view value) { return any_length_m(value, defaults_.level_m); };
       const std::optional<double> height = sized(key, parse_length_m, roughly, kHighest, " m");
       if (height && *height >= kThinnest) return height;
       if (height) remark(TagFault::zero, key, tags_.get(key), "taken as untagged");
@@ -120,9 +134,7 @@ class FormReader {
     const std::string_view value = tags_.get(tags_.has("roof:shape") ? "roof:shape" : "building:roof:shape");
     if (!value.empty()) {
       const std::optional<RoofShape> shape = parse_roof_shape(value);
-      if (!shape) remark(TagFault::unknown_roof, "roof:shape", value, "built as a box as high as its top");
-      if (!shape) remarks_.back().unsure = true;
-      form_.is_box = !shape;
+      if (!shape) make_box("roof:shape", value);
       form_.roof = shape.value_or(RoofShape::gabled);
     }
     read_roof_height();
@@ -130,33 +142,36 @@ class FormReader {
     const std::string_view direction =
         tags_.get(tags_.has("roof:direction") ? "roof:direction" : "roof:slope:direction");
     form_.roof_direction_deg = parse_direction_deg(direction);
-    if (!direction.empty() && !form_.roof_direction_deg) {
-      remark(TagFault::no_value, "roof:direction", direction, "taken as untagged");
-    }
-    if (form_.roof == RoofShape::skillion && !form_.roof_direction_deg) {
-      remark(TagFault::no_direction, "roof:shape", value, "falls across the outline's shorter side");
+    if (!direction.empty() && !form_.roof_direction_deg) make_box("roof:direction", direction);
+    if (form_.roof == RoofShape::skillion && direction.empty()) {
+      remark(TagFault::no_direction, "roof:shape", value, "built as a box as high as its top");
+      form_.is_box = true;
     }
     const std::string_view orientation = tags_.get("roof:orientation");
     form_.roof_across = orientation == "across";
     if (!orientation.empty() && orientation != "across" && orientation != "along") {
-      remark(TagFault::no_value, "roof:orientation", orientation, "taken as along");
+      make_box("roof:orientation", orientation);
     }
   }
 
   void read_roof_height() {
-    const auto roughly = [&](std::string_view value) { return roughly_length_m(value, defaults_.roof_level_m); };
+    const auto roughly = [&](std::string_view value) { return any_length_m(value, defaults_.roof_level_m); };
     std::optional<double> levels;
-    const auto before = static_cast<std::ptrdiff_t>(remarks_.size());
+    const std::size_t before = remarks_.size();
+    std::string_view rough;
     for (const std::string_view key : {"roof:height", "building:roof:height"}) {
       if (!roof_m_) roof_m_ = sized(key, parse_length_m, roughly, kHighest, " m");
+      if (std::exchange(is_rough_, false)) rough = key;
     }
     for (const std::string_view key : {"roof:levels", "building:roof:levels"}) {
-      if (!levels) levels = sized(key, parse_levels, roughly_levels, kMostLevels, "");
+      if (!roof_m_ && !levels) levels = sized(key, parse_levels, roughly_levels, kMostLevels, "");
+      if (std::exchange(is_rough_, false)) rough = key;
     }
-    roof_unheard_.swap(unheard_);
+    unheard_.clear();
+    for (std::size_t i = before; i < remarks_.size(); ++i) remarks_[i].unsure = true;
     // Too high a roof has too low eaves.
-    form_.is_box |= std::any_of(remarks_.begin() + before, remarks_.end(),
-                                [](const TagRemark& remark) { return remark.fault == TagFault::rough; });
+    form_.is_box |= remarks_.size() > before;
+    if (!rough.empty() && remarks_.size() == before) make_box(rough, tags_.get(rough));  // "2;15"
     if (roof_m_ && *roof_m_ == 0) form_.roof = RoofShape::flat;
     if (!roof_m_ && levels && *levels > 0) roof_m_ = *levels * defaults_.roof_level_m;
     if (roof_m_ || form_.roof == RoofShape::flat) return;
@@ -164,12 +179,11 @@ class FormReader {
     form_.pitch = {round ? kRoundPitch : defaults_.roof_pitch_deg, false, kRoofShare};
     const std::string_view angle = tags_.get("roof:angle");
     if (angle.empty()) return;
-    const std::optional<double> degrees = parse_direction_deg(angle);  // "30", "30°"
-    if (degrees && *degrees > 0 && *degrees <= kSteepest) {
-      form_.pitch = {*degrees, false, 1};
-    } else {
-      remark(TagFault::no_value, "roof:angle", angle, "taken as untagged");
-    }
+    const std::optional<double> degrees = parse_angle_deg(angle);
+    const bool is_angle = degrees && *degrees > 0 && *degrees <= kSteepest;
+    const double any = roughly_levels(angle).value_or(0);  // "~70"
+    form_.pitch = {is_angle ? *degrees : any > kSteep && any <= kSteepest ? any : kSteep, false, 1};
+    if (!is_angle || angle.find(';') != std::string_view::npos) make_box("roof:angle", angle);
   }
 
   void read_bottom(const std::optional<double>& height) {
@@ -179,6 +193,7 @@ class FormReader {
     } else if (const auto level = number({"building:min_level"}, parse_lowest_levels, kMostLevels)) {
       // A building that says both its height and its levels says how high a level is.
       const bool own = height && levels_ && *levels_ > *level && *height > roof_m_.value_or(0);
+      if (height && is_rough_) return;  // so is the height of a level
       min_level_ = *level;
       form_.bottom_m = *level * (own ? (*height - roof_m_.value_or(0)) / *levels_ : defaults_.level_m);
       bottom_key_ = "building:min_level";
@@ -189,7 +204,7 @@ class FormReader {
   /// The height is tagged: the bottom has to lie below it.
   void mend_bottom() {
     if (form_.bottom_m <= form_.top_m - kThinnest) return;
-    const bool equal = std::abs(form_.bottom_m - form_.top_m) < kThinnest;
+    const bool equal = std::abs(form_.bottom_m - form_.top_m) < kThinnest && !is_rough_;
     form_.bottom_m = equal ? std::max(0.0, form_.top_m - defaults_.roof_deck_m) : 0;
     remark(TagFault::bottom_too_high, bottom_key_, tags_.get(bottom_key_),
            equal ? "taken as a deck below the height" : "taken as standing on the ground");
@@ -229,7 +244,7 @@ class FormReader {
     const double most = form_.top_m - form_.bottom_m;
     if (*roof_m_ > most + kRounding) {
       const std::string_view key = tags_.has("roof:height") ? "roof:height" : "roof:levels";
-      remark(TagFault::roof_too_high, key, tags_.get(key), "taken as all of the height");
+      make_box(key, tags_.get(key));
     }
     form_.roof_m = *roof_m_ > most - kRounding ? most : *roof_m_;
   }
@@ -239,10 +254,11 @@ class FormReader {
   std::vector<TagRemark>& remarks_;
   std::string kind_;
   bool on_posts_ = false, bottom_tagged_ = false;
+  bool is_rough_ = false;  ///< what was read last is no single plain number; at last: what makes the top
   std::optional<double> levels_, roof_m_;  // the latter when the tags say it
   double min_level_ = 0;
   std::string_view bottom_key_;
-  std::vector<std::size_t> unheard_, roof_unheard_;  // remarks on heights and levels that could not be understood
+  std::vector<std::size_t> unheard_;  // remarks on heights and levels that could not be understood
   BuildingForm form_;
 };
 

@@ -60,12 +60,11 @@ enum class TagFault {
   negative,         ///< below zero, or zero where that is as wrong
   zero,             ///< a height of zero
   too_large,        ///< more than anything that is built
-  unknown_roof,     ///< a roof shape that is not known
+  unknown_roof,     ///< a roof that is not known, or that cannot be
   no_direction,     ///< a skillion roof that does not say where it falls
   below_ground,     ///< a layer below the ground
   bottom_too_high,  ///< the bottom is not below the top
   no_height,        ///< nothing is left between bottom and top
-  roof_too_high,    ///< the roof is higher than the building
   too_small,        ///< nothing is left to build
   rough,            ///< no plain number, but holds one: the largest is taken
 };
@@ -92,10 +91,15 @@ std::optional<double> parse_lowest_length_m(std::string_view text);
 /// "3", "2.5", "2;3" (the largest); nothing for what is not a number of levels.
 std::optional<double> parse_levels(std::string_view text);
 std::optional<double> parse_lowest_levels(std::string_view text);
-/// The largest length, or number of levels, that a text holds which is not plainly one: "13-22", "~22", "22 m
-/// (approx)", "10 storeys" of `level_m` each; "G+5" are 6 levels. Nothing where it holds no number.
-std::optional<double> roughly_length_m(std::string_view text, double level_m);
+/// parse_length_m, or else the largest length that the text holds: "13-22", "~22", "22 m (approx)", "1'000" (which may
+/// be thousands), "10 storeys" of `level_m` each. Nothing where it holds no number.
+std::optional<double> any_length_m(std::string_view text, double level_m);
+/// With storeys of the default height.
+std::optional<double> any_length_m(std::string_view text);
+/// The largest number of levels that a text holds which is not plainly one; "G+5" are 6.
 std::optional<double> roughly_levels(std::string_view text);
+/// "45", "45°", "45 deg", "40;45" (the largest); nothing else.
+std::optional<double> parse_angle_deg(std::string_view text);
 /// Degrees clockwise from north: "45", "45°", "NE", "north"; nothing else.
 std::optional<double> parse_direction_deg(std::string_view text);
 /// A roof:shape, its synonyms included (the table is in roof_names.cpp); nothing for what is none.
@@ -105,8 +109,9 @@ std::optional<RoofShape> parse_roof_shape(std::string_view text);
 /// does not say itself (nothing is inherited but building, the kind that default levels go by). Never fails: nonsense
 /// is remarked on and taken as untagged. Heights are taken from, in this order:
 ///   top     height, building:height, est_height; else building:levels (or the default of the kind) and the roof
-///   bottom  min_height; else building:min_level; else, for building=roof, carport and the like and for wall=no, the
-///           thickness of a deck below the eaves; else the ground
+///   bottom  min_height; else, unless the height is rough or one of several, building:min_level; else, likewise, for
+///           building=roof, carport and the like and for wall=no, the thickness of a deck below the eaves; else the
+///           ground
 ///   roof    roof:height, roof:levels, roof:angle, the default pitch
 /// A min_height above the height is left out (the object then reaches down to the ground, most often inside what it
 /// stands on); one within 1 cm of the height makes a deck. building:levels not above building:min_level are taken as

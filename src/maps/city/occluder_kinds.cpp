@@ -2,6 +2,7 @@
 #include <array>
 
 #include "maps/city/occluders.h"
+#include "maps/osm/meaning.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -11,7 +12,7 @@ bool is_one_of(std::string_view value, const std::array<std::string_view, N>& kn
   return std::find(known.begin(), known.end(), value) != known.end();
 }
 
-bool says_yes(std::string_view value) { return !value.empty() && value != "no"; }
+bool says_yes(std::string_view value) { return !value.empty() && value != "no" && value != "false"; }
 
 bool is_wall(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 6> barriers = {"wall",  "city_wall",  "fence",
@@ -37,19 +38,17 @@ bool is_carried(const osm::Tags& tags) {
 /// Whether a tag says how high an object is.
 bool says_its_height(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 4> keys = {"height", "est_height", "building:height", "height:hub"};
-  return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
-    const std::string_view value = tags.get(key);
-    if (value.empty()) return false;
-    const auto plain = parse_length_m(value);
-    return (plain ? plain : roughly_length_m(value, 1)).value_or(0) > 0;
-  });
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](std::string_view key) { return any_length_m(tags.get(key)).value_or(0) > 0; });
 }
 
 /// Whether a key says what a thing is.
 bool names_a_kind(std::string_view key) {
-  static constexpr std::array<std::string_view, 16> kinds = {
-      "building", "building:part", "man_made", "power",   "aerialway", "historic",         "tourism",  "leisure",
-      "natural",  "landuse",       "barrier",  "amenity", "bridge",    "generator:source", "memorial", "advertising"};
+  static constexpr std::array<std::string_view, 24> kinds = {
+      "building",         "building:part", "man_made",         "power",       "aerialway",    "historic",
+      "tourism",          "leisure",       "natural",          "landuse",     "barrier",      "amenity",
+      "generator:source", "memorial",      "bridge",           "advertising", "aeroway",      "attraction",
+      "military",         "railway",       "public_transport", "tower:type",  "seamark:type", "artwork_type"};
   return is_one_of(key, kinds);
 }
 
@@ -61,31 +60,35 @@ bool stands_nowhere(const osm::Tags& tags) {
   if (says_yes(tags.get("indoor")) || says_yes(tags.get("tunnel")) || is_one_of(tags.get("location"), below))
     return true;
   const auto sinks = [&](std::string_view key) { return parse_levels(tags.get(key)).value_or(0) < 0; };
-  if (sinks("layer") || sinks("level")) return true;
-  // "demolished:building=yes" may be of what stood there before something else.
+  // The layer of what covers the ground only says how it is to be drawn.
+  const bool is_ground = says_yes(tags.get("landuse")) || says_yes(tags.get("natural"));
+  if ((sinks("layer") && !is_ground) || sinks("level")) return true;
+  // "demolished:building=yes" may be of what stood there before something else, "destroyed=1945" too.
   bool is_gone = false, is_something = false;
   for (const auto& [name, value] : tags.all) {
     const std::string_view key = name;
-    const bool says_what = names_a_kind(key);
-    if ((says_what || key == "status" || key == "state") && is_one_of(value, gone)) return true;
-    is_something |= says_what && says_yes(value);
+    const bool is_over = is_one_of(value, gone);
+    if ((key == "status" || key == "state") && is_over) return true;
+    if (is_one_of(key, gone) && value == "yes") return true;
+    if (names_a_kind(key)) (is_over ? is_gone : is_something) |= says_yes(value);
     const std::size_t colon = key.find(':');
-    if (!is_one_of(key.substr(0, colon), gone) || !says_yes(value)) continue;
-    if (colon == std::string::npos) return true;
-    is_gone |= names_a_kind(key.substr(colon + 1));
+    if (colon == std::string::npos || !is_one_of(key.substr(0, colon), gone)) continue;
+    is_gone |= says_yes(value) && names_a_kind(key.substr(colon + 1));
   }
   return is_gone && !is_something;
 }
 
-/// Street furniture, ways, and forms of the ground, whatever height they have.
-bool is_no_blocker(const osm::Tags& tags) {
-  static constexpr std::array<std::string_view, 10> keys = {
-      "highway",    "waterway",     "entrance",        "door",    "kerb", "emergency",
-      "playground", "traffic_sign", "traffic_calming", "crossing"};
-  static constexpr std::array<std::string_view, 2> places = {"boundary", "place"};
-  const auto is_said = [&](std::string_view key) { return says_yes(tags.get(key)); };
-  const bool is_something =
-      std::any_of(tags.all.begin(), tags.all.end(), [](const auto& tag) { return names_a_kind(tag.first); });
+/// What a tag says of a thing.
+enum class Word { nothing, no_blocker, blocker };
+
+/// No blockers are street furniture, ways, and forms of the ground, whatever height they have.
+Word word_of(std::string_view key, std::string_view value) {
+  static constexpr std::array<std::string_view, 12> keys = {
+      "highway",    "waterway",     "entrance",        "door",     "kerb",     "emergency",
+      "playground", "traffic_sign", "traffic_calming", "crossing", "boundary", "place"};
+  // What stands none the less, and what is said of anything.
+  static constexpr std::array<std::string_view, 5> standing = {"dam", "weir", "lock_gate", "sluice_gate", "elevator"};
+  static constexpr std::array<std::string_view, 4> empty = {"yes", "attraction", "viewpoint", "platform"};
   static constexpr std::array<std::string_view, 20> amenities = {
       "bench",         "waste_basket",    "waste_disposal", "recycling",       "post_box",         "telephone", "clock",
       "parking_meter", "vending_machine", "drinking_water", "bicycle_parking", "charging_station", "atm",       "bbq",
@@ -95,15 +98,37 @@ bool is_no_blocker(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 16> grounds = {
       "peak",  "hill",      "volcano",       "cliff",    "valley", "ridge", "arete", "saddle",
       "water", "coastline", "cave_entrance", "sinkhole", "spring", "gorge", "bay",   "earth_bank"};
+  static constexpr std::array<std::string_view, 2> waters = {"basin", "reservoir"};
   static constexpr std::array<std::string_view, 8> barriers = {"bollard", "kerb",  "gate",     "lift_gate",
                                                                "chain",   "block", "handrail", "cycle_barrier"};
   static constexpr std::array<std::string_view, 4> signs = {"board", "sign", "flag", "poster_box"};
-  return std::any_of(keys.begin(), keys.end(), is_said) ||
-         (!is_something && std::any_of(places.begin(), places.end(), is_said)) ||
-         is_one_of(tags.get("amenity"), amenities) || is_one_of(tags.get("man_made"), made) ||
-         is_one_of(tags.get("natural"), grounds) || is_one_of(tags.get("barrier"), barriers) ||
-         is_one_of(tags.get("advertising"), signs) || tags.get("tourism") == "information" ||
-         tags.get("leisure") == "picnic_table";
+  if (!says_yes(value)) return Word::nothing;
+  if (is_one_of(key, keys)) {
+    if (is_one_of(value, standing)) return Word::blocker;
+    return key == "emergency" && value == "yes" ? Word::nothing : Word::no_blocker;
+  }
+  if ((key == "amenity" && is_one_of(value, amenities)) || (key == "man_made" && is_one_of(value, made)) ||
+      (key == "natural" && is_one_of(value, grounds)) || (key == "landuse" && is_one_of(value, waters)) ||
+      (key == "barrier" && is_one_of(value, barriers)) || (key == "advertising" && is_one_of(value, signs)) ||
+      (key == "tourism" && value == "information") || (key == "leisure" && value == "picnic_table")) {
+    return Word::no_blocker;
+  }
+  const bool is_blocker = (names_a_kind(key) && !is_one_of(value, empty)) || (key == "support" && value == "tower");
+  return is_blocker ? Word::blocker : Word::nothing;
+}
+
+/// Nothing else than what is no blocker: a city gate with barrier=gate is one.
+bool is_no_blocker(const osm::Tags& tags) {
+  const auto says = [&](Word word) {
+    return std::any_of(tags.all.begin(), tags.all.end(),
+                       [&](const auto& tag) { return word_of(tag.first, tag.second) == word; });
+  };
+  return says(Word::no_blocker) && !says(Word::blocker);
+}
+
+/// Cables hide next to nothing; a pipe may hide much.
+bool is_cable(const osm::Tags& tags) {
+  return overhead_height_m(tags) && !(tags.get("man_made") == "pipeline" && says_its_height(tags));
 }
 
 bool is_stand_in(const osm::Tags& tags) {
@@ -153,10 +178,12 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   if (line && says_yes(bridge) && is_carried(tags)) return ObjectKind::bridge;
   const bool drawn = tags.get("man_made") == "bridge" || (says_yes(bridge) && is_carried(tags));
   if (area && drawn) return ObjectKind::bridge;
-  if ((line || (area && tags.get("area") == "yes")) && is_wall(tags)) return ObjectKind::wall;
+  // An area that nothing else makes one is the barrier's own.
+  const auto is_whole = [&] { return area && (tags.get("area") == "yes" || !osm::means_area(tags)); };
+  if (is_wall(tags) && (line || is_whole())) return ObjectKind::wall;
   const std::string_view natural = tags.get("natural");
   if (natural == (line ? "tree_row" : "tree") && !area) return ObjectKind::tree;
-  if (line && overhead_height_m(tags)) return std::nullopt;  // it hides next to nothing
+  if (line && is_cable(tags)) return std::nullopt;
   return is_stand_in(tags) ? std::optional(ObjectKind::stand_in) : std::nullopt;
 }
 
@@ -185,7 +212,6 @@ const OccluderSwitch& stand_in_switch(const osm::Tags& tags) {
 }
 
 double column_radius_m(const osm::Tags& tags, double height_m) {
-  constexpr double kRotorShare = 0.4;  // of a turbine's height, where no tag says its rotor
   const std::string_view name = stand_in_switch(tags).name;
   if (name == "turbines") return std::max(3.0, kRotorShare * height_m);
   if (name == "masts") return tags.get("power") == "tower" ? 4 : 1;

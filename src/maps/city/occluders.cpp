@@ -1,6 +1,7 @@
 #include "maps/city/occluders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -29,8 +30,8 @@ std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list
   for (const std::string_view key : keys) {
     const std::string_view value = tags.get(key);
     if (value.empty()) continue;
-    const std::optional<double> plain = parse_length_m(value);
-    const std::optional<double> length = plain ? plain : roughly_length_m(value, BuildingDefaults{}.level_m);
+    const bool plain = parse_length_m(value).has_value();
+    const std::optional<double> length = any_length_m(value);
     const bool usable = length && *length > 0;
     const double taken = usable ? std::clamp(*length, kLeastSize, most) : 0;
     if (plain && usable && *length <= most) return taken;
@@ -147,7 +148,15 @@ BuildingForm tower_form(const osm::Tags& tags, const OccluderDefaults& defaults,
   BuildingDefaults building;
   building.levels = tower_size(tags, defaults).height_m / building.level_m;
   building.levels_of.clear();
-  return read_form(tags, nullptr, building, remarks);
+  BuildingForm form = read_form(tags, nullptr, building, remarks);
+  static constexpr std::array<std::string_view, 3> heights = {"height", "building:height", "est_height"};
+  for (TagRemark& remark : remarks) {
+    if (remark.fault != TagFault::too_large || std::find(heights.begin(), heights.end(), remark.key) == heights.end())
+      continue;
+    form.top_m = kMostHeight;
+    remark.outcome = core::format("taken as {:.6g} m", kMostHeight);
+  }
+  return form;
 }
 
 /// A regular prism's outline, its corners on the circle.
@@ -163,20 +172,36 @@ std::vector<Footprint> column(const Vec2& middle, double diameter_m) {
 
 // ---- bridges ----
 
+/// From the lowest that its underside may be to the highest that its top may be, and up to its height where that is
+/// said.
 BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   BuildingForm form;
   const std::string_view layer = tags.get("layer");
   const std::optional<double> layers = parse_levels(layer);
   constexpr double kMostLayers = 10;
   if (!layer.empty() && (!layers || std::abs(*layers) > kMostLayers)) {
-    remarks.push_back({TagFault::no_value, "layer", std::string(layer), "taken as untagged"});
+    remarks.push_back({TagFault::no_value, "layer", std::string(layer), "taken as untagged", true});
   } else if (layers && *layers < 0) {
     remarks.push_back({TagFault::below_ground, "layer", std::string(layer), "taken as 0"});
   }
   const bool valid = layers && *layers != 0 && std::abs(*layers) <= kMostLayers;
-  form.bottom_m = defaults.layer_m * (valid ? std::max(*layers, 0.0) : 1);
-  if (const auto clear = tagged_bottom(tags, remarks)) form.bottom_m = *clear;
-  form.top_m = form.bottom_m + defaults.deck_m;
+  double highest = defaults.layer_m * (valid ? std::max(*layers, 0.0) : 1);
+  form.bottom_m = valid ? std::min(highest, defaults.layer_m * parse_lowest_levels(layer).value_or(0)) : highest;
+  const std::string_view clear = tags.get("min_height");
+  const auto clearance = clear == "0" ? std::nullopt : tagged_length(tags, {"min_height"}, kMostHeight, remarks);
+  if (clearance) {
+    highest = *clearance;
+    form.bottom_m = std::min(highest, parse_lowest_length_m(clear).value_or(0));
+  }
+  form.top_m = highest + defaults.deck_m;
+  const auto height = tagged_length(tags, {"height", "est_height"}, kMostHeight, remarks);
+  if (height && (*height > form.top_m || *height - defaults.deck_m < form.bottom_m)) {
+    form.top_m = std::max(form.top_m, *height);
+    form.bottom_m = std::min(form.bottom_m, *height - defaults.deck_m);
+    remarks.push_back({TagFault::rough, "height", std::string(tags.get(tags.has("height") ? "height" : "est_height")),
+                       "held from the deck up to it", true});
+  }
+  form.bottom_m = std::max(form.bottom_m, 0.0);
   return form;
 }
 
@@ -216,14 +241,15 @@ Tree tree_of(const osm::Tags& tags, const OccluderDefaults& defaults, std::vecto
 
 // ---- stand-ins ----
 
-constexpr double kThinLine = 1;  // metres: width of a line that says none
+constexpr double kThinLine = 1;   // metres: width of a line that says none
+constexpr double kMostPipe = 20;  // metres: diameter=* beyond that is in millimetres
 
 BuildingForm stand_in_form(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
   double height = tagged_length(tags, {"height", "est_height", "building:height"}, kMostHeight, remarks).value_or(0);
   // A hub says how high the axis is; the rotor goes on above it.
   const auto hub = tagged_length(tags, {"height:hub"}, kMostHeight, remarks);
   const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostRotor, remarks);
-  if (hub) height = std::max(height, *hub + (rotor ? *rotor / 2 : column_radius_m(tags, *hub)));
+  if (hub) height = std::max(height, *hub + (rotor ? *rotor / 2 : column_radius_m(tags, *hub / (1 - kRotorShare))));
   return upright(tags, std::max(height, kLeastSize), remarks);
 }
 
@@ -288,9 +314,11 @@ std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>
       shapes = extruded(widen(points, closed, deck_width(tags, defaults, remarks)), deck_form(tags, defaults, remarks));
     }
     if (kind == ObjectKind::stand_in) {
-      const double width = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks).value_or(kThinLine);
+      std::optional<double> width = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks);
+      if (!width) width = tagged_length(tags, {"diameter"}, 1000 * kMostPipe, remarks);
+      if (width && *width > kMostPipe && !tags.has("width") && !tags.has("est_width")) *width /= 1000;
       const bool closed = points.size() > 3 && points.front() == points.back();
-      shapes = extruded(widen(points, closed, width), stand_in_form(tags, remarks));
+      shapes = extruded(widen(points, closed, width.value_or(kThinLine)), stand_in_form(tags, remarks));
     }
   }
   if (shapes.empty() && kind)

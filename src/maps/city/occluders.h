@@ -19,10 +19,10 @@ namespace vantage::internal::city {
 enum class Geometry { point, line, area };
 
 /// What the tags make of an object, from building to stand-in, or nothing for what hides nothing. A stand-in is what
-/// says how high it is, stands in the open, and is neither of the other kinds nor furniture of a street. A building
-/// that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how it is
-/// drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the barrier
-/// itself is drawn).
+/// says how high it is, stands in the open, and is neither of the other kinds nor only furniture of a street. A
+/// building that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how
+/// it is drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the
+/// barrier itself is drawn, or nothing else is).
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
 
 /// How high above the ground the supports of a line overhead are whose tags and nodes say no height, metres; nothing
@@ -31,6 +31,8 @@ std::optional<double> overhead_height_m(const osm::Tags& tags);
 
 /// Which member of Occluders switches the stand-in of such tags off: "woods", "others".
 const OccluderSwitch& stand_in_switch(const osm::Tags& tags);
+
+constexpr double kRotorShare = 0.4;  ///< half a rotor's width, of a turbine's height, where no tag says it
 
 /// Half the width of the column that stands in for a point whose tags say no width, metres: docs/scene.md.
 double column_radius_m(const osm::Tags& tags, double height_m);
@@ -70,8 +72,8 @@ PlanBounds bounds_of(const std::vector<Shape>& shapes);
 
 /// The shapes of a line: walls, tree rows, bridges, stand-ins. `points`: in scene metres, of a closed line the first
 /// repeated at the end. `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in
-/// one. Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height. Empty, with a remark,
-/// for what has no length.
+/// one. Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height; the top is at its
+/// height where that is said. Empty, with a remark, for what has no length.
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 

@@ -328,6 +328,7 @@ class OccluderSorter {
       // A wood or a tank whose outline is not closed is none the less an area; so is what is closed and no line.
       const bool is_area = kind ? !has_model && (line.is_closed() ? !osm::is_linear(line.tags) : means_area)
                                 : !overhead_height_m(line.tags);
+      if (is_area && line.is_closed() && osm::means_area(line.tags)) continue;  // it is one of the areas
       if (is_area) kind = kind_of(line.tags, Geometry::area);
       if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders)) continue;
       std::vector<Vec2> points;
@@ -375,11 +376,7 @@ class OccluderSorter {
   }
 
   /// 0: it says none.
-  static double height_of(const osm::Tags& tags) {
-    const std::string_view value = tags.get("height");
-    const std::optional<double> plain = parse_length_m(value);
-    return (plain ? plain : roughly_length_m(value, BuildingDefaults{}.level_m)).value_or(0);
-  }
+  static double height_of(const osm::Tags& tags) { return any_length_m(tags.get("height")).value_or(0); }
 
   void add_overhead(const osm::Extract& extract) {
     std::map<std::pair<double, double>, double> supports;

@@ -14,6 +14,7 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_decimal(char c) { return c == '.' || c == ','; }
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
@@ -30,8 +31,8 @@ std::string lower(std::string_view text) {
 }
 
 /// "1,250" and the like, which may be a thousand and more or one and a quarter.
-bool groups_thousands(std::string_view text) {
-  const auto comma = std::min(text.find(','), text.size());
+bool groups_thousands(std::string_view text, char separator = ',') {
+  const auto comma = std::min(text.find(separator), text.size());
   const auto is_digits = [](std::string_view part) { return std::all_of(part.begin(), part.end(), is_digit); };
   return comma > 0 && comma <= 3 && text[0] != '0' && comma + 4 <= text.size() && is_digits(text.substr(0, comma)) &&
          is_digits(text.substr(comma + 1, 3)) && (comma + 4 == text.size() || !is_digit(text[comma + 4]));
@@ -73,33 +74,28 @@ constexpr double kFoot = 0.3048, kInch = 0.0254;
 
 /// Metres in a unit.
 std::optional<double> unit_m(std::string_view unit) {
-  static constexpr std::array<std::pair<std::string_view, double>, 18> units = {{{"", 1},
-                                                                                 {"m", 1},
-                                                                                 {"m.", 1},
-                                                                                 {"meter", 1},
-                                                                                 {"meters", 1},
-                                                                                 {"metre", 1},
-                                                                                 {"metres", 1},
-                                                                                 {"mm", 0.001},
-                                                                                 {"cm", 0.01},
-                                                                                 {"km", 1000},
-                                                                                 {"ft", kFoot},
-                                                                                 {"ft.", kFoot},
-                                                                                 {"feet", kFoot},
-                                                                                 {"foot", kFoot},
-                                                                                 {"'", kFoot},
-                                                                                 {"in", kInch},
-                                                                                 {"inch", kInch},
-                                                                                 {"\"", kInch}}};
+  static constexpr std::array<std::pair<std::string_view, double>, 24> units = {
+      {{"", 1},           {"m", 1},         {"m.", 1},          {"meter", 1},        {"meters", 1},   {"metre", 1},
+       {"metres", 1},     {"mi", 1609.344}, {"mile", 1609.344}, {"miles", 1609.344}, {"yd", 0.9144},  {"yard", 0.9144},
+       {"yards", 0.9144}, {"mm", 0.001},    {"cm", 0.01},       {"km", 1000},        {"ft", kFoot},   {"ft.", kFoot},
+       {"feet", kFoot},   {"foot", kFoot},  {"'", kFoot},       {"in", kInch},       {"inch", kInch}, {"\"", kInch}}};
   const auto found = std::find_if(units.begin(), units.end(), [&](const auto& known) { return known.first == unit; });
   if (found == units.end()) return std::nullopt;
   return found->second;
 }
 
-/// The typographer's marks for feet and inches as plain ones, two apostrophes as one inch mark.
+/// The typographer's marks for feet and inches and spaces as plain ones, two apostrophes as one inch mark.
 std::string plain_marks(std::string_view text) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> marks = {
-      {{"\u2032", "'"}, {"\u2019", "'"}, {"\u2033", "\""}, {"\u201d", "\""}, {"''", "\""}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> marks = {{{"\u2032", "'"},
+                                                                                           {"\u2018", "'"},
+                                                                                           {"\u2019", "'"},
+                                                                                           {"\u00b4", "'"},
+                                                                                           {"\u2033", "\""},
+                                                                                           {"\u201d", "\""},
+                                                                                           {"''", "\""},
+                                                                                           {"\u00a0", " "},
+                                                                                           {"\u2009", " "},
+                                                                                           {"\u202f", " "}}};
   std::string result(text);
   for (const auto& [from, to] : marks) {
     for (std::size_t at = 0; (at = result.find(from, at)) != std::string::npos; at += to.size()) {
@@ -113,7 +109,7 @@ std::optional<double> one_length_m(std::string_view text) {
   const std::string value = plain_marks(lower(text));
   std::string_view rest = value;
   const std::optional<double> number = take_number(rest);
-  if (!number) return std::nullopt;
+  if (!number || groups_thousands(value, '\'')) return std::nullopt;
   if (!rest.empty() && rest.front() == '\'' && rest.size() > 1) {  // 5'11": feet and inches
     rest = trimmed(rest.substr(1));
     const bool digit = !rest.empty() && is_digit(rest.front());
@@ -122,7 +118,7 @@ std::optional<double> one_length_m(std::string_view text) {
     return (*number * kFoot) + std::copysign(*inches * kInch, *number);
   }
   const std::optional<double> unit = unit_m(trimmed(rest));
-  if (!unit) return std::nullopt;
+  if (!unit || (*unit < 1 && groups_thousands(value, '.'))) return std::nullopt;  // "1.250 ft"
   return *number * *unit;
 }
 
@@ -180,40 +176,70 @@ struct Term {
   bool is_last = false;  ///< nothing follows the word
 };
 
-/// The numbers of a text, exponents too: also "10-storey", "10 (storeys)". What may be thousands is one of them as well.
-/// `text`: as plain_text() gives it, with points for commas from here on.
-std::vector<Term> terms_of(std::string& text) {
-  std::vector<std::size_t> commas;
-  const std::string_view all = text;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins = is_digit(text[i]) && (i == 0 || !is_digit(text[i - 1]));
-    if (begins && groups_thousands(all.substr(i))) commas.push_back(text.find(',', i));
-  }
-  std::replace(text.begin(), text.end(), ',', '.');
+/// The numbers of a text, exponents too: also "10-storey", "10 (storeys)". What may be thousands ("1,250", "1'000",
+/// "1 250") is one of them as well; of "1,2,3" each is one. `text`: as plain_text() gives it.
+std::vector<Term> terms_of(const std::string& text) {
   std::vector<Term> terms;
-  const char *at = text.data(), *const end = at + text.size();
+  const char *const end = text.data() + text.size(), *at = text.data();
   const auto is_mark = [](char c) { return c == '\'' || c == '"'; };
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80; };
+  const auto digits_at = [&](const char* from) { return std::find_if_not(from, end, is_digit) - from; };
   while (at != end) {
-    double value = 0;
-    const char* const begin = at;
-    const auto [next, error] =
-        is_digit(*at) || *at == '.' ? std::from_chars(at, end, value) : std::from_chars_result{at, {}};
-    if (next == at || error != std::errc()) {
+    const bool is_fraction = *at == '.' && digits_at(at + 1) > 0 && (at == text.data() || at[-1] != '.');
+    if (!is_digit(*at) && !is_fraction) {
       ++at;
       continue;
+    }
+    // Groups of digits, and what is between them.
+    std::vector<std::string> groups;
+    std::string between;
+    const char* next = at;
+    while (true) {
+      const char* const group = next;
+      next += digits_at(next);
+      groups.emplace_back(group, next);
+      const bool is_point = next != end && is_decimal(*next);
+      const bool is_gap = next != end && (*next == ' ' || *next == '\'' || *next == '_') && digits_at(next + 1) == 3 &&
+                          groups.front().size() <= 3 && (between.empty() || between.back() == *next);
+      if (!(is_gap || (is_point && digits_at(next + 1) > 0))) break;
+      between += *next++;
+    }
+    // Only the last of several points begins a fraction.
+    const std::size_t count = groups.size();
+    const bool has_fraction = count > 2 && between.back() != between.front() && is_decimal(between.back());
+    bool is_thousands = count > 1 && !groups[0].empty() && groups[0].size() <= 3 && groups[0][0] != '0';
+    std::string joined;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_last = has_fraction && i + 1 == count;
+      is_thousands &= i == 0 || is_last || (groups[i].size() == 3 && between[i - 1] == between[0]);
+      joined += (is_last ? "." : "") + groups[i];
+    }
+    std::vector<std::string> readings;
+    if (is_thousands) readings.push_back(joined);
+    if (count <= 2 && (count == 1 || is_decimal(between[0]))) {
+      readings.push_back(groups[0] + (count == 2 ? "." + groups[1] : ""));
+      const char* const exponent = next != end && *next == 'e' ? next + 1 : end;
+      const char* const power = exponent != end && (*exponent == '-' || *exponent == '+') ? exponent + 1 : exponent;
+      if (digits_at(power) > 0) {
+        readings.back().append(next, power + digits_at(power));
+        next = power + digits_at(power);
+      }
+    } else if (!is_thousands || between[0] == ' ') {
+      readings.insert(readings.end(), groups.begin(), groups.end());
     }
     const char* unit = std::find_if_not(next, end, [](char c) { return is_space(c) || c == '-' || c == '('; });
     if (unit == end || !(is_letter(*unit) || is_mark(*unit))) unit = next;
     at = std::find_if_not(unit, end, [&](char c) { return is_letter(c) || is_mark(c); });
     const std::string_view word(unit, static_cast<std::size_t>(at - unit));
     const bool is_last = std::find_if_not(at, end, is_space) == end;
-    terms.push_back({value, word, is_last});
-    for (const std::size_t comma : commas) {
-      const char* const point = text.data() + comma;
-      if (begin < point && point < next) terms.push_back({1000 * value, word, is_last});
+    // A point is one of thousands where it would be absurd else: "1.250 ft".
+    const bool is_odd = count == 2 && between[0] == '.' && unit_m(word).value_or(1) >= 1;
+    for (const std::string& reading : readings) {
+      double value = 0;
+      if (is_odd && &reading != &readings.back()) continue;
+      const auto parsed = std::from_chars(reading.data(), reading.data() + reading.size(), value);
+      if (parsed.ec == std::errc()) terms.push_back({value, word, is_last});
     }
-    at = std::max(at, next);
   }
   return terms;
 }
@@ -233,8 +259,8 @@ int floors_in_words(std::string_view text) {
   return words;
 }
 
-/// The largest of `values` that is no more than `most`, or the sum of these and `more`. Where none is, the least that is
-/// more: nothing else is said.
+/// The largest of `values` that is no more than `most`, or the sum of these and `more`. Where none is, the least that
+/// is more: nothing else is said.
 std::optional<double> largest_up_to(double most, const std::vector<double>& values, bool adds, double more = 0) {
   double result = 0, sum = more;
   std::optional<double> beyond;
@@ -251,8 +277,31 @@ std::optional<double> largest_up_to(double most, const std::vector<double>& valu
 }
 
 bool counts_levels(std::string_view unit) {
-  static constexpr std::array<std::string_view, 7> words = {"stor", "level", "floor", "stock", "etage", "piso", "fl"};
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return unit.starts_with(word); });
+  static constexpr std::array<std::string_view, 23> words = {"stor",
+                                                             "level",
+                                                             "lvl",
+                                                             "floor",
+                                                             "fl",
+                                                             "stock",
+                                                             "etage",
+                                                             "\u00e9tage",
+                                                             "\u00c9tage",
+                                                             "gescho",
+                                                             "piso",
+                                                             "piano",
+                                                             "piani",
+                                                             "planta",
+                                                             "niveau",
+                                                             "verdiep",
+                                                             "kerro",
+                                                             "pi\u0119tr",
+                                                             "\u044d\u0442\u0430\u0436",
+                                                             "\u5c42",
+                                                             "\u5c64",
+                                                             "\u968e",
+                                                             "\uce35"};
+  return unit == "f" ||
+         std::any_of(words.begin(), words.end(), [&](std::string_view w) { return unit.starts_with(w); });
 }
 
 }  // namespace
@@ -267,9 +316,11 @@ std::optional<double> parse_levels(std::string_view text) { return largest(text,
 
 std::optional<double> parse_lowest_levels(std::string_view text) { return largest(text, plain_number, std::less<>()); }
 
-std::optional<double> roughly_length_m(std::string_view text, double level_m) {
+std::optional<double> any_length_m(std::string_view text, double level_m) {
+  if (text.empty()) return std::nullopt;
+  if (const std::optional<double> length = parse_length_m(text)) return length;
   constexpr double kMost = 1500;  // metres: what is higher was a year, or no thousand
-  std::string plain = plain_text(text);
+  const std::string plain = plain_text(text);
   const double floors = floors_in_words(plain);
   bool has_feet = false, has_inches = false;
   std::vector<double> lengths;
@@ -282,16 +333,32 @@ std::optional<double> roughly_length_m(std::string_view text, double level_m) {
                       : is_kilometres                   ? 1000 * number
                                                         : number * (is_word ? 1 : unit_m(unit).value_or(1)));
   }
-  const bool adds = plain.find('+') != std::string::npos || (has_feet && has_inches);
+  const auto says = [&](std::string_view word) { return plain.find(word) != std::string::npos; };
+  const bool adds = says("+") || says("\u00b1") || says("plus") || (has_feet && has_inches);
   return largest_up_to(kMost, lengths, adds, floors * level_m);
+}
+
+std::optional<double> any_length_m(std::string_view text) {
+  static const double level_m = BuildingDefaults{}.level_m;
+  return any_length_m(text, level_m);
 }
 
 std::optional<double> roughly_levels(std::string_view text) {
   constexpr double kMost = 300;
-  std::string plain = plain_text(text);
+  const std::string plain = plain_text(text);
   std::vector<double> levels;
   for (const Term& term : terms_of(plain)) levels.push_back(term.number);
   return largest_up_to(kMost, levels, plain.find('+') != std::string::npos, floors_in_words(plain));
+}
+
+std::optional<double> parse_angle_deg(std::string_view text) {
+  return largest(text, [](std::string_view item) -> std::optional<double> {
+    static constexpr std::array<std::string_view, 5> units = {"", "\u00b0", "deg", "degree", "degrees"};
+    const std::string value = lower(item);
+    std::string_view rest = value;
+    const std::optional<double> number = take_number(rest);
+    return std::find(units.begin(), units.end(), trimmed(rest)) == units.end() ? std::nullopt : number;
+  });
 }
 
 std::optional<double> parse_direction_deg(std::string_view text) {
