@@ -328,7 +328,6 @@ class OccluderSorter {
       // A wood or a tank whose outline is not closed is none the less an area; so is what is closed and no line.
       const bool is_area = kind ? !has_model && (line.is_closed() ? !osm::is_linear(line.tags) : means_area)
                                 : !overhead_height_m(line.tags);
-      if (is_area && line.is_closed() && osm::means_area(line.tags)) continue;  // it is one of the areas
       if (is_area) kind = kind_of(line.tags, Geometry::area);
       if (is_building(kind) || !is_switched_on(kind, line.tags, options_.occluders)) continue;
       std::vector<Vec2> points;
