@@ -336,15 +336,21 @@ TEST_F(LedgerTest, ClearanceIsKeptFromLinesOverhead) {
   map.way({a, b}, {{"power", "line"}});
   map.line({{-50, -50}, {-50, 50}}, {{"power", "minor_line"}, {"location", "underground"}});
   const Scene scene = build(map);
-  const Box box = bounding_box(scene.overhead);
+  ASSERT_EQ(scene.overhead.size(), 1U);
+  EXPECT_EQ(scene.overhead[0].object.source_id, "way/2");
+  testing::expect_wording(scene.overhead[0].object.name);
+  const Box box = bounding_box(scene.overhead[0].mesh);
   EXPECT_NEAR(box.max.z(), 45, 1e-6);
   EXPECT_NEAR(box.min.x(), box.max.x(), 0.02);
   EXPECT_EQ(obstacles_of(scene)->triangles.size(), scene.mesh.triangles.size()) << "two more, without the ground's two";
   CityOptions options;
   options.occluders.lines = false;
   EXPECT_TRUE(build(map, options).overhead.empty());
-  map.way({a, map.node(150, 50, {{"power", "tower"}})}, {{"power", "line"}});
-  EXPECT_NEAR(bounding_box(build(map).overhead).max.z(), 60, 1e-6) << "one of its supports does not say how high it is";
+  map.way({a, map.node(150, 50, {{"power", "tower"}})}, {{"power", "line"}, {"name", "east"}});
+  const Scene more = build(map);
+  ASSERT_EQ(more.overhead.size(), 2U);
+  EXPECT_EQ(more.overhead[1].object.name, "east");
+  EXPECT_NEAR(bounding_box(more.overhead[1].mesh).max.z(), 60, 1e-6) << "one of its supports does not say how high it is";
 }
 
 // ---- who is told
@@ -424,6 +430,14 @@ TEST_F(LedgerTest, MissionsWarnOfWhatLiesWithinReachAlone) {
   MapText far = block_with_courtyard(-10, 10);
   far.area({{-130, -30}, {-110, 30}, {-110, -30}, {-130, 30}}, {{"building", "yes"}});
   EXPECT_EQ(count(mission_warnings(mission(far, town_mission(""))), WarningCode::scene_incomplete), 0u);
+}
+
+TEST_F(LedgerTest, WhatClearanceIsKeptFromLiesWithinReach) {
+  MapText map = block_with_courtyard(-10, 10);
+  map.node(46, 150, {{"power", "tower"}, {"height", "45"}});
+  EXPECT_EQ(count(mission_warnings(mission(map, town_mission(""))), WarningCode::scene_incomplete), 0u);
+  const Mission kept = mission(map, town_mission("") + "navigation: {clearance: 100}\n");
+  EXPECT_EQ(count(mission_warnings(kept), WarningCode::scene_incomplete), 1u);
 }
 
 TEST_F(LedgerTest, StandInsCanBeWarnedOfOnlyOrRefused) {
