@@ -416,7 +416,7 @@ TEST(ReadCityJson, IsToldByItsContent) {
 /// What of the ledger matters: name, what, why, and what stands in.
 std::vector<std::string> told(const RawMesh& mesh) {
   std::vector<std::string> lines;
-  for (const auto& [entry, holder] : mesh.ledger) {
+  for (const auto& [entry, holder, is_stated] : mesh.ledger) {
     lines.push_back(display_name(entry.object) + ": " + entry.what + ": " + entry.reason + ": " + entry.instead);
   }
   return lines;
@@ -436,7 +436,7 @@ TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
   const RawMesh mesh = read(file);
   testing::expect_wording(told(mesh));
   ASSERT_EQ(mesh.ledger.size(), 5u);
-  for (const auto& [entry, holder] : mesh.ledger) {
+  for (const auto& [entry, holder, is_stated] : mesh.ledger) {
     const bool has_extent = entry.object.source_id == "extent";
     EXPECT_EQ(holder.triangles.size(), has_extent ? 12u : 0u) << entry.object.source_id;
     EXPECT_EQ(entry.box.has_value(), has_extent || entry.object.source_id == "tree") << entry.object.source_id;
@@ -468,7 +468,7 @@ TEST(ReadCityJson, TellsOfFootprintsOfAllThatDoesNotLieOnTheGround) {
     object["type"] = type;
     object["attributes"] = has_height ? json{{"measuredHeight", 30}} : json::object();
     std::vector<bool> are_held;
-    for (const auto& [entry, holder] : read(file).ledger) are_held.push_back(!holder.triangles.empty());
+    for (const auto& [entry, holder, is_stated] : read(file).ledger) are_held.push_back(!holder.triangles.empty());
     return are_held;
   };
   for (const char* type : {"OtherConstruction", "BuildingInstallation", "Tunnel", "PlantCover", "CityFurniture"}) {
