@@ -3,20 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/ledger.h"
+#include "common/ledger.h"
 #include "support/internals.h"
 #include "support/map_text.h"
 #include "support/random.h"
+#include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
+#include "vantage/result.h"
 #include "vantage/scene_source.h"
 
 namespace vantage {
@@ -440,6 +444,14 @@ TEST_F(LedgerTest, WhatClearanceIsKeptFromLiesWithinReach) {
   EXPECT_EQ(count(mission_warnings(kept), WarningCode::scene_incomplete), 1u);
 }
 
+TEST_F(LedgerTest, TheCheckByRaysTellsWhatTheSceneLacks) {
+  const Mission near = mission(block_with_courtyard(10, 30.05), town_mission(""));
+  const Mesh box = testing::make_box_mesh({42, -1, 5}, {44, 1, 7});
+  EXPECT_FALSE(verify_volume(near, box, {.points = 100}).scene_incomplete.empty());
+  const Mission sound = mission(block_with_courtyard(-10, 10), town_mission(""));
+  EXPECT_TRUE(verify_volume(sound, box, {.points = 100}).scene_incomplete.empty());
+}
+
 TEST_F(LedgerTest, StandInsCanBeWarnedOfOnlyOrRefused) {
   MapText map = block_with_courtyard(-10, 10);
   map.node(60, 0, {{"man_made", "crane"}, {"height", "40"}});
@@ -472,6 +484,18 @@ TEST_F(LedgerTest, ATargetInAStandInIsToldWhatLeavesItOut) {
   for (const Warning& warning : warnings) {
     if (warning.code == WarningCode::target_inside) testing::expect_wording(warning.text);
   }
+}
+
+TEST(LedgerText, IsShortAndNamesWhatHasNoName) {
+  testing::expect_wording(ledger_text({}));
+  const std::string umlauts = [] {
+    std::string text = "x";
+    for (int i = 0; i < 1000; ++i) text += "\xC3\xA4";
+    return text;
+  }();
+  const std::string text = ledger_text({{umlauts}, umlauts, umlauts});
+  EXPECT_LT(text.size(), 700u);
+  EXPECT_NO_THROW(nlohmann::json(text).dump()) << "no character is cut";
 }
 
 // ---- a flight with many legs

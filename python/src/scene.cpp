@@ -14,7 +14,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "common/json.h"
-#include "common/output.h"
+#include "common/ledger.h"
 #include "places.h"
 #include "vantage/earth.h"
 #include "vantage/geometry.h"

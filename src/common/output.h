@@ -48,9 +48,6 @@ struct FormatFacts {
 /// All of them; src/io/output_formats.cpp has the table.
 VANTAGE_API std::vector<FormatFacts> known_formats();
 
-/// The ledger of a scene where it is kept, in a file or pickled: the lines overhead, which are not, are in it.
-VANTAGE_API std::vector<LedgerEntry> written_ledger(const Scene& scene);
-
 /// Those that are folders, which volumes alone are written in, and which are not read: 3D Tiles.
 VANTAGE_API std::vector<FormatFacts> folder_formats();
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/input.h"
-#include "common/output.h"
+#include "common/ledger.h"
 #include "core/read_limits.h"
 #include "core/text.h"
 #include "io/json_text.h"
@@ -320,7 +320,11 @@ void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string
               "mend the source ('vantage inspect' lists all), or let stand-ins hold their place with 'missing: block'");
 }
 
-std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {
+namespace {
+
+/// {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line, in ASCII; what is empty is left out. The
+/// numbers read back exactly. `stand_in`: as the file counts.
+std::string entry_json(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (!(entry.object == SceneObject{})) json["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
   json["what"] = entry.what;
@@ -340,6 +344,8 @@ std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> s
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
+}  // namespace
+
 std::vector<std::string> ledger_texts(const Scene& scene, FileObjects objects) {
   std::vector<std::string> texts;
   const std::vector<LedgerEntry> ledger = written_ledger(scene);
@@ -353,7 +359,7 @@ std::vector<std::string> ledger_texts(const Scene& scene, FileObjects objects) {
     if (entry.stand_in && *entry.stand_in < number.size() && number[*entry.stand_in] < count) {
       stand_in = objects == FileObjects::apart ? number[*entry.stand_in] : 0;
     }
-    texts.push_back(ledger_text(entry, stand_in));
+    texts.push_back(entry_json(entry, stand_in));
   }
   return texts;
 }

@@ -63,11 +63,7 @@ void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string
 /// all of them are its only one.
 enum class FileObjects { apart, one };
 
-/// {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line, in ASCII; what is empty is left out. The
-/// numbers read back exactly. `stand_in`: as the file counts.
-std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in);
-
-/// The entries of a scene, one text each.
+/// The entries of a scene, each {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line.
 std::vector<std::string> ledger_texts(const Scene& scene, FileObjects objects);
 
 /// Lines for OBJ or the header of PLY: `start` ("# ", "comment ") and "vantage ledger: {…}".
