@@ -354,7 +354,7 @@ TEST_F(LedgerTest, ClearanceIsKeptFromLinesOverhead) {
   const Scene more = build(map);
   ASSERT_EQ(more.overhead.size(), 2U);
   EXPECT_EQ(more.overhead[1].object.name, "east");
-  EXPECT_NEAR(bounding_box(more.overhead[1].mesh).max.z(), 60, 1e-6) << "one of its supports does not say how high it is";
+  EXPECT_NEAR(bounding_box(more.overhead[1].mesh).max.z(), 60, 1e-6) << "one of its supports does not say its height";
 }
 
 // ---- who is told

@@ -325,23 +325,23 @@ namespace {
 /// {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line, in ASCII; what is empty is left out. The
 /// numbers read back exactly. `stand_in`: as the file counts.
 std::string entry_json(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  if (!(entry.object == SceneObject{})) json["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
-  json["what"] = entry.what;
-  json["reason"] = entry.reason;
+  nlohmann::ordered_json written = nlohmann::ordered_json::object();
+  if (!(entry.object == SceneObject{})) written["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
+  written["what"] = entry.what;
+  written["reason"] = entry.reason;
   const auto is_readable = [](double number) { return std::abs(number) <= core::kMaxCoordinate; };
   const auto is_place = [&](const Vec3& corner) {
     return is_readable(corner.x()) && is_readable(corner.y()) && (std::isinf(corner.z()) || is_readable(corner.z()));
   };
   if (entry.box && is_place(entry.box->min) && is_place(entry.box->max)) {
-    json["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
+    written["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
   }
-  if (!entry.outlines.empty()) json["outlines"] = entry.outlines;
-  if (entry.height_m && is_readable(*entry.height_m)) json["height_m"] = *entry.height_m;
-  if (stand_in) json["stand_in"] = *stand_in;
-  if (!entry.instead.empty()) json["instead"] = entry.instead;
-  if (entry.may_be_larger) json["may_be_larger"] = true;
-  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  if (!entry.outlines.empty()) written["outlines"] = entry.outlines;
+  if (entry.height_m && is_readable(*entry.height_m)) written["height_m"] = *entry.height_m;
+  if (stand_in) written["stand_in"] = *stand_in;
+  if (!entry.instead.empty()) written["instead"] = entry.instead;
+  if (entry.may_be_larger) written["may_be_larger"] = true;
+  return written.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
