@@ -24,6 +24,7 @@
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/query.h"
+#include "vantage/standpoints.h"
 
 namespace vantage::testing {
 namespace {
@@ -312,6 +313,20 @@ TEST(FlightCheck, WithoutARangeWhatIsNotBuiltCountsWithinTheClearance) {
   Mission limited = mission;
   limited.navigation.clearance = Clearance{6, obstacles_of(mission.scene())};
   EXPECT_EQ(check_flight(limited, flight_along({{-30, 0, 20}, {30, 0, 20}})).notes.size(), 1U);
+}
+
+TEST(FlightCheck, ClearanceIsKeptFromLinesOverhead) {
+  Scene scene = with_ground(SceneBuilder().ground("ground", 200, -0.5).box("wall", {-5, 60, -0.5}, {5, 61, 10}));
+  scene.overhead = {{{"volt", "way/12"}, make_box_mesh({20, -50, -0.5}, {20, 50, 45})}};
+  const Mission mission = mission_in(scene, checked_square(), 100);
+  const FlightCheck check = check_flight(mission, flight_along({{-30, 0, 20}, {18, 0, 20}}), {.clearance_m = 3});
+  EXPECT_EQ(check.nearest.object, "way/12 volt");
+  EXPECT_NEAR(check.nearest.distance_m, 2, 1e-6);
+  ASSERT_EQ(check.failures.size(), 1U);
+  expect_wording(check.failures[0]);
+  const ViewDescription view = ViewDescriber(mission).describe({17, 0, 20});
+  EXPECT_EQ(view.obstacle, "way/12 volt");
+  EXPECT_NEAR(view.obstacle_distance_m.value_or(0), 3, 1e-9);
 }
 
 TEST(FlightCheck, HasTheNotesOfTheMission) {

@@ -193,7 +193,8 @@ TEST(Place, IsRefusedWhenGarbled) {
   expect_error([&] { read_scene(directory / "a.ply"); }, ErrorCode::record_garbled, "a.ply, line 3");
 
   write_scene(one_box(), directory / "a.stl");
-  for (const char* text : {"{]", "{}", "{\"vantage\": 3}", R"({"vantage": {"georeference": 3}})"}) {
+  for (const char* text : {"{]", "{}", "{\"vantage\": 3}", R"({"vantage": {"georeference": 3}})",
+                           R"({"vantage": {"georeference": null}, "vantage": {"georeference": null}})"}) {
     write_bytes(directory / "a.stl.place.json", text);
     expect_error([&] { read_scene(directory / "a.stl"); }, ErrorCode::record_garbled, "a.stl.place.json");
   }

@@ -3,20 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/ledger.h"
+#include "common/ledger.h"
 #include "support/internals.h"
 #include "support/map_text.h"
 #include "support/random.h"
+#include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
+#include "vantage/result.h"
 #include "vantage/scene_source.h"
 
 namespace vantage {
@@ -394,15 +398,21 @@ TEST_F(LedgerTest, ClearanceIsKeptFromLinesOverhead) {
   map.way({a, b}, {{"power", "line"}});
   map.line({{-50, -50}, {-50, 50}}, {{"power", "minor_line"}, {"location", "underground"}});
   const Scene scene = build(map);
-  const Box box = bounding_box(scene.overhead);
+  ASSERT_EQ(scene.overhead.size(), 1U);
+  EXPECT_EQ(scene.overhead[0].object.source_id, "way/2");
+  testing::expect_wording(scene.overhead[0].object.name);
+  const Box box = bounding_box(scene.overhead[0].mesh);
   EXPECT_NEAR(box.max.z(), 45, 1e-6);
   EXPECT_NEAR(box.min.x(), box.max.x(), 0.02);
   EXPECT_EQ(obstacles_of(scene)->triangles.size(), scene.mesh.triangles.size()) << "two more, without the ground's two";
   CityOptions options;
   options.occluders.lines = false;
   EXPECT_TRUE(build(map, options).overhead.empty());
-  map.way({a, map.node(150, 50, {{"power", "tower"}})}, {{"power", "line"}});
-  EXPECT_NEAR(bounding_box(build(map).overhead).max.z(), 60, 1e-6) << "one of its supports does not say how high it is";
+  map.way({a, map.node(150, 50, {{"power", "tower"}})}, {{"power", "line"}, {"name", "east"}});
+  const Scene more = build(map);
+  ASSERT_EQ(more.overhead.size(), 2U);
+  EXPECT_EQ(more.overhead[1].object.name, "east");
+  EXPECT_NEAR(bounding_box(more.overhead[1].mesh).max.z(), 60, 1e-6) << "one of its supports does not say its height";
 }
 
 // ---- who is told
@@ -531,6 +541,22 @@ TEST_F(LedgerTest, MissionsWarnOfWhatLiesWithinReachAlone) {
   EXPECT_EQ(count(mission_warnings(mission(far, town_mission(""))), WarningCode::scene_incomplete), 0u);
 }
 
+TEST_F(LedgerTest, WhatClearanceIsKeptFromLiesWithinReach) {
+  MapText map = block_with_courtyard(-10, 10);
+  map.node(46, 150, {{"power", "tower"}, {"height", "45"}});
+  EXPECT_EQ(count(mission_warnings(mission(map, town_mission(""))), WarningCode::scene_incomplete), 0u);
+  const Mission kept = mission(map, town_mission("") + "navigation: {clearance: 100}\n");
+  EXPECT_EQ(count(mission_warnings(kept), WarningCode::scene_incomplete), 1u);
+}
+
+TEST_F(LedgerTest, TheCheckByRaysTellsWhatTheSceneLacks) {
+  const Mission near = mission(block_with_courtyard(10, 30.05), town_mission(""));
+  const Mesh box = testing::make_box_mesh({42, -1, 5}, {44, 1, 7});
+  EXPECT_FALSE(verify_volume(near, box, {.points = 100}).scene_incomplete.empty());
+  const Mission sound = mission(block_with_courtyard(-10, 10), town_mission(""));
+  EXPECT_TRUE(verify_volume(sound, box, {.points = 100}).scene_incomplete.empty());
+}
+
 TEST_F(LedgerTest, StandInsCanBeWarnedOfOnlyOrRefused) {
   MapText map = block_with_courtyard(-10, 10);
   map.node(60, 0, {{"man_made", "crane"}, {"height", "40"}});
@@ -563,6 +589,18 @@ TEST_F(LedgerTest, ATargetInAStandInIsToldWhatLeavesItOut) {
   for (const Warning& warning : warnings) {
     if (warning.code == WarningCode::target_inside) testing::expect_wording(warning.text);
   }
+}
+
+TEST(LedgerText, IsShortAndNamesWhatHasNoName) {
+  testing::expect_wording(ledger_text({}));
+  const std::string umlauts = [] {
+    std::string text = "x";
+    for (int i = 0; i < 1000; ++i) text += "\xC3\xA4";
+    return text;
+  }();
+  const std::string text = ledger_text({{umlauts}, umlauts, umlauts});
+  EXPECT_LT(text.size(), 700u);
+  EXPECT_NO_THROW(nlohmann::json(text).dump()) << "no character is cut";
 }
 
 // ---- a flight with many legs

@@ -108,6 +108,20 @@ TEST(LegDistances, KeepsToTheCutOff) {
   EXPECT_EQ(many[0].distance_m, many[1].distance_m);
 }
 
+TEST(LegDistances, CountWhatHangsOverhead) {
+  Scene scene = SceneBuilder().box("box", {10, -5, 0}, {20, 5, 8});
+  scene.overhead = {{{"volt", "way/12"}, testing::make_box_mesh({30, -50, 0}, {31, 50, 40})}};
+  const PreparedScene prepared(scene);
+  const Leg between{{25, 0, 20}, {26, 0, 20}}, through{{9, 0, 20}, {60, 0, 20}};
+  const LegDistance nearest = LegDistances(prepared).nearest(between);
+  EXPECT_EQ(nearest.name, "way/12 volt");
+  EXPECT_EQ(nearest.object, 1U);
+  EXPECT_NEAR(nearest.distance_m, 4, 1e-9);
+  EXPECT_EQ(LegDistances(prepared, {.without_objects = {0}}).nearest(through).distance_m, 0);
+  EXPECT_EQ(LegDistances(prepared, {.without_overhead = true}).nearest(between).name, "box");
+  EXPECT_EQ(LegDistances(prepared).nearest({{21, 0, 4}, {21, 0, 4}}).name, "box");
+}
+
 TEST(LegDistances, RefusesWhatIsNoOption) {
   const PreparedScene scene(SceneBuilder().ground("ground", 10));
   testing::expect_error([&] { LegDistances(scene, {.cutoff_m = -1}); }, ErrorCode::value_out_of_range);

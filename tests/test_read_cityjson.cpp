@@ -416,7 +416,7 @@ TEST(ReadCityJson, IsToldByItsContent) {
 /// What of the ledger matters: name, what, why, and what stands in.
 std::vector<std::string> told(const RawMesh& mesh) {
   std::vector<std::string> lines;
-  for (const auto& [entry, holder] : mesh.ledger) {
+  for (const auto& [entry, holder, is_stated] : mesh.ledger) {
     lines.push_back(display_name(entry.object) + ": " + entry.what + ": " + entry.reason + ": " + entry.instead);
   }
   return lines;
@@ -431,12 +431,14 @@ TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
   objects["garbled"] = {{"type", "Bridge"}, {"geographicalExtent", {100, 100, 30, 0, 0, 0}}};
   objects["tree"] = {{"type", "SolitaryVegetationObject"},
                      {"geometry", json::array({geometry("MultiPoint", "1", json::array({8}))})}};
-  objects["parent"] = {{"type", "Building"}, {"children", {"b1"}}};
+  objects["part"] = objects["b1"];
+  objects["part"]["type"] = "BuildingPart";
+  objects["parent"] = {{"type", "Building"}, {"children", {"part"}}};
   objects["orphaned"] = {{"type", "Building"}, {"children", {"gone"}}};
   const RawMesh mesh = read(file);
   testing::expect_wording(told(mesh));
   ASSERT_EQ(mesh.ledger.size(), 5u);
-  for (const auto& [entry, holder] : mesh.ledger) {
+  for (const auto& [entry, holder, is_stated] : mesh.ledger) {
     const bool has_extent = entry.object.source_id == "extent";
     EXPECT_EQ(holder.triangles.size(), has_extent ? 12u : 0u) << entry.object.source_id;
     EXPECT_EQ(entry.box.has_value(), has_extent || entry.object.source_id == "tree") << entry.object.source_id;
@@ -444,6 +446,48 @@ TEST(ReadCityJson, ObjectsWithoutSurfacesAreInTheLedger) {
   EXPECT_EQ(mesh.ledger[0].entry.height_m, 30);  // in the order of their ids
   EXPECT_EQ(mesh.ledger[1].entry.height_m, 15);
   EXPECT_EQ(mesh.ledger[4].entry.box->min, Vec3(60, 70, 31));
+}
+
+TEST(ReadCityJson, PartsStandForTheirWholeIfAllAreThereAndHaveABody) {
+  const json extent = {100, 100, 30, 200, 200, 80};
+  const auto is_held = [&](const json& children, const char* type, const json& body) {
+    json file = document();
+    json& objects = file["CityObjects"];
+    objects["part"] = {{"type", type}, {"geometry", body}};
+    objects["whole"] = {{"type", "Building"}, {"children", children}, {"geographicalExtent", extent}};
+    for (const auto& missing : read(file).ledger) {
+      if (missing.entry.object.source_id == "whole") return !missing.holder.triangles.empty();
+    }
+    return false;
+  };
+  const json body = document()["CityObjects"]["b1"]["geometry"];
+  EXPECT_FALSE(is_held({"part"}, "BuildingPart", body));
+  EXPECT_TRUE(is_held({"part", "gone"}, "BuildingPart", body));
+  EXPECT_TRUE(is_held({"part"}, "BuildingInstallation", body));
+  EXPECT_TRUE(is_held({"part"}, "BuildingPart", json::array()));
+  EXPECT_TRUE(is_held({"whole"}, "BuildingPart", body));
+}
+
+TEST(ReadCityJson, AnEmptyGeometryDoesNotTakeTheBodyOfAnotherLevel) {
+  json file = document();
+  file["CityObjects"]["b1"]["geometry"].push_back(geometry("MultiSurface", "3", json::array()));
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  ASSERT_EQ(mesh.ledger.size(), 1u);
+  EXPECT_TRUE(mesh.ledger[0].entry.stand_in);
+  testing::expect_wording(told(mesh));
+}
+
+TEST(ReadCityJson, EdgesOfRoofsAreHeldDownToTheGround) {
+  json file = document();
+  json& building = file["CityObjects"]["b1"];
+  building["geometry"] = json::array({geometry("MultiSurface", "0.3", json::array({json::array({{0, 1, 3, 2}})}))});
+  building["attributes"]["measuredHeight"] = "30";  // a text counts, too
+  EXPECT_EQ(bounding_box(read(file).ledger.at(0).holder).min, Vec3(10, 20, 0));
+  building["geographicalExtent"] = {10, 20, 5, 12, 22, 30};
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(bounding_box(mesh.ledger.at(0).holder).min, Vec3(10, 20, 5));
+  EXPECT_EQ(mesh.ledger[0].entry.box->min, Vec3(10, 20, 5));
 }
 
 TEST(ReadCityJson, RaisesFootprintsToTheirHeight) {
@@ -468,7 +512,7 @@ TEST(ReadCityJson, TellsOfFootprintsOfAllThatDoesNotLieOnTheGround) {
     object["type"] = type;
     object["attributes"] = has_height ? json{{"measuredHeight", 30}} : json::object();
     std::vector<bool> are_held;
-    for (const auto& [entry, holder] : read(file).ledger) are_held.push_back(!holder.triangles.empty());
+    for (const auto& [entry, holder, is_stated] : read(file).ledger) are_held.push_back(!holder.triangles.empty());
     return are_held;
   };
   for (const char* type : {"OtherConstruction", "BuildingInstallation", "Tunnel", "PlantCover", "CityFurniture"}) {

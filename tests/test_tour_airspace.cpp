@@ -92,6 +92,18 @@ TEST(TourAirspace, NamesWhatIsInTheWay) {
                         "tour.clearance");
 }
 
+TEST(TourAirspace, KeepsAwayFromLinesOverhead) {
+  Scene scene = testing::SceneBuilder().ground("ground", 200);
+  scene.objects[0].kind = ObjectKind::ground;
+  scene.overhead = {{{"volt"}, testing::make_box_mesh({0, -50, 0}, {0, 50, 45})}};
+  const auto airspace = make_airspace(PreparedScene(scene), 3);
+  EXPECT_EQ(airspace->obstacle({{-20, 0, 30}, {20, 0, 30}}, 0), "volt");
+  EXPECT_EQ(airspace->obstacle({{-20, 0, 30}, {-2.9, 0, 30}}, 0), "volt");
+  EXPECT_TRUE(airspace->allows({{-20, 0, 30}, {-3.1, 0, 30}}, 0));
+  EXPECT_TRUE(airspace->allows({{-20, 0, 49}, {20, 0, 49}}, 0));
+  EXPECT_FALSE(make_airspace(PreparedScene(scene), 0)->allows({{-20, 0, 30}, {20, 0, 30}}, 0));
+}
+
 TEST(TourAirspace, ATubeIsADeviationThatIsAlwaysAsked) {
   testing::Random random(52);
   const Town town = random_town(random, Vec3(0, 0, 0));

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 #include <vector>
 
 #include "support/objects.h"
+#include "support/scenes.h"
+#include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
@@ -250,7 +253,8 @@ TEST(WriteScene, KeepsTheOldFileWhenItCannotWrite) {
 /// Two entries: one that an object holds, and one of which only the place is known, up to no height.
 Scene scene_with_ledger() {
   Scene scene = awkward_scene();
-  scene.objects[4].kind = ObjectKind::stand_in;
+  scene.objects.push_back({"held", "relation/7", ObjectKind::stand_in});
+  add_tetrahedron(scene, Vec3(0.1, 1.0 / 3, -2), 47, 6);
   LedgerEntry held;
   held.object = {"Wal\"l\n", "relation/7", ObjectKind::building};
   held.what = "relation";
@@ -258,7 +262,7 @@ Scene scene_with_ledger() {
   held.box = Box{Vec3(0.1, 1.0 / 3, -2), Vec3(5, 6, 45)};
   held.outlines = {{{0.1, 1.0 / 3}, {5, 0}, {5, 6}}};
   held.height_m = 45;
-  held.stand_in = 4;
+  held.stand_in = 6;
   held.instead = "its outline without holes, 45 m high";
   held.may_be_larger = true;
   LedgerEntry open;
@@ -304,6 +308,130 @@ TEST(WriteScene, KeepsTheLedgerInEveryFormat) {
   }
 }
 
+TEST(WriteScene, LinesOverheadAreInTheLedgerOfTheFile) {
+  TemporaryDirectory folder;
+  Scene scene = awkward_scene();
+  scene.overhead = {{{"volt", "way/12"}, testing::make_box_mesh({5, -50, 0}, {6, 50, 45})}};
+  for (const char* name : {"a.obj", "a.glb", "a.ply", "a.stl"}) {
+    SCOPED_TRACE(name);
+    write_scene(scene, folder / name);
+    const Scene read = read_scene(folder / name);
+    ASSERT_EQ(read.ledger.size(), 1u);
+    EXPECT_EQ(read.ledger[0].object, scene.overhead[0].object);
+    EXPECT_FALSE(read.ledger[0].stand_in);
+    ASSERT_TRUE(read.ledger[0].box);
+    EXPECT_EQ(read.ledger[0].box->min, Vec3(5, -50, 0));
+    EXPECT_EQ(read.ledger[0].box->max, Vec3(6, 50, 45));
+    testing::expect_wording(read.ledger[0].reason);
+  }
+}
+
+/// A house and a mast, 45 m high, whose place a stand-in holds.
+Scene house_and_mast() {
+  Scene scene = testing::SceneBuilder()
+                    .ground("ground", 200)
+                    .box("house", {-10, -10, 0}, {10, 10, 10})
+                    .box("mast", {40, 0, 0}, {44, 4, 45});
+  scene.objects[0].kind = ObjectKind::ground;
+  scene.objects[2].kind = ObjectKind::stand_in;
+  scene.ledger = {{{"mast"}, "power=tower", "nothing tells how wide it is", Box{{40, 0, 0}, {44, 4, 45}}}};
+  scene.ledger[0].stand_in = 2;
+  return scene;
+}
+
+using Json = nlohmann::json;
+
+/// What is read of house_and_mast after another program changed the document of its GLB.
+LedgerEntry after(const std::filesystem::path& folder, const std::function<void(Json&)>& change) {
+  write_scene(house_and_mast(), folder / "a.glb");
+  const std::string bytes = read_bytes(folder / "a.glb");
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  Json json = Json::parse(bytes.substr(20, word(12)));
+  change(json);
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::string rest = bytes.substr(20 + word(12));
+  std::string changed = bytes.substr(0, 20);
+  for (const auto& [at, value] : {std::pair{8U, 20 + text.size() + rest.size()}, {12U, text.size()}}) {
+    const auto size = static_cast<std::uint32_t>(value);
+    std::memcpy(changed.data() + at, &size, sizeof size);
+  }
+  testing::write_bytes(folder / "b.glb", changed + text + rest);
+  return read_scene(folder / "b.glb").ledger.at(0);
+}
+
+TEST(WriteScene, WhatHoldsAPlaceMustBeThere) {
+  const TemporaryDirectory folder;
+  const Box box = *house_and_mast().ledger[0].box;
+  const auto as_written = after(folder.path(), [](Json&) {});
+  EXPECT_EQ(as_written.stand_in, 2U);
+  EXPECT_EQ(as_written.box->min, box.min);
+  const auto is_held = [&](const std::function<void(Json&)>& change) {
+    const LedgerEntry entry = after(folder.path(), change);
+    EXPECT_TRUE(entry.stand_in || entry.instead.empty());
+    return entry.stand_in.has_value();
+  };
+  EXPECT_FALSE(is_held([](Json& json) { json["nodes"][2].erase("mesh"); }));
+  EXPECT_FALSE(is_held([](Json& json) { json["nodes"][2]["scale"] = {1e-6, 1e-6, 1e-6}; }));
+  EXPECT_FALSE(is_held([](Json& json) { json["nodes"][2]["translation"] = {4000, 0, 0}; }));
+  EXPECT_FALSE(is_held([](Json& json) { json["scenes"][0]["nodes"] = {2, 1, 0}; }));
+  EXPECT_FALSE(is_held([](Json& json) { json["scenes"][0]["extras"]["vantage"]["ledger"][0]["stand_in"] = 1; }));
+  const LedgerEntry reordered = after(folder.path(), [](Json& json) { json["scenes"][0]["nodes"] = {2, 1, 0}; });
+  ASSERT_TRUE(reordered.box);
+  testing::expect_wording(reordered.reason);
+}
+
+TEST(WriteScene, APlaceThatTheSceneDoesNotBearOutIsNotKnown) {
+  const TemporaryDirectory folder;
+  const auto ledger = [](Json& json) -> Json& { return json["scenes"][0]["extras"]["vantage"]["ledger"][0]; };
+  const LedgerEntry far = after(folder.path(), [&](Json& json) { ledger(json)["box"] = {{1e8, 0, 0}, {1e8, 4, 45}}; });
+  EXPECT_FALSE(far.box);
+  EXPECT_FALSE(far.stand_in);
+  const LedgerEntry open = after(folder.path(), [&](Json& json) {
+    ledger(json)["box"] = {{1e8, 0, 0}, {1e8, 4, 45}};
+    ledger(json).erase("stand_in");
+  });
+  EXPECT_FALSE(open.box);
+  const LedgerEntry apart = after(folder.path(), [&](Json& json) { ledger(json)["box"] = {{90, 0, 0}, {94, 4, 45}}; });
+  EXPECT_FALSE(apart.box);
+  EXPECT_FALSE(apart.stand_in);
+}
+
+TEST(WriteScene, LedgersMoveWithOneNodeAboutAllOthers) {
+  const TemporaryDirectory folder;
+  const auto under = [&](const Json& node) {
+    return after(folder.path(), [&](Json& json) {
+      json["nodes"].push_back(node);
+      json["nodes"].back()["children"] = {0, 1, 2};
+      json["scenes"][0]["nodes"] = {3};
+    });
+  };
+  const LedgerEntry scaled = under({{"scale", {2, 2, 2}}, {"translation", {100, 0, 0}}});
+  ASSERT_TRUE(scaled.box);
+  EXPECT_EQ(scaled.box->min, Vec3(180, 0, 0));
+  EXPECT_EQ(scaled.box->max, Vec3(188, 8, 90));
+  EXPECT_EQ(scaled.stand_in, 2U);
+  EXPECT_TRUE(under(Json::object()).box);
+  const LedgerEntry in_groups = after(folder.path(), [](Json& json) {
+    json["nodes"].push_back({{"scale", {2, 2, 2}}, {"children", {0, 1}}});
+    json["scenes"][0]["nodes"] = {3, 2};
+  });
+  EXPECT_FALSE(in_groups.box) << "what it moves with is not known";
+}
+
+TEST(WriteScene, LedgersAreReadOfAllScenesOfAFile) {
+  const TemporaryDirectory folder;
+  const LedgerEntry other = after(folder.path(), [](Json& json) {
+    json["scenes"].push_back({{"nodes", {0, 1, 2}}});
+    json["scene"] = 1;
+  });
+  EXPECT_EQ(other.stand_in, 2U);
+}
+
 // It may come from a stranger.
 TEST(WriteScene, LedgersThatAreGarbledAreRefused) {
   TemporaryDirectory folder;
@@ -316,7 +444,8 @@ TEST(WriteScene, LedgersThatAreGarbledAreRefused) {
   for (const char* bad : {"{", "7", R"({"what": 7})", R"({"box": [[0, 0], [1, 1]]})",
                           R"({"box": [[0, 0, 0], [1, -1, 0]]})", R"({"box": [[0, 0, 0], [1, 1, 1e99]]})",
                           R"({"box": [[null, 0, 0], [1, 1, 1]]})", R"({"outlines": [[[0, "a"]]]})",
-                          R"({"height_m": "tall"})", R"({"stand_in": -1})", R"({"object": {"kind": "castle"}})"}) {
+                          R"({"what": "a", "what": "b"})", R"({"height_m": "tall"})", R"({"stand_in": -1})",
+                          R"({"object": {"kind": "castle"}})"}) {
     SCOPED_TRACE(bad);
     testing::expect_error([&] { read(bad); }, ErrorCode::record_garbled, "a.obj, line 5");
   }

@@ -33,8 +33,8 @@ struct Clearance {
                                                ///< since it may be as large as the scene
 };
 
-/// The triangles of all objects but those of ObjectKind::ground and those in `ground` (indices of objects), and
-/// Scene::overhead. Where that leaves none, those of all objects. Throws Error(input) for arrays that PreparedScene
+/// The triangles of all objects but those of ObjectKind::ground and those in `ground` (indices of objects), where that
+/// leaves none, those of all objects; and of Scene::overhead. Throws Error(input) for arrays that PreparedScene
 /// refuses. Cost: linear.
 VANTAGE_API std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground = {});
 

@@ -237,6 +237,7 @@ struct LegDistanceOptions {
   double cutoff_m = std::numeric_limits<double>::infinity();  ///< what is farther away is not looked for; >= 0
   bool without_ground = false;                                ///< objects of ObjectKind::ground
   std::vector<std::uint32_t> without_objects = {};            ///< indices of objects of the scene
+  bool without_overhead = false;                              ///< Scene::overhead
 };
 
 /// What of the scene is nearest to a leg.
@@ -244,7 +245,7 @@ struct LegDistance {
   double distance_m = std::numeric_limits<double>::infinity();  ///< infinite where nothing is within the cut-off
   double share = 0;                                             ///< where on the leg, 0 to 1
   Vec3 point = Vec3::Zero();                                    ///< of the scene, scene frame
-  std::uint32_t object = 0;                                     ///< of the scene; its display_name:
+  std::uint32_t object = 0;  ///< of the scene; behind all of these, of Scene::overhead. Its display_name:
   std::string name = {};                                        ///< empty where nothing is within the cut-off
 };
 
@@ -271,6 +272,7 @@ class VANTAGE_API LegDistances {
  private:
   PreparedScene scene_;
   double cutoff_m_;
+  bool with_overhead_;
   std::vector<bool> is_left_out_;  // by object
 };
 

@@ -135,6 +135,11 @@ VANTAGE_API std::vector<Warning> volume_warnings(const VolumeFile& read, const M
 /// that. Throws Error(input) for a report that cannot be read.
 VANTAGE_API VerifyOptions verify_options(const VolumeFile& read, const Mission& mission);
 
+/// verify_volume for what a mission's volume claims: its target, or of each list of its views one. In the library
+/// with verify_volume.
+VANTAGE_API VerifyReport verify_volume(const Mission& mission, const Mesh& volume, const VerifyOptions& options = {},
+                                       const Progress& progress = {});
+
 // ---- proofs ----
 
 /// prove_volume for all that a mission's volume claims: each of several targets must be seen, and the certificate has

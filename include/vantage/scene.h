@@ -68,6 +68,12 @@ struct LedgerEntry {
   std::string without = {};    ///< what `scene.without` calls its kind; empty where that does not leave it out
 };
 
+/// A power line, cable car or pipeline overhead: upright facets from the ground to the height of its supports.
+struct OverheadLine {
+  SceneObject object;
+  Mesh mesh;  ///< scene frame
+};
+
 /// What is done about what a source says stands there and that cannot be built as it stands.
 enum class MissingPolicy : std::uint8_t {
   block,   ///< what has a place becomes a blocker that holds it
@@ -107,9 +113,9 @@ struct Scene {
   /// file does not say.
   std::optional<double> rounding_m;
 
-  /// Under power lines, cable cars and pipelines overhead: upright facets from the ground to the height of their
-  /// supports. They hide nothing, but clearance is kept from them: obstacles_of.
-  Mesh overhead = {};
+  /// They hide nothing, but clearance is kept from them: obstacles_of, LegDistances. Files of scenes do not hold them:
+  /// the ledger there says so.
+  std::vector<OverheadLine> overhead = {};
 
   /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.
   std::vector<std::string> notes;

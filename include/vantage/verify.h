@@ -61,7 +61,7 @@ struct VerifyReport {
   std::uint64_t seed = 0;
   double lift_m = 0, rounding_m = 0;  ///< what was allowed: the largest lift of a part, as far as it is believed, and
                                       ///< the file's rounding
-  /// As in ProofReport; for those who have the mission: verify_volume leaves it empty.
+  /// As in ProofReport: verify_volume of a mission (vantage/result.h) tells it.
   std::string scene_incomplete = {};
 
   bool is_solid() const { return closed && oriented; }

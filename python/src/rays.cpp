@@ -5,7 +5,7 @@
 #include "calls.h"
 #include "common/json.h"
 #include "mission.h"
-#include "vantage/verify.h"
+#include "vantage/result.h"
 #include "volume.h"
 
 namespace vantage::python {
@@ -23,10 +23,7 @@ std::string verify(const PyMission& mission, const PyVolume& volume, std::size_t
   options.lift_m = volume->lift_m;
   options.rounding_m = volume.rounding_m;
   return computed(std::move(progress), threads, [&](const Progress& told) {
-    const Mission& m = *mission;
-    return json_text(m.views.empty()
-                         ? verify_volume(m.scene(), m.target, m.sensor, m.navigation, volume->mesh, options, told)
-                         : verify_volume(m.scene(), m.views, m.sensor, m.navigation, volume->mesh, options, told));
+    return json_text(verify_volume(*mission, volume->mesh, options, told));
   });
 }
 

@@ -14,6 +14,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "common/json.h"
+#include "common/ledger.h"
 #include "places.h"
 #include "vantage/earth.h"
 #include "vantage/geometry.h"
@@ -80,7 +81,7 @@ std::vector<LedgerEntry> ledger_of(const std::vector<LedgerRow>& rows) {
 /// As ledger_of takes them.
 std::vector<LedgerRow> ledger_rows(const PyScene& scene) {
   std::vector<LedgerRow> rows;
-  for (const LedgerEntry& entry : scene.scene().ledger) {
+  for (const LedgerEntry& entry : written_ledger(scene.scene())) {
     std::optional<std::array<double, 6>> box;
     if (entry.box) {
       const auto& [min, max] = *entry.box;

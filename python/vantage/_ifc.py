@@ -361,6 +361,8 @@ def _with_boxes(ledger: list[Missing], corners: Numbers, object_of: npt.NDArray[
     result = []
     for missing in ledger:
         of = [i for i, one in enumerate(objects) if one.source_id and one.source_id == missing.object.source_id]
+        if missing.stand_in is not None:
+            of = [missing.stand_in]
         own = corners[np.isin(object_of, of)].reshape(-1, 3)
         result.append(missing._replace(box=[*own.min(axis=0).tolist(), *own.max(axis=0).tolist()]) if len(own) else missing)
     return result

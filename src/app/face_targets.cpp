@@ -13,11 +13,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "app/ledger.h"
 #include "app/named_objects.h"
 #include "app/scene_lookups.h"
 #include "app/target_section.h"
 #include "common/input.h"
+#include "common/ledger.h"
 #include "core/text.h"
 #include "vantage/error.h"
 #include "vantage/target.h"

@@ -88,8 +88,9 @@ void find_obstacles(Mission& mission) {
     ground.push_back(named_object(scene, source->object, mission.as_written.places.above_ground));
   }
   clearance->obstacles = obstacles_of(scene, ground);
-  const bool is_all =
-      clearance->obstacles->triangles.size() == scene.mesh.triangles.size() + scene.overhead.triangles.size();
+  std::size_t all = scene.mesh.triangles.size();
+  for (const OverheadLine& line : scene.overhead) all += line.mesh.triangles.size();
+  const bool is_all = clearance->obstacles->triangles.size() == all;
   const bool has_flat_ground = mission.loaded->city.has_value();
   if (!is_all || has_flat_ground) return;
   mission.notes.push_back({WarningCode::clearance_from_all,

@@ -34,9 +34,7 @@ Json record_json(const CityRecord& record) {
 }
 
 void add_city(Json& json, const CityReport& report) {
-  std::map<std::string, std::size_t> kinds;
-  for (const CityRecord& record : report.records) ++kinds[name_of(record.object.kind)];
-  json["kinds"] = kinds;
+  json["kinds"] = kinds_of(report);
   json["outside"] = report.outside;
   json["map_bounds_deg"] = report.bounds_deg;  // west, south, east, north
   json["seconds"] = {{"read", report.read_seconds}, {"build", report.build_seconds}};
@@ -266,6 +264,12 @@ std::string json_text(std::string_view text) {
 
 std::string json_text(const std::vector<std::string>& texts) {
   return internal::core::escaped_json(Json(texts).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::map<std::string, std::size_t> kinds_of(const CityReport& report) {
+  std::map<std::string, std::size_t> kinds;
+  for (const CityRecord& record : report.records) ++kinds[name_of(record.object.kind)];
+  return kinds;
 }
 
 std::string json_text(const std::vector<LedgerEntry>& ledger) { return dumped(ledger_json(ledger), 2); }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/ledger.h"
 #include "core/format.h"
 
 namespace vantage::internal::app {
@@ -58,19 +59,21 @@ struct Near {
   const LedgerEntry* entry = nullptr;
   double distance_m = 0;  ///< of a place that is not known 0
 
-  auto badness() const { return std::tuple(entry->stand_in.has_value(), !entry->may_be_larger, distance_m); }
+  bool is_worse_than(const Near& other) const {
+    return std::tuple(badness(*entry), distance_m) < std::tuple(badness(*other.entry), other.distance_m);
+  }
 };
 
-}  // namespace
-
-std::string ledger_text(const LedgerEntry& entry) {
-  std::string text = display_name(entry.object);
-  if (!entry.what.empty() && entry.what != text) text += text.empty() ? entry.what : " (" + entry.what + ")";
-  text += ": " + entry.reason;
-  text += entry.stand_in ? "; stands in: " + entry.instead : "; nothing stands in";
-  if (entry.may_be_larger) text += ", it may be larger";
-  return text;
+/// Of UTF-8, whose characters begin with no byte 10xxxxxx.
+std::string cut(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+  return text.substr(0, end) + "...";
 }
+
+}  // namespace
 
 std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach> reaches, std::vector<Box> paths,
                                           const std::string& path, const core::ProgressReporter& progress) {
@@ -91,7 +94,7 @@ std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach>
   const auto held = static_cast<std::size_t>(
       std::count_if(near.begin(), near.end(), [](const Near& one) { return one.entry->stand_in.has_value(); }));
   const Near& worst = *std::min_element(near.begin(), near.end(),
-                                        [](const Near& a, const Near& b) { return a.badness() < b.badness(); });
+                                        [](const Near& a, const Near& b) { return a.is_worse_than(b); });
   double least = kNowhere;
   for (const Near& one : near) least = std::min(least, one.distance_m);
   std::string text = near.size() == 1 ? "1 thing within reach is not built as the scene's file has it"
@@ -107,3 +110,18 @@ std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach>
 }
 
 }  // namespace vantage::internal::app
+
+namespace vantage {
+
+std::string ledger_text(const LedgerEntry& entry) {
+  using internal::app::cut;
+  std::string text = cut(display_name(entry.object));
+  if (!entry.what.empty() && entry.what != text) text += text.empty() ? cut(entry.what) : " (" + cut(entry.what) + ")";
+  if (text.empty()) text = "an unnamed thing";
+  if (!entry.reason.empty()) text += ": " + cut(entry.reason);
+  text += entry.stand_in ? "; stands in: " + cut(entry.instead) : "; nothing stands in";
+  if (entry.may_be_larger) text += ", it may be larger";
+  return text;
+}
+
+}  // namespace vantage

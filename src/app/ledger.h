@@ -10,9 +10,6 @@
 
 namespace vantage::internal::app {
 
-/// "relation/3576201 Oyo Hotel (building=hotel): its ring is open at 7.41, 1.11; stands in: its outline, 12 m high".
-std::string ledger_text(const LedgerEntry& entry);
-
 /// Where what stands counts: within a distance of boxes. Neighbours in the list are neighbours in space, as a rule.
 struct Reach {
   std::vector<Box> boxes;

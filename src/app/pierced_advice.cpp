@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
-#include "app/ledger.h"
 #include "app/named_objects.h"
 #include "app/scene_warnings.h"
 #include "common/input.h"
+#include "common/ledger.h"
 #include "core/format.h"
 #include "geo/on_globe.h"
 

@@ -153,7 +153,8 @@ Shortfall of(const Mission& mission, const std::vector<Vec2>& points) {
   return loaded.raster || has_ground ? of_surface(loaded, points) : Shortfall{};
 }
 
-/// Of the scene's ledger, within range of the targets: what hides too little, or stands in for what is not known.
+/// Of the scene's ledger, what hides too little, or stands in for what is not known, or must be kept away from: within
+/// range of the targets and, of positions there, within the clearance.
 std::optional<Warning> incomplete(const Mission& mission, const Volume* volume) {
   std::vector<Box> targets;
   for (const std::vector<Target>& view : internal::app::views_of(mission)) {
@@ -163,8 +164,10 @@ std::optional<Warning> incomplete(const Mission& mission, const Volume* volume) 
   }
   Box lines = volume != nullptr ? bounding_box(volume->mesh) : Box{};
   for (const Box& corner : targets) lines.extend(corner);
-  return internal::app::incomplete_warning(mission.scene(), {{std::move(targets), range_limit_m(mission.sensor)}},
-                                           {lines}, "the sight lines");
+  const auto& clearance = mission.navigation.clearance;
+  const double within_m = range_limit_m(mission.sensor) + (clearance ? clearance->distance_m : 0);
+  return internal::app::incomplete_warning(mission.scene(), {{std::move(targets), within_m}}, {lines},
+                                           "the sight lines");
 }
 
 /// Round each leg of a flight, and its end.

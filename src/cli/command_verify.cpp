@@ -151,14 +151,7 @@ int run_verify(const VerifyArguments& options) {
   verify_options.seed = options.seed;
   if (options.lift_m >= 0) verify_options.lift_m.assign(verify_options.lift_m.size(), options.lift_m);
   const Proof proof = prove_first(judged, verify_options, progress.callback());
-  const Scene& scene = mission.scene();
-  VerifyReport report = mission.views.empty() ? verify_volume(scene, mission.target, mission.sensor, mission.navigation,
-                                                              read.volume.mesh, verify_options, progress.callback())
-                                              : verify_volume(scene, mission.views, mission.sensor, mission.navigation,
-                                                              read.volume.mesh, verify_options, progress.callback());
-  for (const Warning& warning : mission_warnings(mission)) {
-    if (warning.code == WarningCode::scene_incomplete) report.scene_incomplete = warning.text;
-  }
+  const VerifyReport report = verify_volume(mission, read.volume.mesh, verify_options, progress.callback());
   if (options.json) {
     print(json_text(report, proof.report ? &*proof.report : nullptr));
   } else if (!options.common.quiet) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "cli/text_table.h"
+#include "common/json.h"
+#include "common/ledger.h"
 
 namespace vantage::cli {
 namespace {
@@ -28,9 +30,8 @@ void add_city(TextTable& table, const CityReport& report) {
   table.row("the map holds", "latitude " + fixed(south, 5) + " to " + fixed(north, 5), "");
   table.row("", "longitude " + fixed(west, 5) + " to " + fixed(east, 5), west > east ? "across the antimeridian" : "");
   table.heading("what is built");
-  std::map<std::string, std::size_t> kinds, passed_over;
-  for (const CityRecord& record : report.records) ++kinds[name_of(record.object.kind)];
-  for (const auto& [kind, number] : kinds) table.row(kind, count(number), "");
+  std::map<std::string, std::size_t> passed_over;
+  for (const auto& [kind, number] : kinds_of(report)) table.row(kind, count(number), "");
   for (const CityPassedOver& one : report.passed_over) ++passed_over[one.reason];
   for (const auto& [reason, number] : passed_over) table.row("passed over", count(number), reason);
   if (report.outside > 0) table.row("outside the area", count(report.outside), "left out");
@@ -66,12 +67,7 @@ void add_source(TextTable& table, const LoadedScene& loaded) {
 void add_ledger(TextTable& table, const Scene& scene) {
   if (scene.ledger.empty()) return;
   table.heading("what is not built as the file has it (" + count(scene.ledger.size()) + ")");
-  for (const LedgerEntry& entry : scene.ledger) {
-    table.heading("  " + display_name(entry.object) + (entry.what.empty() ? "" : " (" + entry.what + ")") + ": " +
-                  entry.reason);
-    table.heading("    " + (entry.stand_in ? "stands in: " + entry.instead : std::string("nothing stands in")) +
-                  (entry.may_be_larger ? "; it may be larger" : ""));
-  }
+  for (const LedgerEntry& entry : scene.ledger) table.heading("  " + ledger_text(entry));
 }
 
 std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file,

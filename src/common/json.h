@@ -2,6 +2,7 @@
 // Names are bytes from files, and JSON takes UTF-8 only: bytes that are not are replaced.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,8 @@ VANTAGE_API std::string json_text(const std::vector<std::string>& texts);
 
 /// A scene as it was read or built: of a map with a record for each object.
 VANTAGE_API std::string json_text(const LoadedScene& loaded);
+/// How many objects of each kind are built.
+VANTAGE_API std::map<std::string, std::size_t> kinds_of(const CityReport& report);
 /// The entries as a list.
 VANTAGE_API std::string json_text(const std::vector<LedgerEntry>& ledger);
 

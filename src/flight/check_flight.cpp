@@ -17,6 +17,7 @@
 #include "flight/check_gimbal.h"
 #include "flight/check_links.h"
 #include "flight/flight_timeline.h"
+#include "flight/obstacles.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/query.h"
@@ -298,22 +299,6 @@ std::vector<BrokenLimit> broken_limits(const std::vector<OnLeg>& legs, const Fli
   return result;
 }
 
-/// All but the scene's ground, and the object that the mission calls so.
-LegDistanceOptions but_for_the_ground(const Mission& mission) {
-  LegDistanceOptions options;
-  options.without_ground = true;
-  if (!mission.as_written.ground) return options;
-  const std::string& ground = mission.as_written.ground->object;
-  const std::vector<SceneObject>& objects = mission.scene().objects;
-  for (std::uint32_t i = 0; i < objects.size() && !ground.empty(); ++i) {
-    const SceneObject& object = objects[i];
-    if (display_name(object) == ground || object.name == ground || object.source_id == ground) {
-      options.without_objects.push_back(i);
-    }
-  }
-  return options;
-}
-
 NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene, const FlightTimeline& along,
                          double radius_m, const Progress& progress) {
   const std::vector<LegDistance> distances = scene.nearest(legs, progress);
@@ -445,8 +430,8 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
     check.links.push_back(judges.links[i].check(views, legs, along, check.tube_radius_m));
   }
   check.broken = broken_limits(found, along);
-  check.nearest =
-      nearest_pass(legs, LegDistances(scene, but_for_the_ground(mission)), along, check.tube_radius_m, progress);
+  const LegDistances distances(scene, {.without_ground = true, .without_objects = flight::named_ground(mission)});
+  check.nearest = nearest_pass(legs, distances, along, check.tube_radius_m, progress);
   check.failures = failures_of(check, options);
   check.not_judged = flight.not_judged;
   for (const Warning& note : mission.notes) check.notes.push_back(note.text);

@@ -1,62 +1,39 @@
 #include "flight/obstacles.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <utility>
 
-#include "vantage/scene.h"
+#include "scene/obstacles.h"
 
 namespace vantage::internal::flight {
-namespace {
 
-bool is_ground(const SceneObject& object, const std::string& named) {
-  if (object.kind == ObjectKind::ground) return true;
-  return !named.empty() && (object.name == named || object.source_id == named || display_name(object) == named);
-}
-
-/// The triangles that count, moved by -origin, and their objects.
-std::pair<Mesh, std::vector<std::uint32_t>> obstacles_in(const Mission& mission, const Vec3& origin) {
-  const Scene& scene = mission.scene();
-  const std::string named = mission.as_written.ground ? mission.as_written.ground->object : "";
-  std::vector<bool> counts(scene.objects.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = !is_ground(scene.objects[i], named);
-  const auto is_counted = [&](std::uint32_t object) { return counts[object]; };
-  const bool has_any = std::any_of(scene.object_of.begin(), scene.object_of.end(), is_counted);
-
-  std::pair<Mesh, std::vector<std::uint32_t>> result;
-  result.first.vertices.reserve(scene.mesh.vertices.size());
-  for (const Vec3& vertex : scene.mesh.vertices) result.first.vertices.push_back(vertex - origin);
-  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (has_any && !is_counted(scene.object_of[t])) continue;
-    result.first.triangles.push_back(scene.mesh.triangles[t]);
-    result.second.push_back(scene.object_of[t]);
+std::vector<std::uint32_t> named_ground(const Mission& mission) {
+  std::vector<std::uint32_t> ground;
+  if (!mission.as_written.ground || mission.as_written.ground->object.empty()) return ground;
+  const std::string& name = mission.as_written.ground->object;
+  const std::vector<SceneObject>& objects = mission.scene().objects;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    const SceneObject& object = objects[i];
+    if (object.name == name || object.source_id == name || display_name(object) == name) ground.push_back(i);
   }
-  return result;
+  return ground;
 }
 
-Vec3 middle_of(const Mesh& mesh) {
-  if (mesh.empty()) return Vec3::Zero();
-  const Box box = bounding_box(mesh);
-  return (box.min + box.max) / 2;
-}
+Obstacles::Obstacles(const Mission& mission) : Obstacles(mission.scene(), named_ground(mission)) {}
 
-std::vector<std::string> names_in(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const SceneObject& object : scene.objects) names.push_back(display_name(object));
-  return names;
-}
-
-}  // namespace
-
-Obstacles::Obstacles(const Mission& mission)
-    : origin_(middle_of(mission.scene().mesh)),
-      names_(names_in(mission.scene())),
-      mesh_([&] {
-        auto [mesh, objects] = obstacles_in(mission, origin_);
-        object_of_ = std::move(objects);
-        return std::move(mesh);
+Obstacles::Obstacles(const Scene& scene, const std::vector<std::uint32_t>& ground)
+    : mesh_([&] {
+        scene::Obstacles found = scene::obstacles_in(scene, ground);
+        object_of_ = std::move(found.object_of);
+        if (scene.mesh.empty()) return std::move(found.mesh);
+        const Box box = bounding_box(scene.mesh);
+        origin_ = (box.min + box.max) / 2;
+        for (Vec3& vertex : found.mesh.vertices) vertex -= origin_;
+        return std::move(found.mesh);
       }()),
-      tree_(mesh_) {}
+      tree_(mesh_) {
+  for (const SceneObject& object : scene.objects) names_.push_back(display_name(object));
+  for (const OverheadLine& line : scene.overhead) names_.push_back(display_name(line.object));
+}
 
 Obstacles::Nearest Obstacles::nearest(const Vec3& point) const {
   const core::TriangleTree::Nearest found = tree_.nearest(point - origin_);

@@ -1,4 +1,4 @@
-// The scene without its ground: how far it is, and what of it is nearest.
+// The scene without its ground, and with what hangs over it: how far it is, and what of it is nearest.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,9 @@
 #include "vantage/mission.h"
 
 namespace vantage::internal::flight {
+
+/// The objects that the mission calls its ground.
+std::vector<std::uint32_t> named_ground(const Mission& mission);
 
 class Obstacles {
  public:
@@ -28,9 +31,11 @@ class Obstacles {
   Nearest nearest(const Vec3& point) const;
 
  private:
+  Obstacles(const Scene& scene, const std::vector<std::uint32_t>& ground);
+
   Vec3 origin_ = Vec3::Zero();
   std::vector<std::uint32_t> object_of_;
-  std::vector<std::string> names_;  ///< of all objects
+  std::vector<std::string> names_;  ///< of all objects, and of what is overhead
   Mesh mesh_;
   core::TriangleTree tree_;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/input.h"
 #include "core/format.h"
 #include "geo/local_frame.h"
 #include "io/cityjson_document.h"
@@ -137,9 +138,11 @@ class CityJsonReader {
     const bool has_geometry = geometry != object.end() && !geometry->is_null();
     if (has_geometry && !geometry->is_array()) trail_.fail("\"geometry\" is not an array");
     if (!has_geometry || geometry->empty()) {
-      if (has_child_among(objects, object)) return;
+      if (parts_stand_for_it(id, object, objects)) return;
       empty_.add(id);
-      tell_missing(id, object, {}, "it has neither surfaces nor parts");
+      tell_missing(id, object, {},
+                   object.contains("children") ? "it has no surfaces, and its parts are not all there, or have none"
+                                               : "it has neither surfaces nor parts");
       return;
     }
     std::vector<std::pair<std::size_t, double>> candidates;  // which of them hold surfaces, and their levels
@@ -157,13 +160,17 @@ class CityJsonReader {
       return;
     }
     found_lods_.insert(levels.begin(), levels.end());
-    const double chosen = choose_lod(levels, asked_);
+    const double wanted = choose_lod(levels, asked_);
+    double chosen = wanted;
 
     const std::size_t before = builder_.triangle_count();
     builder_.identify_object(builder_.add_object(id), identity_of(id, object));
-    for (const auto& [i, lod] : candidates) {
-      const Trail::Step step(trail_, "geometry", i);
-      if (lod == chosen) read_geometry((*geometry)[i], vertices);
+    for (; builder_.triangle_count() == before && !levels.empty(); std::erase(levels, chosen)) {
+      chosen = choose_lod(levels, asked_);
+      for (const auto& [i, lod] : candidates) {
+        const Trail::Step step(trail_, "geometry", i);
+        if (lod == chosen) read_geometry((*geometry)[i], vertices);
+      }
     }
     if (builder_.triangle_count() == before) {
       empty_.add(id);
@@ -175,30 +182,60 @@ class CityJsonReader {
       progress_.tick();
       for (const std::uint32_t corner : builder_.triangle(i)) box.extend(builder_.vertex(corner));
     }
-    if (asked_ && !meets_lod(chosen, *asked_)) {
+    if (chosen != wanted) {
+      own_faults_.push_back({id, "geometry of LoD " + lod_text(wanted), "its surfaces have no extent",
+                             "its geometry of LoD " + lod_text(chosen), box});
+    }
+    if (asked_ && !meets_lod(wanted, *asked_)) {
       other_lod_.add(id);
       own_faults_.push_back(
           {id, "geometry of LoD " + lod_text(*asked_), "it has none", "its geometry of LoD " + lod_text(chosen), box});
     }
-    if (chosen >= 0 && chosen < 1) tell_footprint(id, object, before, box);
+    if (chosen < 0 || chosen >= 1 || parts_stand_for_it(id, object, objects)) return;
+    tell_footprint(id, object, before, box, chosen > 0);
   }
 
-  /// Whether what an object consists of is in the file.
-  static bool has_child_among(const Json& objects, const Json& object) {
+  /// Whether all of what an object consists of is in the file, and some of it is no mere fitting, and has a body.
+  static bool parts_stand_for_it(const std::string& id, const Json& object, const Json& objects) {
     const auto children = object.find("children");
     if (children == object.end() || !children->is_array()) return false;
-    return std::any_of(children->begin(), children->end(), [&](const Json& child) {
-      return child.is_string() && objects.contains(child.get_ref<const std::string&>());
-    });
+    bool has_body = false;
+    for (const Json& child : *children) {
+      const auto part = child.is_string() ? objects.find(child.get_ref<const std::string&>()) : objects.end();
+      if (part == objects.end() || child == Json(id) || !part->is_object()) return false;
+      has_body |= is_part(text_in(*part, "type"), text_in(object, "type")) && has_body_of_its_own(*part);
+    }
+    return has_body;
   }
 
-  /// "measuredHeight", in metres.
+  static std::string_view text_in(const Json& object, const char* key) {
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return found != object.end() && found->is_string() ? found->get_ref<const std::string&>() : std::string_view();
+  }
+
+  /// Installations and furniture are in or on a thing and not what it consists of. A group has members of all types.
+  static bool is_part(std::string_view type, std::string_view whole) {
+    return whole == "CityObjectGroup" || type.ends_with("Part") || type.ends_with("ConstructiveElement");
+  }
+
+  static bool has_body_of_its_own(const Json& object) {
+    const auto geometry = object.find("geometry");
+    return geometry != object.end() && geometry->is_array() &&
+           std::any_of(geometry->begin(), geometry->end(), [](const Json& one) {
+             const auto boundaries = one.is_object() ? one.find("boundaries") : one.end();
+             const std::string_view type = text_in(one, "type");
+             return (find_type(type) || type == "GeometryInstance") && boundaries != one.end() && !boundaries->empty();
+           });
+  }
+
+  /// "measuredHeight", in metres: also where it is a text.
   static std::optional<double> height_of(const Json& object) {
     const auto attributes = object.find("attributes");
     if (attributes == object.end() || !attributes->is_object()) return std::nullopt;
     const auto height = attributes->find("measuredHeight");
-    if (height == attributes->end() || !height->is_number()) return std::nullopt;
-    const double metres = height->get<double>();
+    if (height == attributes->end()) return std::nullopt;
+    double metres = height->is_number() ? height->get<double>() : 0;
+    if (height->is_string()) metres = parse_length(height->get_ref<const std::string&>()).value;
     return metres > 0 && metres < core::kMaxCoordinate ? std::optional(metres) : std::nullopt;
   }
 
@@ -281,8 +318,9 @@ class CityJsonReader {
     return std::find(kFlat.begin(), kFlat.end(), type) != kFlat.end();
   }
 
-  /// An object of which the file has only the footprint: raised to its height, where that is stated.
-  void tell_footprint(const std::string& id, const Json& object, std::size_t first, Box box) {
+  /// An object of which the file has only the footprint: raised to its height, where that is stated. Above LoD 0 it may
+  /// be the edge of the roof, so that the body is below.
+  void tell_footprint(const std::string& id, const Json& object, std::size_t first, Box box, bool may_be_roof) {
     LedgerEntry entry = entry_of(id, object, "the file has only its footprint (LoD 0)");
     if (!entry.height_m && is_flat(entry.what)) return;
     if (!entry.height_m) {
@@ -292,12 +330,16 @@ class CityJsonReader {
       return;
     }
     const double height = *entry.height_m / unit_m();
+    double foot = may_be_roof ? -height : 0;
+    if (const Box extent = extent_of(object); !extent.empty()) {
+      foot = height > 0 ? std::min(0.0, extent.min.z() - box.min.z()) : std::max(0.0, extent.max.z() - box.max.z());
+    }
     Missing missing{std::move(entry), {}};
     auto& [vertices, triangles] = missing.holder;
     for (std::size_t i = first; i < builder_.triangle_count(); ++i) {
       progress_.tick();
       const auto at = static_cast<std::uint32_t>(vertices.size());
-      for (const double up : {0.0, height}) {
+      for (const double up : {foot, height}) {
         for (const std::uint32_t corner : builder_.triangle(i)) {
           vertices.push_back(builder_.vertex(corner) + Vec3(0, 0, up));
         }
@@ -311,6 +353,7 @@ class CityJsonReader {
       }
     }
     (height > 0 ? box.max : box.min).z() += height;
+    (height > 0 ? box.min : box.max).z() += foot;
     missing.entry.box = box;
     missing.entry.instead = core::format("its footprint, {:.4g} m high", *missing.entry.height_m);
     ledger_.push_back(std::move(missing));
@@ -354,12 +397,10 @@ class CityJsonReader {
 
   static SceneObject identity_of(const std::string& id, const Json& object) {
     SceneObject identity{"", id, ObjectKind::other};
-    const auto type = object.find("type");
-    if (type != object.end() && type->is_string()) identity.kind = kind_of(type->get_ref<const std::string&>());
+    identity.kind = kind_of(text_in(object, "type"));
     const auto attributes = object.find("attributes");
     if (attributes == object.end() || !attributes->is_object()) return identity;
-    const auto name = attributes->find("name");
-    if (name != attributes->end() && name->is_string() && *name != id) identity.name = name->get<std::string>();
+    if (text_in(*attributes, "name") != id) identity.name = text_in(*attributes, "name");
     return identity;
   }
 

@@ -318,12 +318,15 @@ class GltfReader {
     return visibility && visibility->value("visible", Json(true)) == Json(false);
   }
 
-  /// The "extras" of the default scene and, as others may move them there, of the asset.
+  /// The "extras" of the default scene and, as others may move them there, of other scenes and the asset.
   std::vector<const Json*> extras() const {
     const Json& root = document_.root();
     const Json& scenes = document_.array(root, "scenes");
     std::vector<const Json*> holders, extras;
     if (!scenes.empty()) holders.push_back(&document_.item("scenes", document_.whole(root, "scene").value_or(0)));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      if (const Json* const scene = &document_.item("scenes", i); scene != holders.front()) holders.push_back(scene);
+    }
     if (const auto asset = root.find("asset"); asset != root.end()) holders.push_back(&*asset);
     for (const Json* holder : holders) {
       if (const auto found = holder->find("extras"); found != holder->end()) extras.push_back(&*found);
@@ -331,23 +334,53 @@ class GltfReader {
     return extras;
   }
 
-  /// The ledger that vantage wrote: of the scene, z up.
+  /// Where nodes stand that vantage wrote at the root, moved alone: other programs put one node about all of them.
+  /// Nothing where they were changed in another way.
+  std::optional<Eigen::Affine3d> moved_by_others() const {
+    Eigen::Affine3d moved = Eigen::Affine3d::Identity();
+    std::vector<std::uint64_t> nodes = root_nodes();
+    while (nodes.size() == 1) {
+      const Json& about = document_.item("nodes", nodes.front());
+      const Json& children = document_.array(about, "children");
+      if (children.empty()) break;
+      moved = moved * local_transform(document_, about);
+      nodes.clear();
+      for (const Json& child : children) nodes.push_back(document_.as_whole(child, "children"));
+    }
+    for (const std::uint64_t i : nodes) {
+      const Json& node = document_.item("nodes", i);
+      const bool is_moved_alone = local_transform(document_, node).linear().isIdentity(0);
+      if (!is_moved_alone || !document_.array(node, "children").empty()) return std::nullopt;
+    }
+    return moved;
+  }
+
+  /// The ledgers that vantage wrote: of the scene, z up.
   std::vector<Missing> stated_ledger() const {
+    std::vector<Missing> ledger;
     try {
       for (const Json* extras : extras()) {
-        std::vector<Missing> ledger = ledger_in(*extras);
-        for (Missing& missing : ledger) {
-          if (const auto& box = missing.entry.box) {
-            missing.entry.box =
-                Box{Vec3(box->min.x(), box->min.z(), -box->max.y()), Vec3(box->max.x(), box->max.z(), -box->min.y())};
-          }
-        }
-        if (!ledger.empty()) return ledger;
+        for (Missing& missing : ledger_in(*extras)) ledger.push_back(std::move(missing));
       }
-      return {};
     } catch (const LedgerProblem& problem) {
       document_.fail(problem.text);
     }
+    if (ledger.empty()) return ledger;
+    const auto moved = moved_by_others();
+    const bool is_as_written = moved && moved->isApprox(Eigen::Affine3d::Identity(), 0);
+    for (auto& [entry, holder, is_stated] : ledger) {
+      if (!is_as_written) entry.outlines.clear();
+      if (!entry.box) continue;
+      const Vec3 low = entry.box->min, high = entry.box->max;
+      entry.box = Box{Vec3(low.x(), low.z(), -high.y()), Vec3(high.x(), high.z(), -low.y())};
+      if (is_as_written) continue;
+      Box box;
+      for (const Vec3& corner : box_mesh(*entry.box).vertices) box.extend(moved ? *moved * corner : corner);
+      const bool is_place = moved && box.min.allFinite() && box.max.allFinite();
+      entry.box = is_place ? std::optional(box) : std::nullopt;
+      if (!is_place) entry.stand_in.reset();
+    }
+    return ledger;
   }
 
   std::optional<Georeference> georeference() const {

@@ -22,6 +22,9 @@ struct Missing {
   LedgerEntry entry;  ///< its box and outlines are in the file's axes, until to_scene_frame has moved them
   /// What holds its place under MissingPolicy::block; empty where nothing can. `entry.instead` says what it is.
   Mesh holder = {};
+  /// Of the ledger that the file states: where it is, and what holds its place, is believed as far as the mesh bears it
+  /// out, since other programs may have changed that.
+  bool is_stated = false;
 };
 
 /// A mesh as its file describes it: in the file's unit and axes, polygons cut into triangles. All indices are in range,
@@ -54,6 +57,6 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const core::ProgressRe
 /// cannot be moved are dropped, their entries are not. Throws Error(input) if a coordinate is then beyond
 /// kMaxCoordinate, and for places as read_scene does.
 void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file,
-                    const core::ProgressReporter& progress = {});
+                    const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::io

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "common/input.h"
+#include "common/ledger.h"
 #include "core/read_limits.h"
 #include "core/text.h"
+#include "io/json_text.h"
 #include "io/mesh_builder.h"
 #include "io/text_cursor.h"
 #include "vantage/error.h"
@@ -160,6 +162,7 @@ std::uint32_t parse_stand_in(const LedgerJson& written) {
 Missing parse_entry(const LedgerJson& written) {
   if (!written.is_object()) fail_entry("it is no JSON object");
   Missing missing;
+  missing.is_stated = true;
   LedgerEntry& entry = missing.entry;
   if (const auto object = written.find("object"); object != written.end()) {
     const auto parsed = parse_object(*object);
@@ -223,20 +226,57 @@ Missing held_by_box(LedgerEntry entry, const Box& box) {
   return {std::move(entry), box_mesh(box)};
 }
 
+namespace {
+
+/// Whether the object may be what holds the place, by who it is. A file that does not tell objects apart has one.
+bool may_hold(const RawMesh& mesh, std::uint32_t object, const LedgerEntry& entry) {
+  if (object >= mesh.objects.size()) return false;
+  const SceneObject& holder = mesh.objects[object];
+  const bool is_terrain = holder.kind == ObjectKind::ground || holder.kind == ObjectKind::surface;
+  return mesh.objects.size() == 1 || holder.kind == ObjectKind::stand_in ||
+         (is_terrain && holder.kind == entry.object.kind) || display_name(holder) == display_name(entry.object);
+}
+
+double distance(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm(); }
+
+/// Whether `box`, which meets the holder's, does not reach out of that but for the rounding of files and the turn from
+/// one origin to another. Where heights are not known it may: posts of a raster lie in the midst of their places.
+bool covers(const Box& holder, const Box& box) {
+  constexpr double kOfSize = 0.01, kOfPlace = 1e-6, kLeastM = 1e-3;
+  if (!box.min.allFinite() || !box.max.allFinite()) return distance(holder, box) == 0;
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  const double allowed = kOfSize * (box.max - box.min).norm() + kOfPlace * largest + kLeastM;
+  return ((holder.min - box.min).array() <= allowed).all() && ((box.max - holder.max).array() <= allowed).all();
+}
+
+/// `boxes`: of the objects; `built`: of all of them.
+void bear_out(const RawMesh& mesh, const std::vector<Box>& boxes, const Box& built, LedgerEntry& entry) {
+  const Box* holder = entry.stand_in && may_hold(mesh, *entry.stand_in, entry) ? &boxes[*entry.stand_in] : nullptr;
+  const bool is_lost = entry.box && (distance(*entry.box, built) > kTooFarM ||
+                                     (holder && distance(*entry.box, *holder) > 0 && !covers(*holder, *entry.box)));
+  const bool is_held = holder && !is_lost && (!entry.box || covers(*holder, *entry.box));
+  if (is_lost) entry.box.reset();
+  if (is_lost) entry.outlines.clear();
+  if (is_held) return;
+  if (entry.stand_in) entry.reason += "; what held its place is not there any more";
+  entry.stand_in.reset();
+  entry.instead.clear();
+}
+
+}  // namespace
+
 void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file,
                   const core::ProgressReporter& progress) {
-  Box built;
-  for (const Triangle& triangle : mesh.triangles) {
+  std::vector<Box> boxes(mesh.objects.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     progress.tick();
-    for (const std::uint32_t vertex : triangle) built.extend(mesh.vertices[vertex]);
+    for (const std::uint32_t vertex : mesh.triangles[t]) boxes[mesh.object_of[t]].extend(mesh.vertices[vertex]);
   }
-  const std::size_t objects = mesh.objects.size();
+  Box built;
+  for (const Box& box : boxes) built.extend(box);
   for (Missing& missing : mesh.ledger) {
-    if (missing.entry.stand_in) {  // as the file has it
-      if (*missing.entry.stand_in >= objects) missing.entry.stand_in.reset();
-      if (!missing.entry.stand_in) missing.entry.instead.clear();
-      continue;
-    }
+    if (missing.is_stated) bear_out(mesh, boxes, built, missing.entry);
+    if (missing.is_stated || missing.entry.stand_in) continue;
     const Mesh holder = std::exchange(missing.holder, {});
     const bool is_near = std::all_of(holder.vertices.begin(), holder.vertices.end(), [&](const Vec3& vertex) {
       progress.tick();
@@ -280,39 +320,46 @@ void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string
               "mend the source ('vantage inspect' lists all), or let stand-ins hold their place with 'missing: block'");
 }
 
-std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  if (!(entry.object == SceneObject{})) json["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
-  json["what"] = entry.what;
-  json["reason"] = entry.reason;
+namespace {
+
+/// {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line, in ASCII; what is empty is left out. The
+/// numbers read back exactly. `stand_in`: as the file counts.
+std::string entry_json(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in) {
+  nlohmann::ordered_json written = nlohmann::ordered_json::object();
+  if (!(entry.object == SceneObject{})) written["object"] = nlohmann::ordered_json::parse(object_text(entry.object));
+  written["what"] = entry.what;
+  written["reason"] = entry.reason;
   const auto is_readable = [](double number) { return std::abs(number) <= core::kMaxCoordinate; };
   const auto is_place = [&](const Vec3& corner) {
     return is_readable(corner.x()) && is_readable(corner.y()) && (std::isinf(corner.z()) || is_readable(corner.z()));
   };
   if (entry.box && is_place(entry.box->min) && is_place(entry.box->max)) {
-    json["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
+    written["box"] = {point_json(entry.box->min), point_json(entry.box->max)};
   }
-  if (!entry.outlines.empty()) json["outlines"] = entry.outlines;
-  if (entry.height_m && is_readable(*entry.height_m)) json["height_m"] = *entry.height_m;
-  if (stand_in) json["stand_in"] = *stand_in;
-  if (!entry.instead.empty()) json["instead"] = entry.instead;
-  if (entry.may_be_larger) json["may_be_larger"] = true;
-  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  if (!entry.outlines.empty()) written["outlines"] = entry.outlines;
+  if (entry.height_m && is_readable(*entry.height_m)) written["height_m"] = *entry.height_m;
+  if (stand_in) written["stand_in"] = *stand_in;
+  if (!entry.instead.empty()) written["instead"] = entry.instead;
+  if (entry.may_be_larger) written["may_be_larger"] = true;
+  return written.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
+
+}  // namespace
 
 std::vector<std::string> ledger_texts(const Scene& scene, FileObjects objects) {
   std::vector<std::string> texts;
-  if (scene.ledger.empty()) return texts;
+  const std::vector<LedgerEntry> ledger = written_ledger(scene);
+  if (ledger.empty()) return texts;
   std::vector<std::uint32_t> number(scene.objects.size(), 0);
   for (const std::uint32_t object : scene.object_of) number[object] = 1;
   std::uint32_t count = 0;
   for (std::uint32_t& one : number) one = one == 0 ? std::numeric_limits<std::uint32_t>::max() : count++;
-  for (const LedgerEntry& entry : scene.ledger) {
+  for (const LedgerEntry& entry : ledger) {
     std::optional<std::uint32_t> stand_in;
     if (entry.stand_in && *entry.stand_in < number.size() && number[*entry.stand_in] < count) {
       stand_in = objects == FileObjects::apart ? number[*entry.stand_in] : 0;
     }
-    texts.push_back(ledger_text(entry, stand_in));
+    texts.push_back(entry_json(entry, stand_in));
   }
   return texts;
 }
@@ -328,7 +375,11 @@ std::string ledger_comments(const Scene& scene, FileObjects objects, const char*
 void read_ledger_comment(std::string_view comment, std::vector<Missing>& known) {
   while (!comment.empty() && TextCursor::is_blank(comment.front())) comment.remove_prefix(1);
   if (!comment.starts_with(kLedgerMark)) return;
-  known.push_back(parse_entry(LedgerJson::parse(comment.substr(kLedgerMark.size()), nullptr, false)));
+  try {
+    known.push_back(parse_entry(parse_json(comment.substr(kLedgerMark.size()), {}, {})));
+  } catch (const JsonProblem& problem) {
+    fail_entry(problem.text);
+  }
 }
 
 std::vector<Missing> ledger_in(const nlohmann::json& object) {
@@ -344,3 +395,17 @@ std::vector<Missing> ledger_in(const nlohmann::json& object) {
 }
 
 }  // namespace vantage::internal::io
+
+namespace vantage {
+
+std::vector<LedgerEntry> written_ledger(const Scene& scene) {
+  std::vector<LedgerEntry> ledger = scene.ledger;
+  for (const OverheadLine& line : scene.overhead) {
+    LedgerEntry entry{line.object, "", "clearance is kept from it, and files of scenes do not hold lines overhead"};
+    if (!line.mesh.empty()) entry.box = bounding_box(line.mesh);
+    ledger.push_back(std::move(entry));
+  }
+  return ledger;
+}
+
+}  // namespace vantage

@@ -50,10 +50,12 @@ Mesh hexahedron(std::vector<Vec3> corners);
 Missing held_by_box(LedgerEntry entry, const Box& box);
 
 /// As `policy` says, of a mesh in the scene frame: the holders become objects of the kind stand_in, or what they would
-/// hold is held by nothing. One that lies more than 100 km from all triangles is not built: its numbers are wrong.
-/// Throws Error(scene_incomplete) for MissingPolicy::refuse where there is any entry.
+/// hold is held by nothing. One that lies more than 100 km from all triangles is not built: its numbers are wrong. Of a
+/// ledger that the file states such a place is none, nor is one that does not meet what holds it; and an object holds
+/// it that is a stand-in or goes by its name, and reaches round its box, or else nothing does. Throws
+/// Error(scene_incomplete) for MissingPolicy::refuse where there is any entry.
 void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file,
-                  const core::ProgressReporter& progress = {});
+                  const core::ProgressReporter& progress);
 
 /// Throws Error(scene_incomplete), naming how many and the first, where there is any entry.
 void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string& where);
@@ -62,11 +64,7 @@ void refuse_incomplete(const std::vector<LedgerEntry>& ledger, const std::string
 /// all of them are its only one.
 enum class FileObjects { apart, one };
 
-/// {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line, in ASCII; what is empty is left out. The
-/// numbers read back exactly. `stand_in`: as the file counts.
-std::string ledger_text(const LedgerEntry& entry, std::optional<std::uint32_t> stand_in);
-
-/// The entries of a scene, one text each.
+/// The entries of a scene, each {"object": {…}, "what": …, "reason": …, "box": [[…], […]], …} on one line.
 std::vector<std::string> ledger_texts(const Scene& scene, FileObjects objects);
 
 /// Lines for OBJ or the header of PLY: `start` ("# ", "comment ") and "vantage ledger: {…}".

@@ -44,7 +44,7 @@ std::string short_name(const std::string& name) {
 /// dropped.
 template <typename Move>
 void move_ledger(RawMesh& mesh, const Move& move, const core::ProgressReporter& progress) {
-  for (auto& [entry, holder] : mesh.ledger) {
+  for (auto& [entry, holder, is_stated] : mesh.ledger) {
     if (!entry.box) continue;
     Box box;
     try {
@@ -75,6 +75,7 @@ void move_ledger(RawMesh& mesh, const Move& move, const core::ProgressReporter& 
       entry.box.reset();
     }
     if (entry.box) continue;
+    if (is_stated) entry.stand_in.reset();
     entry.outlines.clear();
     holder = {};
   }

@@ -4,6 +4,7 @@
 
 #include "common/output.h"
 #include "io/georeference_text.h"
+#include "io/json_text.h"
 #include "io/object_text.h"
 #include "io/rounding_text.h"
 #include "vantage/error.h"
@@ -33,7 +34,7 @@ Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progr
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return {};
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_file_bytes(file, progress), nullptr, false);
+    const nlohmann::json json = parse_json(read_file_bytes(file, progress), progress, {});
     const auto place = georeference_in(json);
     if (!place) throw GeoreferenceProblem{"the file holds no georeference of vantage"};
     Sidecar content;
@@ -41,6 +42,8 @@ Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progr
     content.rounding_m = rounding_in(json);
     content.ledger = ledger_in(json);
     return content;
+  } catch (const JsonProblem& problem) {
+    throw Error(ErrorCode::record_garbled, problem.text, file.string(), "correct or remove the file");
   } catch (const LedgerProblem& problem) {
     throw Error(ErrorCode::record_garbled, problem.text, file.string(), "correct or remove the file");
   } catch (const RoundingProblem& problem) {

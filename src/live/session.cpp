@@ -10,6 +10,7 @@
 
 #include "common/input.h"
 #include "common/json.h"
+#include "common/ledger.h"
 #include "common/output.h"
 #include "common/shown_address.h"
 #include "common/temporary_folder.h"
@@ -80,7 +81,7 @@ constexpr std::size_t kMostListed = 500;
 bool is_worse(const LedgerEntry& a, const LedgerEntry& b) {
   const auto rank = [](const LedgerEntry& entry) {
     const Vec3 size = entry.box ? Vec3(entry.box->max - entry.box->min) : Vec3::Zero();
-    return std::tuple(entry.stand_in.has_value(), !entry.may_be_larger, -size.head<2>().norm());
+    return std::tuple(badness(entry), -size.head<2>().norm());
   };
   return rank(a) < rank(b);
 }

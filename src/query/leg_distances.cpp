@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
@@ -24,10 +25,49 @@ double rounding_of(const PreparedScene::Data& scene, const Leg& leg) {
   return kRoundings * largest + std::min(kMostBent, kBent * extent.norm());
 }
 
+/// What is nearer than `result` takes its place. `first_object`: what objects are numbered from.
+template <typename IsLeftOut>
+void find_nearer(const PreparedScene::Data& scene, const Leg& leg, const IsLeftOut& is_left_out,
+                 std::uint32_t first_object, double cutoff_m, LegDistance& result) {
+  const Vec3 from = leg.from - scene.origin, to = leg.to - scene.origin;
+  const double rounding = rounding_of(scene, leg);
+  double least = std::min(cutoff_m, result.distance_m) + rounding;
+  LegDistance found;
+  std::vector<Vec3> corners;
+  internal::core::walk_nearest_first(
+      scene.bvh,
+      [&](const internal::core::Bounds& bounds) { return internal::query::distance_to_box(from, to, bounds); },
+      least + rounding, [&](const internal::core::BvhNode&, double distance) { return distance <= least + rounding; },
+      [&](std::uint32_t polygon) {
+        const std::uint32_t object = scene.polygon_object[polygon];
+        if (is_left_out(object)) return;
+        corners.clear();
+        for (const std::uint32_t vertex : scene.corners_of(polygon)) corners.push_back(scene.vertices[vertex]);
+        const internal::query::NearestPair pair = internal::query::nearest_to_polygon(from, to, corners);
+        const double distance = std::sqrt(pair.squared_distance);
+        const bool is_first = found.distance_m == std::numeric_limits<double>::infinity();
+        if (!(distance < least || (is_first && distance <= least))) return;
+        least = distance;
+        found.distance_m = distance;
+        found.share = pair.share;
+        found.point = scene.origin + pair.point;
+        found.object = object;
+      });
+  if (!std::isfinite(found.distance_m)) return;
+  found.distance_m = std::max(0.0, found.distance_m - rounding);
+  if (!(found.distance_m < result.distance_m)) return;
+  found.name = display_name(scene.objects[found.object]);
+  found.object += first_object;
+  result = std::move(found);
+}
+
 }  // namespace
 
 LegDistances::LegDistances(const PreparedScene& scene, const LegDistanceOptions& options)
-    : scene_(scene), cutoff_m_(options.cutoff_m), is_left_out_(scene.objects().size(), false) {
+    : scene_(scene),
+      cutoff_m_(options.cutoff_m),
+      with_overhead_(!options.without_overhead),
+      is_left_out_(scene.objects().size(), false) {
   if (!(cutoff_m_ >= 0)) {
     throw Error(ErrorCode::value_out_of_range, "the cut-off of distances is negative or not a number", "cutoff_m",
                 "give 0 metres or more");
@@ -47,33 +87,12 @@ LegDistances::LegDistances(const PreparedScene& scene, const LegDistanceOptions&
 LegDistance LegDistances::nearest(const Leg& leg) const {
   internal::query::check_leg(leg, 0);
   const PreparedScene::Data& scene = scene_.data();
-  const Vec3 from = leg.from - scene.origin, to = leg.to - scene.origin;
-  const double rounding = rounding_of(scene, leg);
   LegDistance result;
-  double least = cutoff_m_ + rounding;
-  std::vector<Vec3> corners;
-  internal::core::walk_nearest_first(
-      scene.bvh,
-      [&](const internal::core::Bounds& bounds) { return internal::query::distance_to_box(from, to, bounds); },
-      least + rounding, [&](const internal::core::BvhNode&, double distance) { return distance <= least + rounding; },
-      [&](std::uint32_t polygon) {
-        const std::uint32_t object = scene.polygon_object[polygon];
-        if (is_left_out_[object]) return;
-        corners.clear();
-        for (const std::uint32_t vertex : scene.corners_of(polygon)) corners.push_back(scene.vertices[vertex]);
-        const internal::query::NearestPair pair = internal::query::nearest_to_polygon(from, to, corners);
-        const double distance = std::sqrt(pair.squared_distance);
-        const bool is_first = result.distance_m == std::numeric_limits<double>::infinity();
-        if (!(distance < least || (is_first && distance <= least))) return;
-        least = distance;
-        result.distance_m = distance;
-        result.share = pair.share;
-        result.point = scene.origin + pair.point;
-        result.object = object;
-      });
-  if (!std::isfinite(result.distance_m)) return result;
-  result.distance_m = std::max(0.0, result.distance_m - rounding);
-  result.name = display_name(scene.objects[result.object]);
+  find_nearer(scene, leg, [&](std::uint32_t object) { return is_left_out_[object]; }, 0, cutoff_m_, result);
+  if (with_overhead_ && scene.overhead) {
+    const auto none = [](std::uint32_t) { return false; };
+    find_nearer(*scene.overhead, leg, none, static_cast<std::uint32_t>(is_left_out_.size()), cutoff_m_, result);
+  }
   return result;
 }
 

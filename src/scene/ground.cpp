@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/obstacles.h"
 #include "scene/scene_check.h"
 #include "vantage/error.h"
 #include "vantage/navigation.h"
@@ -16,9 +17,9 @@ ObjectKind kind_of(const Scene& scene, std::uint32_t object) {
   return object < scene.objects.size() ? scene.objects[object].kind : ObjectKind::other;
 }
 
-/// The triangles of the objects for which `wanted` holds, with the vertices that they use.
+/// The triangles of the objects for which `wanted` holds, with the vertices that they use; their objects too.
 template <typename Wanted>
-Mesh part_of(const Scene& scene, const Wanted& wanted) {
+Mesh part_of(const Scene& scene, const Wanted& wanted, std::vector<std::uint32_t>* objects = nullptr) {
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> number(scene.mesh.vertices.size(), kUnused);
   Mesh part;
@@ -33,6 +34,7 @@ Mesh part_of(const Scene& scene, const Wanted& wanted) {
       vertex = number[vertex];
     }
     part.triangles.push_back(triangle);
+    if (objects) objects->push_back(scene.object_of[t]);
   }
   return part;
 }
@@ -46,7 +48,45 @@ bool is_level(const Mesh& mesh) {
                      [&](const Vec3& vertex) { return vertex.z() == mesh.vertices.front().z(); });
 }
 
+void add_overhead(const Scene& scene, std::uint32_t first_object, Mesh& mesh, std::vector<std::uint32_t>& object_of) {
+  for (const OverheadLine& line : scene.overhead) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), line.mesh.vertices.begin(), line.mesh.vertices.end());
+    for (const Triangle& t : line.mesh.triangles) {
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    object_of.resize(mesh.triangles.size(), first_object++);
+  }
+}
+
 }  // namespace
+
+namespace internal::scene {
+
+Obstacles obstacles_in(const Scene& scene, const std::vector<std::uint32_t>& ground) {
+  Obstacles result;
+  const auto wanted = [&](std::uint32_t object) {
+    return kind_of(scene, object) != ObjectKind::ground &&
+           std::find(ground.begin(), ground.end(), object) == ground.end();
+  };
+  result.mesh = part_of(scene, wanted, &result.object_of);
+  if (result.mesh.empty()) {
+    result.mesh = scene.mesh;
+    result.object_of = scene.object_of;
+    result.object_of.resize(scene.mesh.triangles.size(), 0);
+  }
+  add_overhead(scene, static_cast<std::uint32_t>(scene.objects.size()), result.mesh, result.object_of);
+  return result;
+}
+
+Scene overhead_alone(const Scene& scene) {
+  Scene alone;
+  add_overhead(scene, 0, alone.mesh, alone.object_of);
+  for (const OverheadLine& line : scene.overhead) alone.objects.push_back(line.object);
+  return alone;
+}
+
+}  // namespace internal::scene
 
 std::optional<Ground> ground_of(const Scene& scene) {
   internal::scene::check_scene(scene);
@@ -62,17 +102,7 @@ std::optional<Ground> ground_of(const Scene& scene) {
 
 std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground) {
   internal::scene::check_scene(scene);
-  Mesh mesh = part_of(scene, [&](std::uint32_t object) {
-    return kind_of(scene, object) != ObjectKind::ground &&
-           std::find(ground.begin(), ground.end(), object) == ground.end();
-  });
-  if (mesh.empty()) mesh = scene.mesh;
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), scene.overhead.vertices.begin(), scene.overhead.vertices.end());
-  for (const Triangle& t : scene.overhead.triangles) {
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  return std::make_shared<const Mesh>(std::move(mesh));
+  return std::make_shared<const Mesh>(std::move(internal::scene::obstacles_in(scene, ground).mesh));
 }
 
 Ground ground_of(const Scene& scene, std::uint32_t object) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct PreparedScene::Data {
 
   std::vector<std::uint32_t> first_incident;  ///< per vertex, into `incident`; one more than there are vertices
   std::vector<std::uint32_t> incident;        ///< polygons that have the vertex as a corner
+
+  std::shared_ptr<const Data> overhead;  ///< of Scene::overhead, an object each; nothing where there is none
 
   std::size_t polygon_count() const { return polygon_object.size(); }
   std::span<const std::uint32_t> corners_of(std::size_t polygon) const {

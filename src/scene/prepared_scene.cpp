@@ -12,6 +12,7 @@
 #include "core/read_limits.h"
 #include "core/weld.h"
 #include "scene/convex_polygons.h"
+#include "scene/obstacles.h"
 #include "scene/prepared_data.h"
 #include "scene/scene_check.h"
 #include "vantage/error.h"
@@ -266,6 +267,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
   progress.report(0.7);
   store_in_leaf_order(*data, polygons, scene.whole.has_value());
   index_incidence(*data);
+  if (!scene.overhead.empty()) data->overhead = PreparedScene(internal::scene::overhead_alone(scene)).data_;
   progress.finish();
   data_ = std::move(data);
 }

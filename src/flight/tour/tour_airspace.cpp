@@ -29,6 +29,7 @@ LegDistanceOptions options_of(double distance_m) {
 std::unique_ptr<LegDistances> ground_distances(const PreparedScene& scene, double tube_m) {
   LegDistanceOptions options;
   options.cutoff_m = tube_m + kMostDeviation;
+  options.without_overhead = true;
   for (std::uint32_t i = 0; i < scene.objects().size(); ++i) {
     if (scene.objects()[i].kind != ObjectKind::ground) options.without_objects.push_back(i);
   }

@@ -108,10 +108,13 @@ std::vector<LedgerEntry> ledger_of(const internal::city::Site& site, const std::
 
 /// Upright facets from below the lowest ground to the tops of the supports. Beyond the ground it is taken as at its
 /// rim.
-Mesh curtains_under(const std::vector<internal::city::Overhead>& lines, const internal::city::Ground& ground) {
-  Mesh mesh;
+std::vector<OverheadLine> curtains_under(const std::vector<internal::city::Overhead>& lines,
+                                         const internal::city::Ground& ground) {
+  std::vector<OverheadLine> curtains;
   const Box box = bounding_box(ground.mesh());
   for (const internal::city::Overhead& line : lines) {
+    curtains.push_back({line.object, {}});
+    Mesh& mesh = curtains.back().mesh;
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const internal::city::Vec2& at = line.points[i];
       const internal::city::Vec2 inside = at.cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
@@ -123,7 +126,7 @@ Mesh curtains_under(const std::vector<internal::city::Overhead>& lines, const in
       mesh.triangles.push_back({next - 2, next + 1, next - 1});
     }
   }
-  return mesh;
+  return curtains;
 }
 
 }  // namespace

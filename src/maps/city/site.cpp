@@ -387,6 +387,8 @@ class OccluderSorter {
       const std::optional<double> usual = overhead_height_m(line.tags);
       if (!usual || !touches(region_, line.points)) continue;
       Overhead& overhead = site_.overhead.emplace_back();
+      overhead.object = record_of(line.id, line.tags, ObjectKind::other).object;
+      if (overhead.object.name.empty()) overhead.object.name = "line overhead";
       const double own = height_of(line.tags);
       bool all_known = true;
       for (const geo::LonLat& at : line.points) {

@@ -37,6 +37,7 @@ struct Item {
 
 /// A line overhead, for clearance alone.
 struct Overhead {
+  SceneObject object;
   std::vector<Vec2> points;
   double height_m = 0;  ///< of its supports above the ground
 };
