@@ -70,7 +70,7 @@ MODULES = {
     "maps/terrain": ["core", "geo", "scene"],
     "maps/city": ["core", "geo", "scene", "solid", "app/providers", "maps/osm", "maps/terrain"],
     "app": ["core", "request", "options", "geo", "io", "tiles", "scene", "target", "app/providers"],
-    "flight": ["core", "geo", "io"],
+    "flight": ["core", "geo", "io", "scene"],
     "flight/plans": ["core", "geo", "io", "flight"],
     "flight/tour": ["core", "scene", "flight"],
     # It judges bounds of tours, and shares nothing with what finds them.
