@@ -82,6 +82,15 @@ TEST_F(Areas, SayWhatTheyAre) {
   EXPECT_LT((middle - Eigen::Vector2d(20, 15)).norm(), 2e-3);
 }
 
+TEST_F(Areas, AreNotThereWhereMembersAreMissing) {
+  MapText map;
+  const long lot = map.box(0, 0, 40, 30, {});
+  map.box(100, 0, 120, 10, {{"leisure", "pitch"}});
+  map.relation({{"way", lot, "outer"}, {"way", 99, "outer"}}, {{"type", "multipolygon"}, {"amenity", "parking"}});
+  write_bytes(file(), map.text());
+  EXPECT_EQ(ids({}), (Ids{"way/2"}));
+}
+
 TEST_F(Areas, OfARegionReachIntoIt) {
   const geo::LonLat middle = geo::LocalFrame({11.5755, 48.1374}).to_lonlat({110, 5});
   CityRegion region;

@@ -106,6 +106,24 @@ TEST(CityFootprint, AFigureOfEightThroughACornerCrossesItselfAndATouchDoesNot) {
   EXPECT_FALSE(touch.self_crossing);
 }
 
+TEST(CityFootprint, CornersThatWereSwappedOnALineHoldTheirHull) {
+  // Rectangles of 20 by 10 with a corner in a side: the ring runs back along that side, exactly or nearly.
+  for (const double off : {0.0, 0.01}) {
+    Repairs repairs;
+    EXPECT_NEAR(area_m2(clean({{{{0, 0}, {20, 0}, {10, off}, {20, 10}, {0, 10}}, {}}}, repairs)), 200, 0.2);
+    EXPECT_TRUE(repairs.self_crossing);
+  }
+  Repairs there_and_back;
+  EXPECT_EQ(area_m2(clean({{{{0, 0}, {20, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}}, there_and_back)), 150);
+  Repairs spur;  // to where it came from: nothing is lost
+  EXPECT_EQ(area_m2(clean({{{{0, 0}, {10, 0}, {20, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}}, spur)), 100);
+  EXPECT_FALSE(spur.self_crossing);
+  // A side passes through a corner of another part.
+  Repairs through;
+  EXPECT_NEAR(area_m2(clean({{{{0, 0}, {10, 10}, {10, 0}, {5, 5}, {0, 9}}, {}}}, through)), 95, 0.1);
+  EXPECT_TRUE(through.self_crossing);
+}
+
 TEST(CityFootprint, HolesThatDoNotNest) {
   Repairs inside;
   EXPECT_EQ(area_m2(clean({{rectangle(0, 0, 10, 10), {rectangle(2, 2, 4, 4), rectangle(6, 6, 8, 8)}}}, inside)), 92);
@@ -120,6 +138,13 @@ TEST(CityFootprint, HolesThatDoNotNest) {
   Repairs across;
   EXPECT_EQ(area_m2(clean({{rectangle(0, 0, 10, 10), {rectangle(8, 2, 12, 4)}}}, across)), 100);
   EXPECT_TRUE(across.nesting);
+  Repairs crossed;  // by one that is not sound itself
+  EXPECT_EQ(area_m2(clean({{rectangle(0, 0, 10, 10), {rectangle(2, 2, 6, 6), rectangle(5, 3, 12, 4)}}}, crossed)), 100);
+  Repairs through;  // the outline, where both have corners
+  const Ring outline = {{0, 0}, {10, 0}, {10, 5}, {10, 10}, {5, 10}, {0, 10}};
+  const Ring hole = {{5, 10}, {5, 5}, {10, 5}, {12, 12}};
+  EXPECT_EQ(area_m2(clean({{outline, {hole}}}, through)), 100);
+  EXPECT_TRUE(crossed.nesting && through.nesting);
   Repairs touching;  // two courtyards that share a wall of no width
   EXPECT_EQ(area_m2(clean({{rectangle(0, 0, 10, 10), {rectangle(2, 2, 4, 4), rectangle(4, 2, 6, 4)}}}, touching)), 100);
   EXPECT_TRUE(touching.nesting);

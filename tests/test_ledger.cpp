@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -131,6 +132,82 @@ TEST_F(LedgerTest, AnOuterRingInsideAnotherOneIsNoCourtyard) {
   expect_block(scene, "relation/1");
   EXPECT_TRUE(covers(scene, "relation/1", 0, 1));
   testing::expect_wording(entry_of(scene, "relation/1").reason);
+}
+
+/// Rings of one relation that share nodes where they share positions, and the footprint that is built.
+struct RingsCase {
+  const char* name;
+  std::vector<std::pair<std::string, MapText::Positions>> rings;  ///< role, and corners
+  double area_m2;
+  bool told;
+};
+
+MapText::Positions square(double west, double south, double east, double north) {
+  return {{west, south}, {east, south}, {east, north}, {west, north}};
+}
+
+TEST_F(LedgerTest, NothingOfRingsThatMeetIsLost) {
+  const MapText::Positions block = {{0, 0}, {5, 0}, {15, 0}, {20, 0}, {20, 10}, {20, 20}, {10, 20}, {0, 20}};
+  const MapText::Positions wing = {{10, 20}, {10, 10}, {20, 10}, {30, 10}, {30, 30}, {10, 30}};
+  const MapText::Positions away = square(40, 0, 50, 10);
+  const RingsCase cases[] = {
+      {"twice", {{"outer", block}, {"outer", block}, {"outer", away}}, 500, true},
+      {"an outer and an inner one", {{"outer", block}, {"inner", block}, {"outer", away}}, 500, true},
+      {"one in another along a side", {{"outer", block}, {"outer", square(5, 0, 15, 10)}}, 400, true},
+      {"two that cross in corners", {{"outer", block}, {"outer", wing}}, 700, true},
+      {"a hole that crosses in corners", {{"outer", block}, {"inner", wing}}, 400, true},
+      {"a hole along a side", {{"outer", block}, {"inner", square(5, 0, 15, 10)}}, 400, true},
+      {"a terrace", {{"outer", square(0, 0, 10, 10)}, {"outer", square(10, 0, 20, 10)}}, 200, false},
+      {"a hole that touches in a corner", {{"outer", block}, {"inner", {{5, 0}, {10, 5}, {5, 10}}}}, 375, false},
+      {"two that touch in a corner", {{"outer", block}, {"outer", square(20, 20, 30, 30)}}, 500, false},
+      {"a speck", {{"outer", block}, {"outer", square(40, 0, 40.05, 0.05)}}, 400, true},
+      {"holes that cross, one of them the outline",
+       {{"outer", block}, {"inner", square(4, 5, 10, 10)}, {"inner", square(8, 7, 30, 9)}},
+       400,
+       true},
+  };
+  std::vector<std::string> reasons;
+  for (const RingsCase& one : cases) {
+    SCOPED_TRACE(one.name);
+    MapText map;
+    std::map<std::pair<double, double>, long> nodes;
+    std::vector<MapText::Member> members;
+    for (const auto& [role, corners] : one.rings) {
+      std::vector<long> refs;
+      for (const auto& at : corners) {
+        const auto [known, is_new] = nodes.try_emplace(at, 0);
+        if (is_new) known->second = map.node(at.first, at.second);
+        refs.push_back(known->second);
+      }
+      refs.push_back(refs.front());
+      members.push_back({"way", map.way(refs, {}), role});
+    }
+    map.relation(members, kBlock);
+    map.box(200, -5, 210, 5, {{"building", "yes"}, {"height", "5"}});
+    const Scene scene = build(map);
+    double area = 0;
+    for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+      if (scene.objects[scene.object_of[i]].source_id != "relation/1") continue;
+      const Triangle& t = scene.mesh.triangles[i];
+      const Vec3 &a = scene.mesh.vertices[t[0]], &b = scene.mesh.vertices[t[1]], &c = scene.mesh.vertices[t[2]];
+      area += std::max(0.0, (b - a).cross(c - a).z() / 2);
+    }
+    EXPECT_NEAR(area, one.area_m2, 0.5);
+    EXPECT_EQ(!scene.ledger.empty(), one.told);
+    for (const LedgerEntry& entry : scene.ledger) reasons.push_back(entry.reason + ": " + entry.instead);
+  }
+  testing::expect_wording(reasons);
+}
+
+TEST_F(LedgerTest, AKnownNodeBetweenMissingOnesIsHeld) {
+  MapText map;
+  const long house = map.box(0, 0, 10, 10, {});
+  const long torn = map.way({98, map.node(50, 0), 99}, {});
+  map.relation({{"way", house, "outer"}, {"way", torn, "outer"}}, kBlock);
+  map.box(200, -5, 210, 5, {{"building", "yes"}});
+  const Scene scene = build(map);
+  EXPECT_TRUE(covers(scene, "relation/1", 5, 4));
+  EXPECT_TRUE(covers(scene, "relation/1", 50, 1));
 }
 
 TEST_F(LedgerTest, AGuessedPartOpensNoHoleInItsBuilding) {

@@ -329,7 +329,7 @@ TEST(OsmMultipolygons, SayWhatIsBroken) {
   EXPECT_EQ(extract.problems.size(), 9u);
   ASSERT_EQ(extract.areas.size(), 4u);
   EXPECT_EQ(extract.areas[0].id, relation_id(20));
-  EXPECT_EQ(extract.areas[0].polygons.at(0).holes.size(), 0u) << "its bounds stick out";
+  EXPECT_EQ(extract.areas[0].polygons.at(0).holes.size(), 1u) << "to be told that it is none";
   EXPECT_TRUE(extract.areas[1].polygons.at(0).incomplete);
   EXPECT_EQ(extract.areas[2].id, relation_id(26));
   EXPECT_EQ(extract.areas[3].id, relation_id(28));

@@ -206,6 +206,8 @@ TEST_P(OsmRealMap, BuildingsHaveTheShapesThatOsmiumGivesThem) {
     ++compared;
     const Shape ours = shape_of(*area);
     const Problem* const told = find_problem(extract_, id);
+    // Rings as they are drawn, for others to unite.
+    if (told != nullptr && told->kind == Problem::Kind::broken_multipolygon) continue;
     if (told != nullptr && told->kind == Problem::Kind::wrong_role) {  // osmium-tool nests by where rings lie
       EXPECT_GE(ours.area, shape.area) << text(id);
       continue;

@@ -75,6 +75,7 @@ std::string describe(const osm::Extract& extract, bool file_details) {
   Description text;
   for (const osm::Area& area : extract.areas) {
     text.add_head(area.id, area.tags);
+    if (area.partial) text.add("partial");
     for (const osm::Polygon& polygon : area.polygons) {
       text.add("outer");
       text.add(polygon.outer);

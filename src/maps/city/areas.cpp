@@ -54,7 +54,7 @@ std::optional<MapArea> area_of(const osm::Area& source, const osm::RegionFilter&
   const LocalFrame frame(source.polygons.front().outer.front());
   internal::city::Repairs repairs;
   const std::vector<Footprint> footprints = internal::city::footprints_of(source, frame, repairs);
-  if (footprints.empty() || repairs.enclosed) return std::nullopt;
+  if (footprints.empty() || repairs.enclosed || source.partial) return std::nullopt;
   if (!internal::city::reaches_into(region, footprints, frame)) return std::nullopt;
   area.area_m2 = internal::city::area_m2(footprints);
   Vec2 min = footprints.front().outer.front(), max = min;

@@ -44,6 +44,29 @@ std::vector<Footprint> clipped(const Operands& operands, ClipOperation operation
   return to_footprints(result, operands.grid);
 }
 
+/// Without repeated points, and without lines that run there and back.
+GridRing without_spurs(const GridRing& ring) {
+  GridRing kept;
+  for (const GridPoint& p : ring) {
+    if (!kept.empty() && kept.back() == p) continue;
+    if (kept.size() > 1 && kept[kept.size() - 2] == p) {
+      kept.pop_back();
+    } else {
+      kept.push_back(p);
+    }
+  }
+  while (kept.size() > 2) {  // where its end meets its beginning
+    if (kept[1] == kept.back()) {
+      kept.erase(kept.begin());
+    } else if (kept.front() == kept.back() || kept.front() == kept[kept.size() - 2]) {
+      kept.pop_back();
+    } else {
+      break;
+    }
+  }
+  return kept;
+}
+
 double signed_area_m2(const Ring& ring) {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
@@ -79,7 +102,8 @@ std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repai
       repairs.beyond = true;
       continue;
     }
-    GridPolygon polygon{turned(tidied(grid.to_grid(footprint.outer)), true), {}};
+    const GridRing drawn = tidied(without_spurs(grid.to_grid(footprint.outer)), Straight::within_a_unit, Spikes::kept);
+    GridPolygon polygon{turned(tidied(drawn), true), {}};
     for (const Ring& hole : footprint.holes) {
       GridRing ring = turned(tidied(grid.to_grid(hole)), false);
       if (!ring.empty()) polygon.holes.push_back(std::move(ring));
@@ -91,6 +115,11 @@ std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repai
     ++parts;
     std::vector<GridPolygon> simple = repaired(polygon, repairs);
     pieces.insert(pieces.end(), simple.begin(), simple.end());
+    if (!has_spike(drawn)) continue;
+    const std::vector<GridPolygon> hulls = crossing_hulls(drawn);
+    pieces.insert(pieces.end(), hulls.begin(), hulls.end());
+    repairs.self_crossing = true;
+    ++parts;
   }
   if (parts > 1) {  // they may touch or overlap
     Clipping clipping;

@@ -30,8 +30,9 @@ struct Repairs {
   bool nesting = false;        ///< holes that cross, touch along a side, overlap or lie outside: filled
   bool tangled = false;        ///< it crosses itself more than a thousand times: dropped
   bool enclosed = false;       ///< the smallest rectangle round it stands in: footprints_of
+  bool thin = false;           ///< of one of its rings, too thin to build, the smallest rectangle stands in
   bool beyond = false;         ///< not finite, or larger than 100 km: dropped
-  bool any() const { return self_crossing || nesting || tangled || enclosed || beyond; }
+  bool any() const { return self_crossing || nesting || tangled || enclosed || thin || beyond; }
   std::size_t slivers = 0;  ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
 };
 

@@ -16,8 +16,9 @@ constexpr double kLeastArea = 0.01 * kUnitsPerMetre * kUnitsPerMetre;  // of a p
 
 /// Whether `b` says nothing between `a` and `c`: it repeats one of them, lies on the straight line between them, or is
 /// the tip of a spike.
-bool is_idle(const GridPoint& a, const GridPoint& b, const GridPoint& c, Straight straight) {
+bool is_idle(const GridPoint& a, const GridPoint& b, const GridPoint& c, Straight straight, Spikes spikes) {
   if (a == b || b == c || a == c) return true;
+  if (spikes == Spikes::kept && dot(b, a, c) > 0) return false;
   const std::int64_t twice = turn(b, a, c);
   if (straight == Straight::exact || twice == 0) return twice == 0;
   const auto area = static_cast<double>(std::abs(twice));
@@ -80,7 +81,7 @@ std::vector<GridRing> rings_of(const std::vector<GridPolygon>& polygons) {
   return rings;
 }
 
-GridRing tidied(const GridRing& ring, Straight straight) {
+GridRing tidied(const GridRing& ring, Straight straight, Spikes spikes) {
   GridRing result = ring;
   for (bool changed = true; changed && result.size() >= 3;) {
     changed = false;
@@ -88,7 +89,7 @@ GridRing tidied(const GridRing& ring, Straight straight) {
     for (std::size_t i = 0; i < result.size(); ++i) {
       const GridPoint& before = kept.empty() ? result.back() : kept.back();
       const GridPoint& after = i + 1 < result.size() ? result[i + 1] : (kept.empty() ? result[0] : kept[0]);
-      if (is_idle(before, result[i], after, straight)) {
+      if (is_idle(before, result[i], after, straight, spikes)) {
         changed = true;
       } else {
         kept.push_back(result[i]);

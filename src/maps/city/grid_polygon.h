@@ -21,9 +21,11 @@ GridRing turned(GridRing ring, bool counter_clockwise);
 
 /// How close to a straight line a point is taken to lie on it.
 enum class Straight { exact, within_a_unit };
+/// Whether the tip of a spike goes, or only one whose ends are one point.
+enum class Spikes { removed, kept };
 /// Without points that say nothing: repeated ones, those on a straight line, tips of spikes. Empty when fewer than
 /// three are left.
-GridRing tidied(const GridRing& ring, Straight straight = Straight::within_a_unit);
+GridRing tidied(const GridRing& ring, Straight straight = Straight::within_a_unit, Spikes spikes = Spikes::removed);
 /// The same of polygons; as they are where sides would cross then.
 std::vector<GridPolygon> tidied(const std::vector<GridPolygon>& polygons);
 

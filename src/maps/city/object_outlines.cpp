@@ -35,6 +35,7 @@ MapObjects read_objects(const std::filesystem::path& file, const CityRegion& reg
   for (osm::Area& area : extract.areas) {
     MapObject& object = of(area.id, area.tags);
     object.is_area = true;
+    object.area.partial |= area.partial;
     std::move(area.polygons.begin(), area.polygons.end(), std::back_inserter(object.area.polygons));
   }
   for (const osm::Line& line : extract.lines) {
@@ -49,7 +50,7 @@ ObjectOutlines outlines_of(const MapObject& object, const geo::LocalFrame& frame
   found.is_area = !object.area.polygons.empty();
   Repairs repairs;
   found.outlines = footprints_of(object.area, frame, repairs);
-  if (repairs.enclosed) found.outlines.clear();  // nobody knows where it ends: no target
+  if (repairs.enclosed || object.area.partial) found.outlines.clear();  // nobody knows where it ends: no target
   found.name = object.name;
   return found;
 }

@@ -15,39 +15,68 @@ namespace vantage::internal::city {
 namespace {
 
 constexpr std::size_t kMostCrossings = 1000;
+/// How far a corner is off a side that it was drawn on, at most: positions in maps are good to 1 cm.
+constexpr double kOnSide = 0.02 / kGrid;
 
-/// The sides that pass through each other, by where they begin, counted over all rings; one more than kMostCrossings at
-/// most.
-std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>& rings, bool closed) {
+double length(const GridPoint& a, const GridPoint& b) {
+  return std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y));
+}
+
+/// Not where it is an end of it: who draws a corner twice does not swap two.
+bool is_on_side(const GridPoint& p, const GridPoint& a, const GridPoint& b) {
+  if (p == a || p == b) return false;
+  if (dot(a, p, b) <= 0) return length(a, p) <= kOnSide;
+  if (dot(b, p, a) <= 0) return length(b, p) <= kOnSide;
+  return static_cast<double>(std::abs(turn(a, b, p))) <= kOnSide * length(a, b);
+}
+
+/// Whether the ring runs from `a` to `b` and then back along the same line, but not to where it came from.
+bool is_spike(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  constexpr double kLeastSide = 10 * kOnSide;
+  if (dot(b, a, c) <= 0 || length(a, c) <= kOnSide || std::min(length(a, b), length(b, c)) < kLeastSide) return false;
+  return is_on_side(a, b, c) || is_on_side(c, a, b);
+}
+
+/// What sides must do to count as crossing: pass through each other; or touch, other than in the corner between them.
+enum class Crossing { through, touching };
+
+/// The sides that cross, by where they begin, counted over all rings; one more than kMostCrossings at most.
+std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>& rings, bool closed,
+                                                     Crossing crossing) {
   struct Side {
-    Vec2 from, to;
-    double left = 0, right = 0;
-    std::size_t begin = 0;
+    GridPoint from, to;
+    std::int64_t left = 0, right = 0;
+    std::size_t begin = 0, end = 0;
   };
   std::vector<Side> sides;
   std::size_t corners = 0;
   for (const GridRing& ring : rings) {
-    const auto at = [&](std::size_t i) {
-      return Vec2(static_cast<double>(ring[i % ring.size()].x), static_cast<double>(ring[i % ring.size()].y));
-    };
     for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
-      const Vec2 a = at(i), b = at(i + 1);
-      sides.push_back({a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x()), corners + i});
+      const GridPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      sides.push_back({a, b, std::min(a.x, b.x), std::max(a.x, b.x), corners + i, corners + (i + 1) % ring.size()});
     }
     corners += ring.size();
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.left < b.left; });
-  const auto parts = [](const Side& side, const Vec2& a, const Vec2& b) {
-    const Vec2 along = side.to - side.from, p = a - side.from, q = b - side.from;
-    return (along.x() * p.y() - along.y() * p.x()) * (along.x() * q.y() - along.y() * q.x()) < 0;
+  const auto parts = [](const Side& side, const GridPoint& a, const GridPoint& b) {
+    const std::int64_t p = turn(side.from, side.to, a), q = turn(side.from, side.to, b);
+    return (p < 0 && q > 0) || (p > 0 && q < 0);
   };
+  const auto touch = [](const Side& a, const Side& b) {
+    if (a.end == b.begin) return is_spike(a.from, a.to, b.to);
+    if (b.end == a.begin) return is_spike(b.from, b.to, a.to);
+    return is_on_side(a.from, b.from, b.to) || is_on_side(a.to, b.from, b.to) || is_on_side(b.from, a.from, a.to) ||
+           is_on_side(b.to, a.from, a.to);
+  };
+  const auto near = static_cast<std::int64_t>(crossing == Crossing::touching ? kOnSide : 0);
   std::vector<std::array<std::size_t, 2>> found;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     Interruption::tick();
     const Side& a = sides[i];
-    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right; ++j) {
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right + near; ++j) {
       const Side& b = sides[j];
-      if (!parts(a, b.from, b.to) || !parts(b, a.from, a.to)) continue;
+      const bool through = parts(a, b.from, b.to) && parts(b, a.from, a.to);
+      if (!through && (crossing == Crossing::through || !touch(a, b))) continue;
       found.push_back({a.begin, b.begin});
       if (found.size() > kMostCrossings) return found;
     }
@@ -69,22 +98,6 @@ GridRing hull_of(GridRing points) {
     std::reverse(points.begin(), points.end());
   }
   return hull;
-}
-
-/// Round each crossing of a ring the hull of the two sides and of those next to them: if two corners that follow each
-/// other were swapped, what the ring should hold lies in there.
-std::vector<GridPolygon> crossing_hulls(const GridRing& ring) {
-  std::vector<GridPolygon> hulls;
-  const std::size_t count = ring.size();
-  for (const auto& crossing : crossings_of({ring}, true)) {
-    GridRing corners;
-    for (const std::size_t begin : crossing) {
-      for (std::size_t k = 0; k < 4; ++k) corners.push_back(ring[(begin + count - 1 + k) % count]);
-    }
-    GridRing hull = hull_of(std::move(corners));
-    if (hull.size() > 2) hulls.push_back({std::move(hull), {}});
-  }
-  return hulls;
 }
 
 /// The area of the space that a ring goes round, by summing up slabs between the heights at which something happens.
@@ -177,52 +190,59 @@ std::vector<GridPolygon> untangled(const GridRing& ring, Repairs& repairs) {
   const Meeting meeting = meeting_of({ring});
   if (!meeting.crossing && !meeting.touching) return {GridPolygon{ring, {}}};
   std::vector<GridPolygon> result = wound(ring);
-  // A ring that touches itself is not a figure of eight: it goes round all of its space in one sense.
-  const double whole = std::abs(signed_area(ring));
-  repairs.self_crossing |= meeting.crossing || std::abs(area_of(result) - whole) > perimeter(ring);
+  // A ring that touches itself is not a figure of eight: it goes round all of its space once, in one sense.
+  const double off = std::abs(area_of(result) - std::abs(signed_area(ring)));
+  if (!meeting.crossing && off <= perimeter(ring)) return result;
+  repairs.self_crossing = true;
   const std::vector<GridPolygon> hulls = crossing_hulls(ring);
-  if (hulls.empty()) return result;
   Clipping clipping;
   clipping.add(result);
   clipping.add(hulls);
   return settled(clipping.run(ClipOperation::unite, FillRule::non_zero));
 }
 
-/// Whether two rings share no space, and no more of their borders than points.
-bool are_apart(const GridRing& a, const GridRing& b) {
-  if (meeting_of({a, b}).crossing) return false;
-  const auto holds = [](const GridRing& ring, const GridRing& other) {
-    const auto off = std::find_if(other.begin(), other.end(),
-                                  [&](const GridPoint& p) { return locate(p, ring) != PointLocation::boundary; });
-    return off == other.end() || locate(*off, ring) == PointLocation::inside;
-  };
-  return !holds(a, b) && !holds(b, a);
+bool is_empty(ClipOperation operation, const GridRing& a, const GridRing& b) {
+  const std::vector<GridPolygon> subject = {{turned(a, true), {}}}, clip = {{turned(b, true), {}}};
+  Clipping clipping;
+  clipping.add(subject);
+  clipping.add_clip(clip);
+  return clipping.run(operation, FillRule::non_zero).empty();
 }
 
-/// The holes that are what they claim to be: simple, inside of the outer ring, and apart from each other. The others
+/// Whether two rings share no space, and no more of their borders than points.
+bool are_apart(const GridRing& a, const GridRing& b) {
+  const Meeting meeting = meeting_of({a, b});
+  if (meeting.crossing) return false;
+  if (meeting.touching) return is_empty(ClipOperation::intersect, a, b);
+  return locate(a[0], b) == PointLocation::outside && locate(b[0], a) == PointLocation::outside;
+}
+
+/// Whether a hole lies in the outer ring, and shares no more of its border than points.
+bool lies_within(const GridRing& hole, const GridRing& outer) {
+  const Meeting meeting = meeting_of({outer, hole});
+  if (meeting.crossing) return false;
+  if (meeting.touching) return is_empty(ClipOperation::subtract, hole, outer);
+  return locate(hole[0], outer) == PointLocation::inside;
+}
+
+/// The holes that are what they claim to be: simple, inside of the outer ring, and apart from all others. The others
 /// may be slips of the pen, and what they would open may hide.
 std::vector<GridPolygon> sound_holes(const GridPolygon& rough) {
   const std::size_t count = rough.holes.size();
   std::vector<Eigen::AlignedBox<std::int64_t, 2>> boxes(count);
-  std::vector<bool> sound(count);
   for (std::size_t i = 0; i < count; ++i) {
-    Interruption::tick();
     for (const GridPoint& p : rough.holes[i]) boxes[i].extend(Eigen::Matrix<std::int64_t, 2, 1>(p.x, p.y));
-    const GridPolygon alone{rough.outer, {rough.holes[i]}};
-    // One that touches itself may go round an island.
-    const Meeting own = meeting_of({rough.holes[i]});
-    sound[i] = !own.crossing && !own.touching && !meeting_of(rings_of({alone})).crossing && is_nested(alone);
-  }
-  std::vector<bool> apart = sound;
-  for (std::size_t i = 0; i < count; ++i) {
-    Interruption::tick();
-    for (std::size_t j = 0; j < count && apart[i]; ++j) {
-      if (j != i && sound[j] && boxes[i].intersects(boxes[j])) apart[i] = are_apart(rough.holes[i], rough.holes[j]);
-    }
   }
   std::vector<GridPolygon> holes;
   for (std::size_t i = 0; i < count; ++i) {
-    if (apart[i]) holes.push_back({turned(rough.holes[i], true), {}});
+    Interruption::tick();
+    // One that touches itself may go round an island.
+    const Meeting own = meeting_of({rough.holes[i]});
+    bool sound = !own.crossing && !own.touching && lies_within(rough.holes[i], rough.outer);
+    for (std::size_t j = 0; j < count && sound; ++j) {
+      if (j != i && boxes[i].intersects(boxes[j])) sound = are_apart(rough.holes[i], rough.holes[j]);
+    }
+    if (sound) holes.push_back({turned(rough.holes[i], true), {}});
   }
   return holes;
 }
@@ -230,7 +250,29 @@ std::vector<GridPolygon> sound_holes(const GridPolygon& rough) {
 }  // namespace
 
 bool is_tangled(const std::vector<GridRing>& rings, bool closed) {
-  return crossings_of(rings, closed).size() > kMostCrossings;
+  return crossings_of(rings, closed, Crossing::through).size() > kMostCrossings;
+}
+
+bool has_spike(const GridRing& ring) {
+  const std::size_t count = ring.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_spike(ring[i], ring[(i + 1) % count], ring[(i + 2) % count])) return true;
+  }
+  return false;
+}
+
+std::vector<GridPolygon> crossing_hulls(const GridRing& ring) {
+  std::vector<GridPolygon> hulls;
+  const std::size_t count = ring.size();
+  for (const auto& crossing : crossings_of({ring}, true, Crossing::touching)) {
+    GridRing corners;
+    for (const std::size_t begin : crossing) {
+      for (std::size_t k = 0; k < 4; ++k) corners.push_back(ring[(begin + count - 1 + k) % count]);
+    }
+    GridRing hull = hull_of(std::move(corners));
+    if (hull.size() > 2) hulls.push_back({std::move(hull), {}});
+  }
+  return hulls;
 }
 
 std::vector<GridPolygon> repaired(const GridPolygon& rough, Repairs& repairs) {

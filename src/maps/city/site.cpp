@@ -97,6 +97,7 @@ void add_faults(std::vector<Fault>& faults, const Repairs& repairs) {
     faults.push_back(
         {"holes cross its outline or each other, or lie outside of it", "its outline without these holes"});
   }
+  if (repairs.thin) faults.push_back({"one of its rings has no area", "the smallest rectangle round that ring"});
   if (repairs.beyond) faults.push_back({"some of it lies beyond all bounds", "the rest of it", true});
 }
 

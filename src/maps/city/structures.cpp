@@ -25,6 +25,12 @@ Ring enclosing(const Ring& positions) {
   return enclosing_rectangle(positions, is_point ? kPointSide : kLeastSide);
 }
 
+/// Whether `clean` leaves nothing of it.
+bool is_thin(const Ring& ring) {
+  Repairs repairs;
+  return clean({{ring, {}}}, repairs).empty() && repairs.slivers > 0;
+}
+
 void set_bounds(Structure& structure) {
   structure.min = Vec2::Constant(std::numeric_limits<double>::infinity());
   structure.max = -structure.min;
@@ -136,6 +142,9 @@ std::vector<Footprint> footprints_of(const osm::Area& area, const geo::LocalFram
     all.insert(all.end(), footprint.outer.begin(), footprint.outer.end());
     if (polygon.incomplete) {
       repairs.enclosed = true;
+      footprint.outer = enclosing(footprint.outer);
+    } else if (area.polygons.size() > 1 && is_thin(footprint.outer)) {
+      repairs.thin = true;
       footprint.outer = enclosing(footprint.outer);
     } else {
       for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(project(hole, frame));

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <osmium/area/assembler.hpp>
 #include <osmium/area/problem_reporter.hpp>
 #include <osmium/builder/osm_object_builder.hpp>
@@ -19,6 +22,7 @@
 
 #include "core/format.h"
 #include "maps/osm/assembly_plane.h"
+#include "maps/osm/assembly_rings.h"
 #include "maps/osm/map_objects.h"
 
 namespace vantage::internal::osm {
@@ -82,22 +86,6 @@ class Complaints : public osmium::area::ProblemReporter {
   std::size_t crossings_ = 0, open_ends_ = 0, doubled_ = 0;
   std::string first_crossing_, first_open_end_, first_doubled_;
 };
-
-using NodeLocations = std::vector<osmium::Location>;
-
-/// Twice the area that a ring of the plane is wound round, counter-clockwise; about its first position.
-double twice_signed_area(const NodeLocations& ring) {
-  const auto from_first = [&](osmium::Location at) {
-    return LonLat{at.lon_without_check() - ring[0].lon_without_check(),
-                  at.lat_without_check() - ring[0].lat_without_check()};
-  };
-  double sum = 0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const LonLat a = from_first(ring[i]), b = from_first(ring[i + 1]);
-    sum += a.longitude_deg * b.latitude_deg - a.latitude_deg * b.longitude_deg;
-  }
-  return sum;
-}
 
 /// A ring of places in the plane, turned as is asked for.
 Ring to_ring(NodeLocations places, bool counter_clockwise, const AssemblyPlane& plane) {
@@ -171,11 +159,18 @@ std::vector<Polygon> to_polygons(const osmium::Area& area, const AssemblyPlane& 
   return polygons;
 }
 
+bool is_inner(const MemberWay& member) { return std::string_view(member.role) == "inner"; }
+bool is_outer(const MemberWay& member) { return std::string_view(member.role) == "outer"; }
+
+/// Whether those without a role are holes where they lie in others. If some have a role, they are outer ones.
+bool has_no_roles(const std::vector<MemberWay>& members) {
+  return std::none_of(members.begin(), members.end(), [](const auto& one) { return is_inner(one) || is_outer(one); });
+}
+
 /// `projected`: of each member its way, in the plane. Rings are nested by where they lie; a role may say otherwise.
 void classify(std::vector<MemberWay>& members, const std::vector<const osmium::Way*>& projected,
               const osmium::Area& area) {
-  const auto is_not_inner = [](const MemberWay& member) { return std::string_view(member.role) != "inner"; };
-  const Sides not_inner = sides_of(members, projected, is_not_inner);
+  const Sides not_inner = sides_of(members, projected, std::not_fn(is_inner));
   Sides outer_sides, inner_sides, stray_sides;
   for (const osmium::OuterRing& outer : area.outer_rings()) {
     outer_sides.add(outer);
@@ -185,13 +180,12 @@ void classify(std::vector<MemberWay>& members, const std::vector<const osmium::W
   outer_sides.finish();
   inner_sides.finish();
   stray_sides.finish();
+  const bool by_place = has_no_roles(members);
   for (std::size_t i = 0; i < members.size(); ++i) {
-    const std::string_view role = members[i].role;
     members[i].outer = outer_sides.has_any_of(projected[i]->nodes());
     members[i].inner = inner_sides.has_any_of(projected[i]->nodes());
-    const bool is_stray_inner = role == "inner" && !members[i].inner && stray_sides.has_any_of(projected[i]->nodes());
-    const bool is_stray_outer = role == "outer" && members[i].inner && !members[i].outer;
-    members[i].stray = is_stray_inner || is_stray_outer;
+    members[i].stray = is_inner(members[i]) ? !members[i].inner && stray_sides.has_any_of(projected[i]->nodes())
+                                            : !by_place && members[i].inner && !members[i].outer;
   }
 }
 
@@ -206,85 +200,90 @@ NodeLocations places_of(const osmium::Way& way, const AssemblyPlane& plane) {
   return places;
 }
 
-/// Whether not all places lie on one line. (The area would not tell: a figure of eight may be wound round none.)
-bool has_corner(const NodeLocations& places) {
-  for (std::size_t i = 2; i < places.size(); ++i) {
-    // Differences of stored coordinates are whole numbers: exact.
-    const auto dx = [&](std::size_t j) { return static_cast<double>(places[j].x()) - places[0].x(); };
-    const auto dy = [&](std::size_t j) { return static_cast<double>(places[j].y()) - places[0].y(); };
-    if (dx(1) * dy(i) != dy(1) * dx(i)) return true;
+/// What members draw, each way once, without those that are left out.
+template <typename LeftOut>
+std::vector<NodeLocations> lines_of(const std::vector<MemberWay>& members, const AssemblyPlane& plane,
+                                    const LeftOut& left_out) {
+  std::vector<NodeLocations> lines;
+  std::set<osmium::object_id_type> seen;
+  for (const MemberWay& member : members) {
+    if (left_out(member) || !seen.insert(member.way->id()).second) continue;
+    NodeLocations line = places_of(*member.way, plane);
+    if (!line.empty()) lines.push_back(std::move(line));
   }
-  return false;
+  return lines;
 }
-
-/// Lines joined end to end.
-class Chains {
- public:
-  explicit Chains(std::vector<NodeLocations> lines) : lines_(std::move(lines)), used_(lines_.size()) {
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      ends_.emplace(lines_[i].front(), i);
-      ends_.emplace(lines_[i].back(), i);
-    }
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      if (!used_[i]) add(chain_from(i));
-    }
-  }
-
-  const std::vector<NodeLocations>& rings() const { return rings_; }  ///< the first place is not repeated
-  const NodeLocations& loose() const { return loose_; }               ///< the places of all that closes nowhere
-
- private:
-  NodeLocations chain_from(std::size_t first) {
-    used_[first] = true;
-    NodeLocations chain = lines_[first];
-    for (int end = 0; end < 2; ++end) {  // on from its end, then from its beginning
-      while (chain.front() != chain.back()) {
-        auto next = ends_.find(chain.back());
-        while (next != ends_.end() && used_[next->second]) {
-          ends_.erase(next);
-          next = ends_.find(chain.back());
-        }
-        if (next == ends_.end()) break;
-        used_[next->second] = true;
-        NodeLocations line = lines_[next->second];
-        if (line.front() != chain.back()) std::reverse(line.begin(), line.end());
-        chain.insert(chain.end(), line.begin() + 1, line.end());
-      }
-      if (chain.front() != chain.back()) std::reverse(chain.begin(), chain.end());
-    }
-    return chain;
-  }
-
-  void add(NodeLocations chain) {
-    const bool closed = chain.size() > 1 && chain.front() == chain.back();
-    if (closed) chain.pop_back();
-    if (closed && has_corner(chain)) {
-      rings_.push_back(std::move(chain));
-    } else {
-      loose_.insert(loose_.end(), chain.begin(), chain.end());
-    }
-  }
-
-  std::vector<NodeLocations> lines_;
-  std::vector<bool> used_;
-  std::multimap<osmium::Location, std::size_t> ends_;  ///< lines by where they begin and end
-  std::vector<NodeLocations> rings_;
-  NodeLocations loose_;
-};
 
 struct PlaneBox {
   osmium::Location min, max;  ///< of the two coordinates apart
 
   explicit PlaneBox(const NodeLocations& places) : min(places.front()), max(places.front()) {
-    for (const osmium::Location at : places) {
-      min = {std::min(min.x(), at.x()), std::min(min.y(), at.y())};
-      max = {std::max(max.x(), at.x()), std::max(max.y(), at.y())};
-    }
+    for (const osmium::Location at : places) extend(at);
   }
-  bool holds(const PlaneBox& other) const {
-    return min.x() <= other.min.x() && min.y() <= other.min.y() && other.max.x() <= max.x() && other.max.y() <= max.y();
+  void extend(osmium::Location at) {
+    min = {std::min(min.x(), at.x()), std::min(min.y(), at.y())};
+    max = {std::max(max.x(), at.x()), std::max(max.y(), at.y())};
+  }
+  bool is_tall() const { return std::int64_t{max.y()} - min.y() > std::int64_t{max.x()} - min.x(); }
+  void turn() {
+    min = {min.y(), min.x()};
+    max = {max.y(), max.x()};
   }
 };
+
+using RingPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// The pairs of a ring of `a` and one of `b` whose boxes meet, in their order. Sweeps along the longer side of all.
+/// None where they are more than drawing explains.
+RingPairs meeting_boxes(const std::vector<NodeLocations>& a, const std::vector<NodeLocations>& b,
+                        const core::ProgressReporter& progress) {
+  constexpr std::size_t kMostPairs = 1'000'000;
+  std::vector<PlaneBox> boxes;
+  for (const auto* const rings : {&a, &b}) {
+    for (const NodeLocations& ring : *rings) boxes.emplace_back(ring);
+  }
+  if (boxes.empty()) return {};
+  PlaneBox all = boxes.front();
+  for (const PlaneBox& box : boxes) {
+    all.extend(box.min);
+    all.extend(box.max);
+  }
+  if (all.is_tall()) {
+    for (PlaneBox& box : boxes) box.turn();
+  }
+  std::vector<std::size_t> order(boxes.size()), open_a, open_b;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return boxes[i].min.x() < boxes[j].min.x(); });
+  RingPairs pairs;
+  for (const std::size_t i : order) {
+    progress.check();
+    const bool is_a = i < a.size();
+    std::vector<std::size_t>& others = is_a ? open_b : open_a;
+    std::erase_if(others, [&](std::size_t j) { return boxes[j].max.x() < boxes[i].min.x(); });
+    for (const std::size_t j : others) {
+      if (boxes[j].max.y() < boxes[i].min.y() || boxes[i].max.y() < boxes[j].min.y()) continue;
+      pairs.emplace_back(is_a ? i : j, (is_a ? j : i) - a.size());
+    }
+    if (pairs.size() > kMostPairs) return {};
+    (is_a ? open_a : open_b).push_back(i);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// Without rings that another one repeats, from whichever place and whichever way round.
+std::vector<NodeLocations> each_once(const std::vector<NodeLocations>& rings) {
+  std::set<NodeLocations> seen;
+  std::vector<NodeLocations> result;
+  for (const NodeLocations& ring : rings) {
+    NodeLocations from_least = ring;
+    if (twice_signed_area(ring) < 0) std::reverse(from_least.begin(), from_least.end());
+    std::rotate(from_least.begin(), std::min_element(from_least.begin(), from_least.end()), from_least.end());
+    if (seen.insert(std::move(from_least)).second) result.push_back(ring);
+  }
+  return result;
+}
 
 /// Ways with their nodes where the plane has them: the ways themselves, or copies.
 class ProjectedWays {
@@ -425,6 +424,30 @@ class AssemblyWork {
   osmium::memory::Buffer buffer_{1 << 10, osmium::memory::Buffer::auto_grow::yes};
 };
 
+/// Whether rings may touch themselves or each other: places that not just two segments end at.
+bool may_touch(const std::vector<const osmium::Way*>& ways) {
+  std::vector<osmium::Location> ends;
+  for_each_segment(ways, [&](std::size_t, const osmium::NodeRef& from, const osmium::NodeRef& to) {
+    ends.push_back(from.location());
+    ends.push_back(to.location());
+  });
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    if (ends[i] != ends[i + 1] || (i > 0 && ends[i - 1] == ends[i])) return true;
+  }
+  return false;
+}
+
+/// What is wrong with rings that the assembler takes for sound: it goes by the even-odd rule, and segments that are
+/// there twice are none.
+std::optional<RingFault> fault_of(const Chains& outer, const Chains& inner) {
+  for (const Chains* const chains : {&outer, &inner}) {
+    const NodeLocations& loose = chains->loose();
+    if (!loose.empty()) return RingFault{"its rings do not close by their roles", loose.front()};
+  }
+  return ring_fault(outer.rings(), inner.rings());
+}
+
 /// A relation of these ways only: the assembler takes it that all are there. `role_of`: of each way's number.
 template <typename RoleOf>
 const osmium::Relation& relation_of(osmium::object_id_type id, const std::vector<const osmium::Way*>& ways,
@@ -463,6 +486,10 @@ Assembly assemble(const osmium::Way& way) {
   osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
   const auto outer = [](std::size_t) { return "outer"; };
   std::string problem = assemble_into(buffer, {ObjectType::way, way.id()}, projected.ways(), outer, plane);
+  if (problem.empty() && may_touch(projected.ways())) {
+    const auto fault = fault_of(Chains({places_of(way, plane)}), Chains({}));
+    if (fault) problem = "it overlaps itself at " + place_text(plane.from_plane(fault->at));
+  }
   if (!problem.empty()) return {{}, std::move(problem)};
   return {to_polygons(buffer.get<osmium::Area>(0), plane), ""};
 }
@@ -479,6 +506,15 @@ Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& memb
   if (!problem.empty()) return {{}, std::move(problem)};
   const auto& area = buffer.get<osmium::Area>(0);
   classify(members, projected.ways(), area);
+  if (may_touch(projected.ways())) {
+    const bool by_place = has_no_roles(members);
+    const auto is_hole = [&](const MemberWay& member) {
+      return by_place ? member.inner && !member.outer : is_inner(member);
+    };
+    const auto fault =
+        fault_of(Chains(lines_of(members, plane, is_hole)), Chains(lines_of(members, plane, std::not_fn(is_hole))));
+    if (fault) return {{}, std::string(fault->what) + " at " + place_text(plane.from_plane(fault->at))};
+  }
   return {to_polygons(area, plane,
                       sides_of(members, projected.ways(), [](const MemberWay& member) { return member.stray; })),
           ""};
@@ -505,27 +541,24 @@ std::vector<Polygon> raw_polygon(const osmium::Way& way, bool incomplete) {
   return {Polygon{to_ring(std::move(places), true, plane), {}, true}};
 }
 
-std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members) {
+std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members, const core::ProgressReporter& progress) {
   std::vector<const osmium::Way*> ways;
   for (const MemberWay& member : members) ways.push_back(member.way);
   const AssemblyPlane plane(ways);
-  std::vector<NodeLocations> outer_lines, inner_lines;
-  for (const MemberWay& member : members) {
-    NodeLocations line = places_of(*member.way, plane);
-    const bool inner = std::string_view(member.role) == "inner";
-    if (!line.empty()) (inner ? inner_lines : outer_lines).push_back(std::move(line));
-  }
+  std::vector<NodeLocations> outer_lines = lines_of(members, plane, is_inner);
+  std::vector<NodeLocations> inner_lines = lines_of(members, plane, std::not_fn(is_inner));
   if (outer_lines.empty()) outer_lines.swap(inner_lines);  // something stands there
   const Chains outer(std::move(outer_lines)), inner(std::move(inner_lines));
-  std::vector<PlaneBox> holes(inner.rings().begin(), inner.rings().end());
+  const std::vector<NodeLocations> outer_rings = each_once(outer.rings());
   std::vector<Polygon> polygons;
-  for (const NodeLocations& ring : outer.rings()) {
-    Polygon& polygon = polygons.emplace_back();
-    const PlaneBox box(ring);
-    for (std::size_t i = 0; i < holes.size(); ++i) {
-      if (box.holds(holes[i])) polygon.holes.push_back(to_ring(inner.rings()[i], false, plane));
-    }
-    polygon.outer = to_ring(ring, true, plane);
+  for (const NodeLocations& ring : outer_rings) polygons.push_back({to_ring(ring, true, plane), {}});
+  std::vector<bool> is_hole(inner.rings().size());
+  for (const auto& [ring, hole] : meeting_boxes(outer_rings, inner.rings(), progress)) {
+    polygons[ring].holes.push_back(to_ring(inner.rings()[hole], false, plane));
+    is_hole[hole] = true;
+  }
+  for (std::size_t i = 0; i < is_hole.size(); ++i) {
+    if (!is_hole[i]) polygons.push_back({to_ring(inner.rings()[i], true, plane), {}});  // far from what it opens
   }
   NodeLocations loose = outer.loose();
   if (!loose.empty()) polygons.push_back({to_ring(std::move(loose), true, plane), {}, true});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "maps/osm/extract.h"
 
 namespace vantage::internal::osm {
@@ -18,7 +19,7 @@ struct MemberWay {
   const char* role = "";  ///< as in the relation: only to word problems by, and for `stray`
   bool outer = false;     ///< it is part of an outer ring
   bool inner = false;     ///< it is part of a hole
-  bool stray = false;     ///< an inner one that bounds an area of its own, or an outer one that bounds a hole
+  bool stray = false;     ///< an inner one that bounds an area of its own, or another one that bounds a hole
 };
 
 struct Assembly {
@@ -27,16 +28,18 @@ struct Assembly {
 };
 
 /// Assembles a closed way. Positions that are undefined are left out; one that touches itself becomes several polygons
-/// or has holes.
+/// or has holes. Not one that is wound round some of its area twice: the assembler would leave that out.
 Assembly assemble(const osmium::Way& way);
 
-/// Assembles a multipolygon from the members that are there, whatever their roles, and tells which way is which.
+/// Assembles a multipolygon from the members that are there, whatever their roles, and tells which way is which. Not
+/// where the assembler would leave out what lies in outer rings and in no sound hole: see ring_fault.
 Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& members);
 
 /// The same members where they cannot be assembled: every outer ring for itself, crossing or not, those without an end
-/// as one incomplete polygon, and the inner rings that are whole as holes of each outer ring whose bounds hold theirs.
-/// Roles count: what is not "inner" is outer. Cost: O(n log n) in the nodes, and outer times inner rings.
-std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members);
+/// as one incomplete polygon, and the inner rings that are whole as holes of each outer ring whose bounds meet theirs:
+/// which are sound is for others to tell. Roles count: what is not "inner" is outer. Cost: O(n log n) in the nodes.
+/// Error(cancelled) when told to stop.
+std::vector<Polygon> drawn_polygons(const std::vector<MemberWay>& members, const core::ProgressReporter& progress);
 
 /// The way's positions, those that follow each other all different: of a closed way the first is repeated at the end.
 std::vector<LonLat> positions(const osmium::Way& way);

@@ -23,21 +23,25 @@ using Kind = Problem::Kind;
 
 class ExtractBuilder {
  public:
-  ExtractBuilder(const MapObjects& objects, const RegionFilter& region, const ReadOptions& options)
-      : objects_(objects), selection_(objects, region), multipolygons_(objects, options.wanted, selection_, extract_) {}
+  ExtractBuilder(const MapObjects& objects, const RegionFilter& region, const ReadOptions& options,
+                 const core::ProgressReporter& progress)
+      : objects_(objects),
+        progress_(progress),
+        selection_(objects, region),
+        multipolygons_(objects, options.wanted, selection_, extract_, progress) {}
 
-  Extract build(const core::ProgressReporter& progress) {
+  Extract build() {
     const std::size_t steps = objects_.relations.size() + objects_.ways.size();
     std::size_t done = 0;
     // Multipolygons first: their ways may have nothing more to say.
     for (const osmium::Relation* const relation : objects_.relations) {
       multipolygons_.add(*relation);
-      progress.report(++done, steps);
+      progress_.report(++done, steps);
     }
     for (const osmium::Relation* const relation : objects_.unwanted) multipolygons_.add_pieces(*relation);
     for (const KeptWay& kept : objects_.ways) {
       if (kept.wanted) add(kept);
-      progress.tick(++done, steps);
+      progress_.tick(++done, steps);
     }
     for (const Point& point : objects_.points) add(point);
     describe_file();
@@ -168,6 +172,7 @@ class ExtractBuilder {
   }
 
   const MapObjects& objects_;
+  const core::ProgressReporter& progress_;
   Extract extract_;
   Selection selection_;
   Multipolygons multipolygons_;
@@ -187,7 +192,7 @@ Extract read_extract(const std::filesystem::path& file, const ReadOptions& optio
                 file.string(), "download or export the map again");
   }
   reporter.begin("assemble areas");
-  return ExtractBuilder(objects, region, options).build(reporter);
+  return ExtractBuilder(objects, region, options, reporter).build();
 }
 
 }  // namespace vantage::internal::osm

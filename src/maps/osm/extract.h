@@ -54,6 +54,7 @@ struct Area {
   ObjectId id;
   Tags tags;
   std::vector<Polygon> polygons;
+  bool partial = false;  ///< members are not in the file: there may be more of it
 };
 
 struct Line {
@@ -86,8 +87,8 @@ struct Problem {
   enum class Kind {
     missing_nodes,    ///< a way refers to nodes that are not in the file or not on the earth; built from the rest
     missing_members,  ///< a relation refers to objects that are not in the file
-    /// Rings do not close, cross, or nest wrongly: taken as they are drawn, where they bound anything. Also a building
-    /// relation of a type that is none
+    /// Rings do not close, cross, overlap, or nest wrongly: taken as they are drawn, where they bound anything. Also a
+    /// building relation of a type that is none
     broken_multipolygon,
     wrong_role,    ///< an inner member lies outside of the outer ones, or an outer one inside of another: no hole
     degenerate,    ///< fewer than 3 different positions (of a line: 2), no area, or nowhere on the earth

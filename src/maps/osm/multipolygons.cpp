@@ -14,6 +14,17 @@ using Kind = Problem::Kind;
 
 ObjectId id_of(const osmium::Relation& relation) { return {ObjectType::relation, relation.id()}; }
 
+/// What is known of ways of which no side is left, or one there and back: they are in no ring.
+void add_sideless(std::vector<Polygon>& polygons, const std::vector<MemberWay>& members) {
+  for (const MemberWay& member : members) {
+    if (std::strcmp(member.role, "inner") == 0) continue;
+    std::vector<LonLat> line = positions(*member.way);
+    const bool is_back = line.size() == 3 && line[0].longitude_deg == line[2].longitude_deg &&
+                         line[0].latitude_deg == line[2].latitude_deg;
+    if (line.size() == 1 || is_back) polygons.push_back({std::move(line), {}, true});
+  }
+}
+
 }  // namespace
 
 void Multipolygons::add(const osmium::Relation& relation) {
@@ -110,18 +121,20 @@ void Multipolygons::add_pieces(const osmium::Relation& relation) {
 
 void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem) {
   const bool old_style = says_nothing(tags);
-  if (relation.tags().get_value_by_key("type") == nullptr) {
-    problem.add(Kind::broken_multipolygon, "it is a relation without a type; taken for a multipolygon");
-  }
   problem.add_share(Kind::missing_members, members.ways - members.there.size(), members.ways, "ways",
                     "not in the file");
   problem.add_share(Kind::missing_nodes, members.missing_nodes, members.nodes, "nodes", "not in the file");
   problem.add_share(Kind::missing_nodes, members.off_earth, members.nodes, "nodes", "nowhere on the earth");
+  if (relation.tags().get_value_by_key("type") == nullptr) {
+    problem.add(Kind::broken_multipolygon, "it is a relation without a type; taken for a multipolygon");
+  }
   Assembly assembly = assemble(relation, members.there);
   if (assembly.polygons.empty()) {
     problem.add(Kind::broken_multipolygon, assembly.problem);
-    assembly.polygons = drawn_polygons(members.there);
-    for (MemberWay& member : members.there) member.outer = std::strcmp(member.role, "inner") != 0;
+    assembly.polygons = drawn_polygons(members.there, progress_);
+    for (MemberWay& member : members.there) {
+      member = {member.way, member.role, std::strcmp(member.role, "inner") != 0, false, false};
+    }
   }
   for (const MemberWay& member : members.there) {
     if (!member.stray) continue;
@@ -134,8 +147,9 @@ void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Memb
     add_problem(problem.build(id_of(relation), tags, true), members);
     return;
   }
-  for (Polygon& polygon : assembly.polygons) {
-    if (members.missing_nodes + members.off_earth > 0) polygon = {std::move(polygon.outer), {}, true};
+  if (members.missing_nodes + members.off_earth > 0) {
+    for (Polygon& polygon : assembly.polygons) polygon = {std::move(polygon.outer), {}, true};
+    if (assembly.problem.empty()) add_sideless(assembly.polygons, members.there);  // else they are among the loose
   }
   if (old_style) {
     std::vector<Tags> outer;
@@ -154,7 +168,8 @@ void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Memb
   }
   absorb(relation, tags, old_style, members.there);
   if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), tags, false));
-  extract_.areas.push_back({id_of(relation), std::move(tags), std::move(assembly.polygons)});
+  const bool partial = members.there.size() < members.ways;
+  extract_.areas.push_back({id_of(relation), std::move(tags), std::move(assembly.polygons), partial});
 }
 
 void Multipolygons::absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,

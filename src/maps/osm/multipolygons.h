@@ -18,8 +18,9 @@ namespace vantage::internal::osm {
 /// Builds the areas of multipolygons, and knows which of their ways say nothing of their own.
 class Multipolygons {
  public:
-  Multipolygons(const MapObjects& objects, const Wanted& wanted, Selection& selection, Extract& extract)
-      : objects_(objects), wanted_(wanted), selection_(selection), extract_(extract) {}
+  Multipolygons(const MapObjects& objects, const Wanted& wanted, Selection& selection, Extract& extract,
+                const core::ProgressReporter& progress)
+      : objects_(objects), wanted_(wanted), selection_(selection), extract_(extract), progress_(progress) {}
 
   /// Adds an area, a building relation or a problem to the extract, or nothing when it is not wanted.
   void add(const osmium::Relation& relation);
@@ -64,6 +65,7 @@ class Multipolygons {
   const Wanted& wanted_;
   Selection& selection_;
   Extract& extract_;
+  const core::ProgressReporter& progress_;
   std::unordered_map<std::int64_t, Absorbed> absorbed_;
 };
 
