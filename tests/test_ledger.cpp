@@ -557,6 +557,7 @@ TEST_F(LedgerTest, ReasonsAreRightAndComeOnce) {
   map.line({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{"man_made", "storage_tank"}});
   map.box(100, 0, 100.0074, 20, {{"building", "yes"}, {"height", "9"}});
   map.node(200, 0, {{"generator:source", "wind"}, {"height:hub", "80"}, {"rotor:diameter", "500"}});
+  map.box(300, 0, 320, 20, {{"building", "yes"}, {"height", "9"}});
   CityOptions warn;
   warn.missing = MissingPolicy::warn;
   for (const CityOptions& options : {CityOptions(), warn}) {

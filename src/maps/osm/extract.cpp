@@ -117,8 +117,9 @@ class ExtractBuilder {
     const Tags tags = to_tags(way.tags());
     const auto absorbed = multipolygons_.absorbed(way.id());
     const Meaning meaning = meaning_of(kept, tags, absorbed.has_value());
+    const bool is_repeated = absorbed && absorbed->reported && means_area(tags);
     if (!selection_.holds(id)) {
-      if (!absorbed) selection_.leave_out(way);
+      if (!absorbed || meaning.line || is_repeated) selection_.leave_out(way);
       return;
     }
     ProblemBuilder problem;
@@ -127,7 +128,7 @@ class ExtractBuilder {
     bool there = meaning.area && add_area(kept, tags, problem);
     there = (meaning.line && add_line(kept, tags, problem)) || there;
     if (absorbed) {
-      if (!absorbed->reported || !means_area(tags)) return;
+      if (!is_repeated) return;
       problem.add(Kind::repeated_outline, (absorbed->hole ? "it is tagged like " : "it bounds ") + text(absorbed->by) +
                                               (absorbed->hole ? ", whose hole it bounds" : ", which stands for it"));
     }
