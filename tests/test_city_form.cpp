@@ -194,8 +194,13 @@ TEST(CityForm, PartsInheritTheKindAlone) {
 }
 
 TEST(CityForm, AHeightIsAGuessWhereNoTagSaysIt) {
-  for (const auto& [key, value] : {std::pair{"name", "Hall"}, {"height", "tall"}, {"height", "-5"}, {"height", "0"},
-                                   {"building:levels", "0"}, {"min_height", "20"}, {"roof:height", "3"}}) {
+  for (const auto& [key, value] : {std::pair{"name", "Hall"},
+                                   {"height", "tall"},
+                                   {"height", "-5"},
+                                   {"height", "0"},
+                                   {"building:levels", "0"},
+                                   {"min_height", "20"},
+                                   {"roof:height", "3"}}) {
     EXPECT_TRUE(read({{"building:part", "yes"}, {key, value}}).form.is_guessed) << key << "=" << value;
   }
   for (const auto& [key, value] : {std::pair{"height", "3"}, {"height", "10-30"}, {"building:levels", "2"}}) {

@@ -248,9 +248,8 @@ TEST(OsmMultipolygons, StandForWaysThatSayNothingMore) {
   expect_problem(repeated, way_id(11), Kind::repeated_outline, true, "it bounds relation/20, which stands for it");
   EXPECT_EQ(testing::find_problem(repeated, way_id(12)), nullptr);
   const std::string wood = osm_tag("natural", "wood");
-  const Extract clearing =
-      extract_of(kNodes + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5), wood) +
-                 osm_relation(20, {"way 11 outer", "way 12 inner"}, kMultipolygon + wood));
+  const Extract clearing = extract_of(kNodes + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5), wood) +
+                                      osm_relation(20, {"way 11 outer", "way 12 inner"}, kMultipolygon + wood));
   EXPECT_EQ(clearing.areas.size(), 1u);
   expect_problem(clearing, way_id(12), Kind::repeated_outline, true, "tagged like relation/20, whose hole it bounds");
   // A tower of its own over the same outline, and a house in the courtyard.

@@ -441,11 +441,11 @@ TEST(WriteScene, LedgersThatAreGarbledAreRefused) {
   };
   EXPECT_EQ(read("{}").ledger.size(), 1u);
   EXPECT_FALSE(read(R"({"stand_in": 7, "instead": "nothing"})").ledger.at(0).stand_in);  // there is no such object
-  for (const char* bad : {"{", "7", R"({"what": 7})", R"({"box": [[0, 0], [1, 1]]})",
-                          R"({"box": [[0, 0, 0], [1, -1, 0]]})", R"({"box": [[0, 0, 0], [1, 1, 1e99]]})",
-                          R"({"box": [[null, 0, 0], [1, 1, 1]]})", R"({"outlines": [[[0, "a"]]]})",
-                          R"({"what": "a", "what": "b"})", R"({"height_m": "tall"})", R"({"stand_in": -1})",
-                          R"({"object": {"kind": "castle"}})"}) {
+  for (const char* bad :
+       {"{", "7", R"({"what": 7})", R"({"box": [[0, 0], [1, 1]]})", R"({"box": [[0, 0, 0], [1, -1, 0]]})",
+        R"({"box": [[0, 0, 0], [1, 1, 1e99]]})", R"({"box": [[null, 0, 0], [1, 1, 1]]})",
+        R"({"outlines": [[[0, "a"]]]})", R"({"what": "a", "what": "b"})", R"({"height_m": "tall"})",
+        R"({"stand_in": -1})", R"({"object": {"kind": "castle"}})"}) {
     SCOPED_TRACE(bad);
     testing::expect_error([&] { read(bad); }, ErrorCode::record_garbled, "a.obj, line 5");
   }

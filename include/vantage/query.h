@@ -246,7 +246,7 @@ struct LegDistance {
   double share = 0;                                             ///< where on the leg, 0 to 1
   Vec3 point = Vec3::Zero();                                    ///< of the scene, scene frame
   std::uint32_t object = 0;  ///< of the scene; behind all of these, of Scene::overhead. Its display_name:
-  std::string name = {};                                        ///< empty where nothing is within the cut-off
+  std::string name = {};     ///< empty where nothing is within the cut-off
 };
 
 /// Measures how near legs come to the surfaces of a scene. Immutable: any number of threads may ask.

@@ -93,8 +93,8 @@ std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach>
   if (near.empty()) return std::nullopt;
   const auto held = static_cast<std::size_t>(
       std::count_if(near.begin(), near.end(), [](const Near& one) { return one.entry->stand_in.has_value(); }));
-  const Near& worst = *std::min_element(near.begin(), near.end(),
-                                        [](const Near& a, const Near& b) { return a.is_worse_than(b); });
+  const Near& worst =
+      *std::min_element(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.is_worse_than(b); });
   double least = kNowhere;
   for (const Near& one : near) least = std::min(least, one.distance_m);
   std::string text = near.size() == 1 ? "1 thing within reach is not built as the scene's file has it"

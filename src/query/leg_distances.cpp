@@ -88,7 +88,8 @@ LegDistance LegDistances::nearest(const Leg& leg) const {
   internal::query::check_leg(leg, 0);
   const PreparedScene::Data& scene = scene_.data();
   LegDistance result;
-  find_nearer(scene, leg, [&](std::uint32_t object) { return is_left_out_[object]; }, 0, cutoff_m_, result);
+  find_nearer(
+      scene, leg, [&](std::uint32_t object) { return is_left_out_[object]; }, 0, cutoff_m_, result);
   if (with_overhead_ && scene.overhead) {
     const auto none = [](std::uint32_t) { return false; };
     find_nearer(*scene.overhead, leg, none, static_cast<std::uint32_t>(is_left_out_.size()), cutoff_m_, result);

@@ -29,7 +29,7 @@ struct MapObjects {
   std::vector<Point> points;                       ///< wanted; not finite where a position is not on the earth
   std::vector<KeptWay> ways;                       ///< by id
   std::vector<const osmium::Relation*> relations;  ///< multipolygons that may be wanted, building relations; by id
-  std::vector<const osmium::Relation*> unwanted;  ///< multipolygons whose ways alone may be wanted; by id
+  std::vector<const osmium::Relation*> unwanted;   ///< multipolygons whose ways alone may be wanted; by id
 
   std::array<double, 4> bounds_deg{};
   std::size_t nodes = 0, ways_in_file = 0, relations_in_file = 0, superseded = 0;
