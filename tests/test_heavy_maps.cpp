@@ -269,6 +269,13 @@ class Comparison {
     ++excluded_[is_point ? "a point" : "no area for osmium-tool"];
   }
 
+  static bool says_height(const TagMap& tags) {
+    return std::any_of(tags.begin(), tags.end(), [](const auto& tag) {
+      return tag.first == "height" || tag.first == "est_height" || tag.first.ends_with("building:levels") ||
+             tag.first == "building:height" || tag.first == "building:part:levels";
+    });
+  }
+
   /// How much of a building its parts cover: those on the ground, or all.
   double covered_by_parts(const std::string& building, const PlainPolygons& plain, const PlainFrame& frame,
                           bool grounded) const {
@@ -277,9 +284,11 @@ class Comparison {
     for (const std::string& part : parts_.parts_of(building)) {
       const ExportedArea& area = map_.areas.at(part);
       if (is_underground(area) || area.is_mended) continue;  // what is guessed covers nothing
-      // A lift house stands on what is built; under a roof on posts nothing is.
-      const ExpectedHeights heights = expected_heights(area.tags, &tags);
+      const ExpectedHeights heights = expected_heights(area.tags, &tags), whole = expected_heights(tags, nullptr);
+      if (heights.top.least < whole.top.least && !says_height(area.tags)) continue;
+      // A lift house stands on what is built, and a roof on posts covers another one alone.
       const bool is_on_posts = heights.because.find("stands on posts") != std::string::npos;
+      if (is_on_posts && whole.because.find("stands on posts") == std::string::npos) continue;
       if (grounded && heights.bottom.least > 0 && !is_on_posts) continue;
       covering.push_back(in_metres(area.polygons, frame));
     }

@@ -320,7 +320,7 @@ TEST(RingFault, OfARingThatTouchesItselfIsWhatItGoesRoundTwice) {
     for (const auto& [x, y] : places) ring.emplace_back(x, y);
     return ring_fault({ring}, {}).has_value();
   };
-  EXPECT_FALSE(fault({{0, 0}, {5, 5}, {9, 9}, {9, 0}, {5, 5}, {0, 9}})) << "a figure of eight";
+  EXPECT_FALSE(fault({{0, 0}, {5, 5}, {9, 9}, {9, 0}, {5, 5}, {0, 9}}));
   EXPECT_FALSE(fault({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {2, 2}, {2, 7}, {7, 7}, {7, 2}, {2, 2}})) << "a hole";
   EXPECT_TRUE(fault({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {2, 2}, {7, 2}, {7, 7}, {2, 7}, {2, 2}}));
   EXPECT_TRUE(fault({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {9, 0}, {9, 9}, {0, 9}}));

@@ -1,6 +1,7 @@
 // Volumes proved, certified and surrounded, and lists of what the engine knows: as python/src/judges.cpp and others.
 #include "common/json.h"
 #include "common/output.h"
+#include "common/shown_address.h"
 #include "held.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
@@ -107,6 +108,9 @@ void add_judge_calls(Calls& calls) {
 void add_list_calls(Calls& calls) {
   calls["mission_keys"] = &keys;
   calls["codes"] = &codes;
+  calls["without_secrets"] = [](const Json& a) -> Json {
+    return without_secrets(a.at("text").get<std::string>(), a.at("is_address").get<bool>());
+  };
   calls["version"] = [](const Json&) -> Json { return VANTAGE_VERSION; };
   calls["object_kinds"] = [](const Json&) -> Json {
     Json names = Json::array();

@@ -418,3 +418,7 @@ def error_codes() -> list[str]:
 
 def warning_codes() -> list[str]:
     return list(engine().call("codes")["warnings"])
+
+
+def without_secrets(text: bytes, is_address: bool) -> bytes:
+    return str(engine().call("without_secrets", text=text.decode("utf-8", "replace"), is_address=is_address)).encode("utf-8")
