@@ -799,7 +799,9 @@ void Locator::add_from_other_end(std::size_t index) {
   const std::size_t first = corners_.size(), timed_circles = timed_circles_, level_returns = level_returns_,
                     open_circles = open_circles_;
   add_item(index);
-  timed_circles_ = timed_circles, level_returns_ = level_returns, open_circles_ = open_circles;  // it is counted again
+  timed_circles_ = timed_circles;  // it is counted again
+  level_returns_ = level_returns;
+  open_circles_ = open_circles;
   for (std::size_t i = corners_.size(); i-- > first;) add_back_to(corners_[i - 1], corners_[i]);
   from.item = index;
   add_back_to(from, from);

@@ -111,13 +111,16 @@ Tags common_tags(const std::vector<Tags>& all) {
 void add_heights(Tags& tags, const Tags& other) {
   static constexpr std::array<std::string_view, 5> keys = {"height", "building:height", "est_height", "building:levels",
                                                            "building:part:levels"};
-  for (const auto& [key, value] : other.all) {
-    if (!contains(keys, key)) continue;
-    const auto own = std::find_if(tags.all.begin(), tags.all.end(), [&](const Tag& tag) { return tag.first == key; });
+  constexpr std::size_t kShort = 1000;  // characters that are searched: a relation may have 100,000 pieces
+  for (const Tag& said : other.all) {
+    if (!contains(keys, said.first)) continue;
+    const auto own =
+        std::find_if(tags.all.begin(), tags.all.end(), [&said](const Tag& tag) { return tag.first == said.first; });
     if (own == tags.all.end()) {
-      tags.all.emplace_back(key, value);
-    } else if ((";" + own->second + ";").find(";" + value + ";") == std::string::npos) {
-      own->second += ";" + value;
+      tags.all.push_back(said);
+    } else if (own->second.size() > kShort ||
+               (";" + own->second + ";").find(";" + said.second + ";") == std::string::npos) {
+      own->second += ";" + said.second;
     }
   }
 }
