@@ -105,6 +105,27 @@ TEST_F(OsmHostile, ANulByteInAnyTextIsRefused) {
   refused(whole_map(texts), ErrorCode::map_syntax, "block at byte");
 }
 
+/// libosmium multiplies them by the granularity, in 64 bits.
+TEST_F(OsmHostile, PositionsThatOverflowAreRefused) {
+  constexpr std::int64_t kFar = std::int64_t{1} << 61, kMost = kFar / 100;
+  const auto map = [](const std::vector<std::int64_t>& latitudes, const std::string& more = "") {
+    const std::vector<std::int64_t> zeros(latitudes.size(), 0);
+    return pbf_header() +
+           testing::pbf_raw_block(pbf_field(1, pbf_field(1, "")) +
+                                  pbf_field(2, pbf_field(2, pbf_field(1, pbf_packed_signed(zeros)) +
+                                                                pbf_field(8, pbf_packed_signed(latitudes)) +
+                                                                pbf_field(9, pbf_packed_signed(zeros)))) +
+                                  more);
+  };
+  EXPECT_EQ(extract(map({kMost, -kMost})).nodes, 1U);
+  for (const std::vector<std::int64_t>& steps :
+       {std::vector<std::int64_t>{kMost + 1}, {-kMost - 1}, {kMost, 1}, {INT64_MAX}, {INT64_MIN}, {1, INT64_MAX}}) {
+    refused(map(steps), ErrorCode::map_syntax, "block at byte 57");
+  }
+  refused(map({kMost}, pbf_field(17, std::uint64_t{1000})), ErrorCode::map_syntax, "block at byte 57");
+  refused(map({0}, pbf_field(19, static_cast<std::uint64_t>(INT64_MAX))), ErrorCode::map_syntax, "block at byte 57");
+}
+
 TEST_F(OsmHostile, TagsEndWithTheirList) {
   // As libosmium keeps them where a text holds a NUL byte: a text more than keys and values make.
   for (const std::size_t nuls : {1, 2, 3}) {

@@ -1,5 +1,9 @@
 #include "maps/osm/pbf_block.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <osmium/io/detail/protobuf_tags.hpp>
 #include <protozero/pbf_message.hpp>
@@ -25,8 +29,21 @@ class BlockSize {
 
   std::uint64_t measure() {
     protozero::pbf_message<format::PrimitiveBlock> block(block_);
-    while (block.next(format::PrimitiveBlock::required_StringTable_stringtable, pbf_wire_type::length_delimited)) {
-      read_texts(block.get_view());
+    while (block.next()) {
+      switch (block.tag_and_type()) {
+        case tag_and_type(format::PrimitiveBlock::required_StringTable_stringtable, pbf_wire_type::length_delimited):
+          read_texts(block.get_view());
+          break;
+        case tag_and_type(format::PrimitiveBlock::optional_int32_granularity, pbf_wire_type::varint):
+          most_ = kMost / std::max<std::int64_t>(1, std::abs(static_cast<std::int64_t>(block.get_int32())));
+          break;
+        case tag_and_type(format::PrimitiveBlock::optional_int64_lat_offset, pbf_wire_type::varint):
+        case tag_and_type(format::PrimitiveBlock::optional_int64_lon_offset, pbf_wire_type::varint):
+          check_steps(std::array{block.get_int64()}, kMost);
+          break;
+        default:
+          block.skip();
+      }
     }
     protozero::pbf_message<format::PrimitiveBlock> again(block_);
     while (
@@ -46,6 +63,20 @@ class BlockSize {
                            "text " + std::to_string(lengths_.size()), "download or export the map again");
       }
       lengths_.push_back(text.size());
+    }
+  }
+
+  /// Numbers of which each is the difference to the one before. libosmium multiplies positions and adds to them, and
+  /// trusts that no number overflows.
+  template <class Range>
+  static void check_steps(const Range& steps, std::int64_t most) {
+    std::int64_t sum = 0;
+    for (const std::int64_t step : steps) {
+      const bool is_step = -most <= step && step <= most;
+      sum += is_step ? step : 0;
+      if (is_step && -most <= sum && sum <= most) continue;
+      throw RefusedInput(ErrorCode::map_syntax, "a position of the map is not on the earth, nor near it",
+                         "a block of nodes", "download or export the map again");
     }
   }
 
@@ -96,6 +127,10 @@ class BlockSize {
         case tag_and_type(format::Node::optional_Info_info, pbf_wire_type::length_delimited):
           measure_user(node.get_view());
           break;
+        case tag_and_type(format::Node::required_sint64_lat, pbf_wire_type::varint):
+        case tag_and_type(format::Node::required_sint64_lon, pbf_wire_type::varint):
+          check_steps(std::array{node.get_sint64()}, most_);
+          break;
         default:
           node.skip();
       }
@@ -108,6 +143,10 @@ class BlockSize {
       switch (dense.tag_and_type()) {
         case tag_and_type(format::DenseNodes::packed_sint64_id, pbf_wire_type::length_delimited):
           size_ += kObject * dense.get_packed_sint64().size();
+          break;
+        case tag_and_type(format::DenseNodes::packed_sint64_lat, pbf_wire_type::length_delimited):
+        case tag_and_type(format::DenseNodes::packed_sint64_lon, pbf_wire_type::length_delimited):
+          check_steps(dense.get_packed_sint64(), most_);
           break;
         case tag_and_type(format::DenseNodes::packed_int32_keys_vals, pbf_wire_type::length_delimited):
           for (const std::int32_t text : dense.get_packed_int32()) {
@@ -146,6 +185,10 @@ class BlockSize {
         case tag_and_type(format::Way::packed_sint64_refs, pbf_wire_type::length_delimited):
           size_ += kWayNode * way.get_packed_sint64().size();
           break;
+        case tag_and_type(format::Way::packed_sint64_lat, pbf_wire_type::length_delimited):
+        case tag_and_type(format::Way::packed_sint64_lon, pbf_wire_type::length_delimited):
+          check_steps(way.get_packed_sint64(), most_);
+          break;
         case tag_and_type(format::Way::optional_Info_info, pbf_wire_type::length_delimited):
           measure_user(way.get_view());
           break;
@@ -181,6 +224,8 @@ class BlockSize {
   protozero::data_view block_;
   std::vector<std::uint64_t> lengths_;  // of the texts of the block
   std::uint64_t size_ = 0;
+  static constexpr std::int64_t kMost = std::int64_t{1} << 61;
+  std::int64_t most_ = kMost / 100;  // of a position: times the block's granularity it is no more than kMost
 };
 
 }  // namespace
