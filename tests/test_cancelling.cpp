@@ -84,6 +84,16 @@ std::vector<long> closed_ring(std::size_t corners) {
   return nodes;
 }
 
+osm::Extract heard_while_reading(const std::string& objects) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "map.osm", osm_xml(objects));
+  osm::Extract extract;
+  EXPECT_LT(longest_deafness_s(
+                [&](const Progress& progress) { extract = osm::read_extract(directory / "map.osm", {}, progress); }),
+            kPromised);
+  return extract;
+}
+
 TEST(Cancelling, ARelationOfEqualWays) {
   constexpr std::size_t kCorners = 1000;
   const Positions ring = star(kCorners, 0.9);
@@ -96,12 +106,7 @@ TEST(Cancelling, ARelationOfEqualWays) {
       members.push_back("way " + std::to_string(way) + " outer");
     }
     text += osm_relation(1, members, building);
-    const TemporaryDirectory directory;
-    write_bytes(directory / "map.osm", osm_xml(text));
-    osm::Extract extract;
-    EXPECT_LT(longest_deafness_s(
-                  [&](const Progress& progress) { extract = osm::read_extract(directory / "map.osm", {}, progress); }),
-              kPromised);
+    const osm::Extract extract = heard_while_reading(text);
     const osm::Area* const area = find_object(extract.areas, relation_id(1));
     ASSERT_NE(area, nullptr);
     ASSERT_EQ(area->polygons.size(), 1u);
@@ -145,14 +150,8 @@ TEST(Cancelling, ARelationOfNestedRings) {
   }
   ways += osm_way(2 * kRings + 1, {1, 5});
   members.push_back("way " + std::to_string(2 * kRings + 1) + " outer");
-  const TemporaryDirectory directory;
-  write_bytes(
-      directory / "map.osm",
-      osm_xml(nodes + ways + osm_relation(1, members, osm_tag("type", "multipolygon") + osm_tag("building", "yes"))));
-  osm::Extract extract;
-  EXPECT_LT(longest_deafness_s(
-                [&](const Progress& progress) { extract = osm::read_extract(directory / "map.osm", {}, progress); }),
-            kPromised);
+  const std::string building = osm_tag("type", "multipolygon") + osm_tag("building", "yes");
+  const osm::Extract extract = heard_while_reading(nodes + ways + osm_relation(1, members, building));
   const osm::Area* const area = find_object(extract.areas, relation_id(1));
   ASSERT_NE(area, nullptr);
   EXPECT_GT(area->polygons.size(), static_cast<std::size_t>(kRings));
