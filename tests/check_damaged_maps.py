@@ -23,6 +23,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -271,7 +272,15 @@ def built(program: str, file: str, folder: pathlib.Path) -> tuple[dict, dict]:
     objects = {o["source_id"]: (round(o["height_m"], 3), round(o.get("footprint_m2") or 0, 1))
                for o in json.loads(listed.stdout)["objects"]} if listed.returncode == 0 else {}
     told = run(program, ["inspect", file, "--json"], folder)
-    return objects, {e["object"]: e for e in json.loads(told.stdout)["ledger"]} if told.returncode == 0 else {}
+    if told.returncode != 0:
+        return objects, {}
+    told = json.loads(told.stdout)
+    ledger = {e["object"]: e for e in told["ledger"]}
+    for passed in told["passed_over"]:  # for a way that bounds a relation the relation stands in
+        other = re.search(r"(?:way|relation)/\d+", passed["reason"])
+        if other and other[0] in ledger:
+            ledger.setdefault(passed["object"], ledger[other[0]])
+    return objects, ledger
 
 
 def fate(sound: tuple[dict, dict], damaged: tuple[dict, dict], name: str) -> str:
@@ -407,7 +416,7 @@ def void_posts(program: str, raster: Raster, seed: str, kept: pathlib.Path | Non
             break
         became = "silent" if len(told[1]["ledger"]) == len(told[0]["ledger"]) else "held" if is_told else "ledger only"
         what = f"{rows} x {columns} posts, {became}: {wrong} of {judged} positions; seed {seed!r}"
-        if kept is not None and (became == "silent" or (wrong and not nothing_tells(damage.__name__, became))):
+        if kept is not None and (became == "silent" or (wrong and not nothing_tells("void_posts", became))):
             shutil.copytree(folder, kept / seed.replace(" ", "-"), dirs_exist_ok=True)
         return Result(void_posts.__name__, became, judged, wrong, what)
 
