@@ -243,6 +243,21 @@ TEST_F(PlanMissionTour, KeepsWhatIsAskedInATubeAboutTheFlight) {
   }
 }
 
+TEST_F(PlanMissionTour, KeepsWhatIsAskedInATubeWithACameraThatTurns) {
+  for (const std::string sensor : {"camera: {model: dji_mavic_3e_wide}", "fov: [40, 30]", "fov: [10, 8]",
+                                   "fov: [60, 40], gimbal: {pitch: [-70, -20]}"}) {
+    SCOPED_TRACE(sensor);
+    const Mission of = of_text(std::string(kPlazaScene) + "sensor: {max_range: 120, " + sensor + "}\n" +
+                               "target: {vertices: [[-43, -3, 0.1], [-37, -3, 0.1], [-37, 3, 0.1], [-43, 3, 0.1]]}\n" +
+                               "navigation: {altitude: [2, 110]}\ntour: {home: [-40, 0, 0], clearance: 4}\n");
+    const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
+    EXPECT_TRUE(tour.is_complete());
+    const Flight flight = plan_of_tour(tour, of).flight;
+    expect_passes(check_flight(of, flight, {.tube_radius_m = 1}));
+    EXPECT_FALSE(check_flight(of, flight, {.tube_radius_m = 3}).passes()) << "it is no deeper than it has to be";
+  }
+}
+
 TEST_F(PlanMissionTour, SaysWhereItCannotKeepTheTube) {
   const auto says = [](const MissionTour& tour) {
     return std::any_of(tour.notes.begin(), tour.notes.end(),
@@ -275,7 +290,7 @@ TEST_F(PlanMissionTour, AsksOfNoKnownGimbalForWhatItDoesNotReach) {
     const Mission of = of_text(seen_from_below(sensor));
     const MissionTour tour = plan_mission_tour(of, {.with_bound = false});
     EXPECT_TRUE(tour.is_complete());
-    expect_passes(check_flight(of, plan_of_tour(tour, of).flight));  // of a tube the judge is not certain at an edge
+    expect_passes(check_flight(of, plan_of_tour(tour, of).flight, {.tube_radius_m = 1}));
     double highest_deg = -90;
     for (const FlightAction& action : plan_of_tour(tour, of).actions) {
       highest_deg = std::max(highest_deg, action.gimbal_pitch_deg.value_or(-90));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -71,6 +72,19 @@ std::vector<Mission> each_of(const Mission& mission) {
   return each;
 }
 
+double view_depth_m(const Mission& mission) {
+  const TourSettings settings = mission.as_written.tour.value_or(TourSettings());
+  double reach = reach_m(settings);
+  if (const auto& camera = mission.sensor.camera; camera && !mission.sensor.mount.is_fixed()) {
+    // limits/frame/leg.cpp judges a tube by pieces and cubes of a 32nd of its radius, each by one orientation from its
+    // middle, in which all must be farther inside the picture than the piece is large. A metre nearer to the target
+    // costs as much of that as the sine of half the angle of view.
+    const double tangent = std::min(camera->half_width, camera->half_height);
+    reach *= 1 + (0.5 + 2.5 * std::sqrt(1 + 1 / (tangent * tangent))) / 32;
+  }
+  return std::max(settings.margin_m, reach);
+}
+
 void check_can_hover(const TourSettings& settings, const MissionTourOptions& options) {
   if (settings.vehicle.kind == TourVehicle::Kind::fixed_wing) {
     throw Error(ErrorCode::not_applicable,
@@ -103,7 +117,7 @@ FewestPositions positions_for(const Mission& mission, const std::vector<MissionT
     request.targets.push_back(seen_target(each[i], targets[i], scene, run, ignored));
     if (!options.with_bound) request.targets.back().outer = {};
   }
-  request.margin_m = depth_m(settings) + slack_m;
+  request.margin_m = view_depth_m(mission) + slack_m;
   request.airspace = airspace;
   request.deviation_m = slack_m;
   request.time_limit_s = settings.time_limit_s;

@@ -20,6 +20,9 @@ bool is_volume(const Mission& one);
 /// The missions of all targets, each by itself.
 std::vector<Mission> each_of(const Mission& mission);
 
+/// So deep in its volume each target is viewed: then all that is as near is in the volume, too.
+double view_depth_m(const Mission& mission);
+
 /// Throws Error(input) for a tour that cannot have such positions: of a fixed wing, with positions that are given, and
 /// with a certificate of a bound.
 void check_can_hover(const TourSettings& settings, const MissionTourOptions& options);

@@ -337,7 +337,7 @@ MissionTour plan_mission_tour(const Mission& mission, const MissionTourOptions& 
 
   TourRequest request;
   request.settings = result.settings;
-  request.settings.margin_m = tour::depth_m(result.settings);
+  request.settings.margin_m = tour::view_depth_m(mission);
   request.tube_m = tour::reach_m(result.settings);
   const double rounding_m = request.tube_m > 0 ? 0 : tour::kPlanRoundingM;
   request.airspace = make_airspace(scene, result.settings.clearance_m + rounding_m, mission.navigation, request.tube_m);

@@ -2,7 +2,6 @@
 // stay in it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -26,9 +25,6 @@ constexpr double kPlanRoundingM = 0.01;
 inline double reach_m(const TourSettings& settings) {
   return settings.tube_m > 0 ? settings.tube_m + kPlanRoundingM : 0;
 }
-
-/// So deep in its volume a target is viewed: then all that is as near is in the volume, too.
-inline double depth_m(const TourSettings& settings) { return std::max(settings.margin_m, reach_m(settings)); }
 
 /// What lies at least a margin inside a closed mesh: of several pieces, of any genus. Immutable; any number of threads
 /// may ask one. It holds every point that it returns. Scene frame, metres.

@@ -42,7 +42,10 @@ class AimLook {
   }
 
  private:
-  static constexpr int kMostCubes = 50'000;
+  static constexpr int kMostCubes = 8'000;
+  /// Of the tube's radius: pieces of the leg and cubes of the tube are no smaller. So much less than all of
+  /// sqrt(3) + 1/2 of it may count as out of the picture though it is within.
+  static constexpr double kFinest = 1.0 / 32;
 
   sensor::FoundAim aim(const Vec3& place, const sensor::AimRoom& room, double slack) {
     constexpr int kMostPitches = 400;
@@ -94,7 +97,7 @@ class AimLook {
     // safe side, or is made up for by looking r / 20 farther.
     const double slack = angle_of(place, 0.02 * half);
     if (has_aim(place, {.inside_m = half + radius}, slack)) return false;
-    const bool is_short = 2 * half <= std::max(shortest, radius / 8);
+    const bool is_short = 2 * half <= std::max(shortest, kFinest * radius);
     const bool is_long = piece.end - piece.begin > 1.0 / 64;
     const bool is_out = is_last || has_no_aim(place, {.inside_m = -1.05 * half}, slack, is_long) ||
                         (is_short && !all_near(place, Vec3::Zero(), radius, half));
@@ -105,12 +108,14 @@ class AimLook {
   /// Whether each place of the ball about the middle of this cube, `half` more, has its orientation. The cube's centre
   /// is `aside` from the ball's. After so many cubes of all pieces: no.
   bool all_near(const Vec3& place, const Vec3& aside, double side, double half) {
-    const double corner = std::sqrt(3.0) * side;
-    if (aside.norm() - corner > local_.radius) return true;  // beside the ball
+    const double corner = std::sqrt(3.0) * side, distance = aside.norm();
+    if (distance - corner > local_.radius) return true;  // beside the ball
     if (++cubes_ > kMostCubes) return false;
+    // What of the ball is near the cube's centre is as near to the place of the ball next to that.
+    const Vec3 next = place + (distance > local_.radius ? local_.radius / distance : 1.0) * aside;
     const double inside = corner + half;
-    if (has_aim(place + aside, {.inside_m = inside}, angle_of(place + aside, 0.02 * inside))) return true;
-    if (!(side > local_.radius / 8)) return false;
+    if (has_aim(next, {.inside_m = inside}, angle_of(next, 0.02 * inside))) return true;
+    if (!(side > kFinest * local_.radius)) return false;
     for (int child = 0; child < 8; ++child) {
       const Vec3 to(child & 1 ? 1 : -1, child & 2 ? 1 : -1, child & 4 ? 1 : -1);
       if (!all_near(place, aside + 0.5 * side * to, 0.5 * side, half)) return false;
