@@ -85,8 +85,9 @@ std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach>
   std::vector<Near> near;
   for (const LedgerEntry& entry : scene.ledger) {
     progress.check();
+    const double unsure_m = entry.stand_in && !entry.may_be_larger ? 0 : kUnsureM;
     const bool is_near = !entry.box || std::any_of(within.begin(), within.end(), [&](const auto& reach) {
-      return reach.first.nearest(*entry.box) <= reach.second;
+      return reach.first.nearest(*entry.box) <= reach.second + unsure_m;
     });
     if (is_near) near.push_back({&entry, entry.box ? along.nearest(*entry.box) : 0});
   }
