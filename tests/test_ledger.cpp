@@ -772,6 +772,22 @@ TEST(LedgerNear, AgreesWithAllBoxesOneAfterAnother) {
   }
 }
 
+TEST(LedgerNear, AGuessReachesFartherThanWhatIsHeld) {
+  Scene scene;
+  LedgerEntry& entry = scene.ledger.emplace_back();
+  entry.box = Box{{10, 0, 0}, {20, 10, 9}};
+  const Box path{{-5, 0, 5}, {-5, 10, 5}};
+  const auto warning = [&] { return app::incomplete_warning(scene, {{{path}, 2}}, {path}, "the flight"); };
+  EXPECT_TRUE(warning()) << "nothing holds it";
+  entry.stand_in = 0;
+  EXPECT_FALSE(warning());
+  entry.may_be_larger = true;
+  ASSERT_TRUE(warning());
+  scene.ledger.push_back(entry);
+  scene.ledger.push_back({{"mast"}, "power=tower", "nothing tells how high it is", entry.box});
+  testing::expect_wording(warning()->text);
+}
+
 TEST(LedgerNear, AsksForEachEntryWhetherToGoOn) {
   const core::ProgressReporter::AskAlways always;
   Scene scene;

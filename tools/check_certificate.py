@@ -546,6 +546,7 @@ def check(path, out=print, most_shrink=MOST_SHRINK):
         shrink, views = certificate["shrink"], check_files(certificate, scene, volume)
         demand(0 <= shrink <= most_shrink < 1, f"a shrink of {shrink} is out of range: see --most-shrink")
         demand(certificate["parts"], "the certificate has no part")
+        demand(certificate.get("scene_incomplete") != "", "it says that the scene lacks nothing")
         check_sizes(certificate)
         for box in certificate["boxes"]:
             check_box(box, volume, Fraction(certificate["rounding_m"]))

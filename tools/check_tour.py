@@ -130,6 +130,7 @@ class Tour:
         self.missing = certificate.pop("scene_incomplete", None)
         demand(set(certificate) == keys, "keys too many or too few")
         demand(self.missing is None or type(self.missing) is str, "what the scene lacks is no text", Unreadable)
+        demand(self.missing != "", "it says that the scene lacks nothing")
         self.closed, self.regions = certificate["closed"], list_of(certificate["regions"], [dict])
         soups = [self.read(region, folder) for region in self.regions]
         self.bits = max([BITS] + [x.as_integer_ratio()[1].bit_length() - 1 for s in soups for t in s for x in t])

@@ -218,6 +218,7 @@ std::optional<Warning> large_pixel(const Sensor& sensor) {
 std::optional<Warning> incomplete_warning(const Mission& mission, const Volume* volume) {
   std::vector<Box> targets;
   for (const Vec3& corner : corners_of_all(mission)) targets.push_back({corner, corner});
+  if (targets.empty()) return std::nullopt;  // volumes to fly through, which may have no range
   Box lines = volume != nullptr ? bounding_box(volume->mesh) : Box{};
   for (const Box& corner : targets) lines.extend(corner);
   const auto& clearance = mission.navigation.clearance;
