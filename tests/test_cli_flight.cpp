@@ -3,10 +3,13 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
+#include "support/places.h"
+#include "support/run_program.h"
 
 namespace vantage {
 namespace {
@@ -141,6 +144,24 @@ TEST_F(CliFlight, AnswersSayWhatTheSceneLacks) {
     EXPECT_NE(found.err.find("Bowtie"), std::string::npos) << found.err;
   }
   run({"compute", "map.yaml", "-q", "-o", "v.ply"});
+  run({"prove", "map.yaml", "v.ply", "--certificate", "v.cert"});
+  write("tour.yaml",
+        "scene: {osm: city.osm, center: [48, 11], radius: 150}\nsensor: {max_range: 60}\n"
+        "targets: [{name: west, center: [48, 11], width: 4, length: 4}]\ntour: {gap: 0.5}\n");
+  run({"tour", "tour.yaml", "--certificate", "t.cert"});
+  const std::vector<std::pair<const char*, const char*>> checkers = {{"v.cert", "tools/check_certificate.py"},
+                                                                     {"t.cert", "tools/check_tour.py"}};
+  for (const auto& [certificate, checker] : checkers) {
+    EXPECT_NE(Json::parse(testing::content(folder_ / certificate)).value("scene_incomplete", "").find("Bowtie"),
+              std::string::npos);
+    const testing::ProgramRun checked = testing::run_program(
+        "/usr/bin/env", {"python3", (testing::source_folder() / checker).string(), (folder_ / certificate).string()});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    EXPECT_NE(checked.out.find("Bowtie"), std::string::npos) << checked.out;
+  }
+  EXPECT_NE(run({"verify-tour", "t.cert"}).out.find("Bowtie"), std::string::npos);
+  EXPECT_NE(json_of({"verify-tour", "t.cert", "--json"})["scene_incomplete"].get<std::string>().find("Bowtie"),
+            std::string::npos);
   const Json verified = json_of({"verify", "map.yaml", "v.ply", "--points", "200", "--json"});
   EXPECT_NE(verified["scene_incomplete"].get<std::string>().find("Bowtie"), std::string::npos);
 }

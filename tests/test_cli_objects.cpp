@@ -80,18 +80,16 @@ TEST_F(CliObjects, AQuestionMarkIsOneCharacter) {
   EXPECT_EQ(objects("names.obj", "null").at(0).at("mission"), quoted) << "not YAML's null";
 }
 
-TEST(ListedObjects, WallsHaveFacadesAndTreesAreNoTargets) {
+TEST(ListedObjects, WallsHaveFacadesAndTreesAndStandInsAreNoTargets) {
   LoadedScene loaded;
   loaded.scene.mesh.vertices = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
-  loaded.scene.mesh.triangles.assign(5, {0, 1, 2});
-  loaded.scene.object_of = {0, 1, 2, 3, 4};
-  loaded.scene.objects = {{"fence", "", ObjectKind::wall},
-                          {"oak", "", ObjectKind::tree},
-                          {"", "", ObjectKind::building},
-                          {"Yes", "", ObjectKind::building},
-                          {"", "", ObjectKind::ground}};
+  loaded.scene.mesh.triangles.assign(6, {0, 1, 2});
+  loaded.scene.object_of = {0, 1, 2, 3, 4, 5};
+  loaded.scene.objects = {{"fence", "", ObjectKind::wall}, {"oak", "", ObjectKind::tree},
+                          {"", "", ObjectKind::building},  {"Yes", "", ObjectKind::building},
+                          {"", "", ObjectKind::ground},    {"crane", "", ObjectKind::stand_in}};
   const std::vector<std::string> expected = {"target: {object: fence, part: facade}", "", "",
-                                             "target: {object: \"Yes\", part: roof}", ""};
+                                             "target: {object: \"Yes\", part: roof}", "", ""};
   std::vector<std::string> missions;
   for (const ListedObject& one : list_objects(loaded)) missions.push_back(one.mission);
   EXPECT_EQ(missions, expected);

@@ -377,6 +377,47 @@ TEST_F(LedgerTest, ThingsWithAHeightStandIn) {
   EXPECT_EQ(build(map, options).ledger.size(), 1u) << "the billboard";
 }
 
+TEST_F(LedgerTest, HighThingsOfWhichNothingTellsTheHeightAreTold) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "9"}});
+  map.node(100, 0, {{"power", "tower"}});
+  map.node(120, 0, {{"man_made", "crane"}, {"height", "unknown"}});
+  map.box(40, 0, 60, 30, {{"natural", "wood"}, {"name", "Grove"}});
+  const long inner = map.box(45, 105, 50, 110, {});
+  const long outer = map.box(40, 100, 60, 120, {});
+  map.relation({{"way", outer, "outer"}, {"way", inner, "inner"}}, {{"type", "multipolygon"}, {"landuse", "forest"}});
+  map.box(200, 0, 220, 20, {{"building", "yes"}, {"leisure", "stadium"}});
+  map.node(140, 0, {{"man_made", "crane"}, {"status", "planned"}});
+  map.node(160, 0, {{"tourism", "artwork"}});
+  map.node(180, 0, {{"power", "pole"}});
+  map.box(3000, 0, 3020, 20, {{"natural", "wood"}});
+  const Scene scene = build(map);
+  ASSERT_EQ(scene.ledger.size(), 4u);
+  const LedgerEntry& wood = entry_of(scene, "way/2");
+  EXPECT_FALSE(wood.stand_in);
+  EXPECT_EQ(wood.without, "woods");
+  ASSERT_TRUE(wood.box);
+  EXPECT_NEAR(wood.box->max.y(), 30, 0.05);
+  testing::expect_wording(ledger_text(wood));
+  for (const char* const id : {"node/5", "node/6", "relation/1"}) EXPECT_TRUE(entry_of(scene, id).box) << id;
+  EXPECT_EQ(entry_of(scene, "node/5").without, "masts");
+  CityOptions options;
+  for (const char* kind : {"woods", "masts", "cranes"}) leave_out(options.occluders, kind, "here");
+  EXPECT_TRUE(build(map, options).ledger.empty());
+}
+
+TEST_F(LedgerTest, AWoodWithoutAHeightMovesNoFrame) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  const auto place = [&] {
+    write_bytes(folder_ / "city.osm", map.text());
+    return build_city(folder_ / "city.osm").scene.georeference.value();
+  };
+  const Georeference alone = place();
+  map.box(500, 500, 900, 900, {{"natural", "wood"}});
+  EXPECT_EQ(place().latitude_deg, alone.latitude_deg);
+}
+
 TEST_F(LedgerTest, WhatIsNotInTheOpenOrOnlyFurnitureIsNot) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building", "yes"}});
@@ -625,6 +666,23 @@ TEST_F(LedgerTest, WhatClearanceIsKeptFromLiesWithinReach) {
   EXPECT_EQ(count(mission_warnings(kept), WarningCode::scene_incomplete), 1u);
 }
 
+TEST_F(LedgerTest, WhatMayBeLargerCountsFromFartherAway) {
+  const auto warned = [&](double east, const MapText::TagList& tags) {
+    MapText map = block_with_courtyard(-10, 10);
+    map.node(east, 0, tags);
+    return mission_warnings(mission(map, town_mission("")));
+  };
+  const MapText::TagList building = {{"building", "yes"}, {"height", "9"}}, crane = {{"man_made", "crane"}};
+  // The range of 60 m is from the target's corner at 46 m east; columns of buildings have a radius of 10 m.
+  const std::vector<Warning> near = warned(130, building);
+  ASSERT_EQ(count(near, WarningCode::scene_incomplete), 1u);
+  for (const Warning& warning : near) {
+    if (warning.code == WarningCode::scene_incomplete) testing::expect_wording(warning.text);
+  }
+  EXPECT_EQ(count(warned(140, building), WarningCode::scene_incomplete), 0u);
+  EXPECT_EQ(count(warned(125, crane), WarningCode::scene_incomplete), 1u) << "nothing tells its height";
+}
+
 TEST_F(LedgerTest, TheCheckByRaysTellsWhatTheSceneLacks) {
   const Mission near = mission(block_with_courtyard(10, 30.05), town_mission(""));
   const Mesh box = testing::make_box_mesh({42, -1, 5}, {44, 1, 7});
@@ -703,7 +761,7 @@ TEST(LedgerNear, AgreesWithAllBoxesOneAfterAnother) {
     const auto is_near = [&](const LedgerEntry& entry) {
       return std::any_of(reach.boxes.begin(), reach.boxes.end(), [&](const Box& box) {
         const Vec3 apart = (entry.box->min - box.max).cwiseMax(box.min - entry.box->max);
-        return apart.cwiseMax(0.0).norm() <= reach.within_m;
+        return apart.cwiseMax(0.0).norm() <= reach.within_m + app::kUnsureM;  // nothing holds them
       });
     };
     const auto near = std::count_if(scene.ledger.begin(), scene.ledger.end(), is_near);
@@ -712,6 +770,22 @@ TEST(LedgerNear, AgreesWithAllBoxesOneAfterAnother) {
     EXPECT_EQ(warning ? std::stol(warning->text) : 0, near);
     EXPECT_TRUE(boxes < 700 || near > 0);
   }
+}
+
+TEST(LedgerNear, AGuessReachesFartherThanWhatIsHeld) {
+  Scene scene;
+  LedgerEntry& entry = scene.ledger.emplace_back();
+  entry.box = Box{{10, 0, 0}, {20, 10, 9}};
+  const Box path{{-5, 0, 5}, {-5, 10, 5}};
+  const auto warning = [&] { return app::incomplete_warning(scene, {{{path}, 2}}, {path}, "the flight"); };
+  EXPECT_TRUE(warning()) << "nothing holds it";
+  entry.stand_in = 0;
+  EXPECT_FALSE(warning());
+  entry.may_be_larger = true;
+  ASSERT_TRUE(warning());
+  scene.ledger.push_back(entry);
+  scene.ledger.push_back({{"mast"}, "power=tower", "nothing tells how high it is", entry.box});
+  testing::expect_wording(warning()->text);
 }
 
 TEST(LedgerNear, AsksForEachEntryWhetherToGoOn) {

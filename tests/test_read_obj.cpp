@@ -181,6 +181,9 @@ TEST(ReadObj, TakesBothDiagonalsWhereAFaceIsNotFlat) {
   const RawMesh mesh = read_quad("8");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}));
   EXPECT_TRUE(mesh.ledger.empty());
+  EXPECT_TRUE(read_quad("0").notes.empty());
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  testing::expect_wording(mesh.notes[0]);
   core::ReadLimits limits;
   limits.both_diagonals = false;
   const RawMesh once = read_as("a.obj", "v 30 30 0\nv 40 30 8\nv 40 40 0\nv 30 40 8\no roof\nf 1 2 3 4\n", limits);

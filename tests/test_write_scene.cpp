@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "common/ledger.h"
 #include "support/objects.h"
 #include "support/scenes.h"
 #include "support/solids.h"
@@ -396,9 +397,33 @@ TEST(WriteScene, APlaceThatTheSceneDoesNotBearOutIsNotKnown) {
     ledger(json).erase("stand_in");
   });
   EXPECT_FALSE(open.box);
+  const LedgerEntry moved = after(folder.path(), [&](Json& json) {
+    ledger(json)["box"] = {{5e3, 0, 0}, {5e3, 4, 45}};
+    ledger(json).erase("stand_in");
+  });
+  EXPECT_FALSE(moved.box) << "the scene is 400 m across";
   const LedgerEntry apart = after(folder.path(), [&](Json& json) { ledger(json)["box"] = {{90, 0, 0}, {94, 4, 45}}; });
   EXPECT_FALSE(apart.box);
   EXPECT_FALSE(apart.stand_in);
+}
+
+TEST(WriteScene, StandInsThatNoLedgerNamesAreInIt) {
+  const TemporaryDirectory folder;
+  Scene scene = house_and_mast();
+  scene.ledger.clear();
+  for (const char* const name : {"a.obj", "a.ply", "a.glb"}) {
+    SCOPED_TRACE(name);
+    write_scene(scene, folder / name);
+    const Scene read = read_scene(folder / name);
+    ASSERT_EQ(read.ledger.size(), 1u);
+    EXPECT_EQ(read.ledger[0].stand_in, 2U);
+    EXPECT_TRUE(read.ledger[0].may_be_larger);
+    ASSERT_TRUE(read.ledger[0].box);
+    EXPECT_EQ(read.ledger[0].box->max, Vec3(44, 4, 45));
+    testing::expect_wording(ledger_text(read.ledger[0]));
+    testing::expect_code([&] { read_scene(folder / name, {.missing = MissingPolicy::refuse}); },
+                         ErrorCode::scene_incomplete);
+  }
 }
 
 TEST(WriteScene, LedgersMoveWithOneNodeAboutAllOthers) {

@@ -51,7 +51,7 @@ VECTOR, LIMITS = [float] * 3, [{float, type(None)}] * 3
 FILE = {"file": str, "hash": str}
 CERTIFICATE = {
     "format": str, "scene": FILE, "volume": FILE, "mission_hash": str, "shrink": float, "rounding_m": float,
-    "max_range_m": float, "boxes": ({"name": str, "min": LIMITS, "max": LIMITS},),
+    "max_range_m": float, "scene_incomplete?": str, "boxes": ({"name": str, "min": LIMITS, "max": LIMITS},),
     "parts": ({"target": (VECTOR,), "shift_m": float, "centre": VECTOR, "corners": (VECTOR,), "normal": VECTOR,
                "cut_height_m": {float, type(None)}, "facets": str, "steps": str},)}
 TARGET = {"name": str, "parts": ((VECTOR,),), "offset_m": float, "front?": VECTOR, "front_by_order?": bool}
@@ -546,6 +546,7 @@ def check(path, out=print, most_shrink=MOST_SHRINK):
         shrink, views = certificate["shrink"], check_files(certificate, scene, volume)
         demand(0 <= shrink <= most_shrink < 1, f"a shrink of {shrink} is out of range: see --most-shrink")
         demand(certificate["parts"], "the certificate has no part")
+        demand(certificate.get("scene_incomplete") != "", "it says that the scene lacks nothing")
         check_sizes(certificate)
         for box in certificate["boxes"]:
             check_box(box, volume, Fraction(certificate["rounding_m"]))
@@ -560,6 +561,8 @@ def check(path, out=print, most_shrink=MOST_SHRINK):
         out(f"of the volume less {shrink} of the distance to the target, rounded by {certificate['rounding_m']} m,")
         mission = certificate["mission_hash"] if views else "the volume names none; compare target and range yourself"
         out(f"within {certificate['max_range_m']} m. Mission: {mission}")
+        if "scene_incomplete" in certificate:
+            out(f"Of the scene as built: {certificate['scene_incomplete']!a}")
     except (OSError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, struct.error,
             MemoryError) as error:
         why = f"{type(error).__name__}: {error}"

@@ -127,7 +127,10 @@ class Tour:
     def __init__(self, certificate, folder):
         keys = {"format", "bound_m", "turn_radius_m", "closed", "first", "last", "regions", "proof"}
         demand(certificate["format"] == "vantage tour certificate 2", "a certificate of another version")
+        self.missing = certificate.pop("scene_incomplete", None)
         demand(set(certificate) == keys, "keys too many or too few")
+        demand(self.missing is None or type(self.missing) is str, "what the scene lacks is no text", Unreadable)
+        demand(self.missing != "", "it says that the scene lacks nothing")
         self.closed, self.regions = certificate["closed"], list_of(certificate["regions"], [dict])
         soups = [self.read(region, folder) for region in self.regions]
         self.bits = max([BITS] + [x.as_integer_ratio()[1].bit_length() - 1 for s in soups for t in s for x in t])
@@ -288,6 +291,8 @@ def check(path, say=print):
     wing = f", turning in {certificate['turn_radius_m']} m over ground or more," * (tour.radius > 0)
     say(f"accepted: no {'closed' if tour.closed else 'open'} tour of these {len(tour.regions)}{wing} is shorter than "
         f"{certificate['bound_m']} m ({proof['kind']}, {len(proof['tree'])} nodes)")
+    if tour.missing is not None:
+        say(f"Of the scene as built: {tour.missing!a}")
     return Fraction(bound, UNIT << tour.bits)
 
 if __name__ == "__main__":

@@ -56,6 +56,9 @@ struct MissionTour {
   std::optional<FewestPositions> fewest = {};
   std::optional<TourLowerBound> bound = {};  ///< of the targets that are visited; nothing where it was not asked for
   std::vector<std::string> notes = {};       ///< what to know before relying on it
+  /// What of the scene's ledger lies within reach of the flight, or else of the targets, as the warning
+  /// scene_incomplete tells it; in `notes` too. Empty: nothing.
+  std::string scene_incomplete = {};
 
   /// Whether all targets are visited.
   bool is_complete() const { return tour.problems.empty(); }
@@ -159,6 +162,7 @@ struct TourCertificateCheck {
   std::string kind;       ///< of the proof: "insertion", "pairs" (docs/theory.md, "Tours")
   std::size_t nodes = 0;  ///< of its tree
   std::vector<TourCertificateRegion> regions;  ///< no tour that visits them all is shorter
+  std::string scene_incomplete;  ///< as the certificate has it, MissionTour::scene_incomplete; no proof depends on it
 };
 
 /// Whether a certificate of plan_mission_tour proves its bound. Reads the certificate and the meshes that it names,
@@ -173,7 +177,8 @@ VANTAGE_API TourCertificateCheck verify_tour_certificate(const std::filesystem::
                                                          const Progress& progress = {});
 
 /// JSON (UTF-8, indented, a newline at the end): "accepted", "reason", "bound_m", "proved_m" (null where nothing is
-/// proved, or no tour is possible), "turn_radius_m", "closed", "proof", "nodes", "regions". Lengths in metres.
+/// proved, or no tour is possible), "turn_radius_m", "closed", "proof", "nodes", "regions", "scene_incomplete" (null:
+/// nothing). Lengths in metres.
 VANTAGE_API std::string json_text(const TourCertificateCheck& check);
 
 }  // namespace vantage

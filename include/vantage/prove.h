@@ -46,6 +46,7 @@ struct Certificate {
   double max_range_m = 0;  ///< of every point to every corner of the target
   std::vector<CertifiedBox> boxes;
   std::vector<CertificatePart> parts;  ///< all of them are seen from everywhere in the volume
+  std::string scene_incomplete = {};   ///< ProofReport::scene_incomplete
 };
 
 /// The files that a certificate lies beside, and their hashes (docs/hashes.md).
@@ -59,6 +60,7 @@ struct CertifiedFiles {
 
 /// JSON, UTF-8, a newline at the end. These keys, each once, and no others:
 ///   format         "vantage certificate 1"
+///   scene_incomplete  what of the scene is not built as it stands, for people; only where anything is within reach
 ///   scene, volume  "file", beside the certificate, and "hash"
 ///   mission_hash, shrink, rounding_m, max_range_m
 ///   boxes          limits that all of the volume keeps: name, min, max; null: no limit

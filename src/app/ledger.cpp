@@ -64,6 +64,18 @@ struct Near {
   }
 };
 
+/// What holds the places: of so many things nothing, of others a stand-in that may be too small.
+std::string holders_text(std::size_t things, std::size_t open, std::size_t guessed) {
+  if (open == things) return "nothing holds their place: they hide nothing";
+  if (guessed == things) return "what stands in may be too small";
+  if (open + guessed == 0) return "stand-ins hold their place";
+  std::string text;
+  if (open > 0) text = "nothing holds the place of " + std::to_string(open) + " of them: these hide nothing";
+  if (guessed == 0) return text;
+  return text + (text.empty() ? "" : "; ") + "what stands in for " + std::to_string(guessed) +
+         " of them may be too small";
+}
+
 /// Of UTF-8, whose characters begin with no byte 10xxxxxx.
 std::string cut(const std::string& text) {
   constexpr std::size_t kMost = 200;
@@ -85,14 +97,18 @@ std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach>
   std::vector<Near> near;
   for (const LedgerEntry& entry : scene.ledger) {
     progress.check();
+    const double unsure_m = entry.stand_in && !entry.may_be_larger ? 0 : kUnsureM;
     const bool is_near = !entry.box || std::any_of(within.begin(), within.end(), [&](const auto& reach) {
-      return reach.first.nearest(*entry.box) <= reach.second;
+      return reach.first.nearest(*entry.box) <= reach.second + unsure_m;
     });
     if (is_near) near.push_back({&entry, entry.box ? along.nearest(*entry.box) : 0});
   }
   if (near.empty()) return std::nullopt;
-  const auto held = static_cast<std::size_t>(
-      std::count_if(near.begin(), near.end(), [](const Near& one) { return one.entry->stand_in.has_value(); }));
+  std::size_t open = 0, guessed = 0;
+  for (const Near& one : near) {
+    open += one.entry->stand_in ? 0 : 1;
+    guessed += one.entry->stand_in && one.entry->may_be_larger ? 1 : 0;
+  }
   const Near& worst =
       *std::min_element(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.is_worse_than(b); });
   double least = kNowhere;
@@ -100,10 +116,7 @@ std::optional<Warning> incomplete_warning(const Scene& scene, std::vector<Reach>
   std::string text = near.size() == 1 ? "1 thing within reach is not built as the scene's file has it"
                                       : std::to_string(near.size()) +
                                             " things within reach are not built as the scene's file has them";
-  const std::size_t open = near.size() - held;
-  text += open == 0   ? " (stand-ins hold their place)"
-          : held == 0 ? " (nothing holds their place: they hide nothing)"
-                      : " (nothing holds the place of " + std::to_string(open) + " of them: these hide nothing)";
+  text += " (" + holders_text(near.size(), open, guessed) + ")";
   text += least > 0 ? core::format(", the nearest {:.0f} m from {}", std::floor(least), path)
                     : core::format(", the nearest among {}", path);
   return Warning{WarningCode::scene_incomplete, text + "; the worst: " + ledger_text(*worst.entry)};

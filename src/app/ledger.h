@@ -16,6 +16,9 @@ struct Reach {
   double within_m = 0;
 };
 
+/// What stands in for a guess, or for nothing, may reach so much farther than the ledger has it, metres: docs/scene.md.
+constexpr double kUnsureM = 20;
+
 /// scene_incomplete, where anything of the ledger lies within one of `reaches`, or in no known place. `paths`: boxes
 /// round what must stay clear of it, sight lines or a flight, called `path` ("the sight lines"). The worst is what
 /// nothing holds, then what may be larger, then what is nearest. Throws Error(cancelled).

@@ -71,10 +71,11 @@ class Pattern {
   bool is_glob_;
 };
 
-/// Nothing of an object that has no name to write, and of a tree, which has neither a roof nor a facade.
+/// Nothing of an object that has no name to write, of a tree, which has neither a roof nor a facade, and of a stand-in,
+/// which is no target.
 std::string mission_of(const LoadedScene& loaded, const SceneObject& object) {
   const std::string& known_as = object.source_id.empty() ? object.name : object.source_id;
-  if (known_as.empty() || object.kind == ObjectKind::tree) return "";
+  if (known_as.empty() || object.kind == ObjectKind::tree || object.kind == ObjectKind::stand_in) return "";
   if (object.kind == ObjectKind::ground || object.kind == ObjectKind::surface) {
     return "navigation: {ground: " + internal::app::yaml_text(known_as) + "}";
   }

@@ -9,6 +9,7 @@
 #include "app/certified_ply.h"
 #include "common/atomic_file.h"
 #include "common/input.h"
+#include "common/known_data.h"
 #include "common/output.h"
 #include "vantage/error.h"
 #include "vantage/result.h"
@@ -184,9 +185,8 @@ ProofReport prove_volume(const Mission& mission, const Mesh& volume, const Prove
       all = std::move(report);
     }
   }
-  for (Warning& warning : mission_warnings(mission)) {
-    if (warning.code == WarningCode::scene_incomplete) all->scene_incomplete = std::move(warning.text);
-  }
+  if (const auto missing = incomplete_warning(mission)) all->scene_incomplete = missing->text;
+  if (all->certificate) all->certificate->scene_incomplete = all->scene_incomplete;
   return std::move(*all);
 }
 

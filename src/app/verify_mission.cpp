@@ -1,4 +1,5 @@
 // The check of a mission's volume.
+#include "common/known_data.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
 
@@ -10,9 +11,7 @@ VerifyReport verify_volume(const Mission& mission, const Mesh& volume, const Ver
     return verify_volume(mission.scene(), seen, mission.sensor, mission.navigation, volume, options, progress);
   };
   VerifyReport report = mission.views.empty() ? check(mission.target) : check(mission.views);
-  for (const Warning& warning : mission_warnings(mission)) {
-    if (warning.code == WarningCode::scene_incomplete) report.scene_incomplete = warning.text;
-  }
+  if (const auto missing = incomplete_warning(mission)) report.scene_incomplete = missing->text;
   return report;
 }
 

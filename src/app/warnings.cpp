@@ -153,23 +153,6 @@ Shortfall of(const Mission& mission, const std::vector<Vec2>& points) {
   return loaded.raster || has_ground ? of_surface(loaded, points) : Shortfall{};
 }
 
-/// Of the scene's ledger, what hides too little, or stands in for what is not known, or must be kept away from: within
-/// range of the targets and, of positions there, within the clearance.
-std::optional<Warning> incomplete(const Mission& mission, const Volume* volume) {
-  std::vector<Box> targets;
-  for (const std::vector<Target>& view : internal::app::views_of(mission)) {
-    for (const Target& target : view) {
-      for (const Vec3& corner : corners(target)) targets.push_back({corner, corner});
-    }
-  }
-  Box lines = volume != nullptr ? bounding_box(volume->mesh) : Box{};
-  for (const Box& corner : targets) lines.extend(corner);
-  const auto& clearance = mission.navigation.clearance;
-  const double within_m = range_limit_m(mission.sensor) + (clearance ? clearance->distance_m : 0);
-  return internal::app::incomplete_warning(mission.scene(), {{std::move(targets), within_m}}, {lines},
-                                           "the sight lines");
-}
-
 /// Round each leg of a flight, and its end.
 std::vector<Box> leg_boxes(const std::vector<Vec3>& positions) {
   std::vector<Box> legs;
@@ -232,6 +215,18 @@ std::optional<Warning> large_pixel(const Sensor& sensor) {
 
 }  // namespace
 
+std::optional<Warning> incomplete_warning(const Mission& mission, const Volume* volume) {
+  std::vector<Box> targets;
+  for (const Vec3& corner : corners_of_all(mission)) targets.push_back({corner, corner});
+  if (targets.empty()) return std::nullopt;  // volumes to fly through, which may have no range
+  Box lines = volume != nullptr ? bounding_box(volume->mesh) : Box{};
+  for (const Box& corner : targets) lines.extend(corner);
+  const auto& clearance = mission.navigation.clearance;
+  const double within_m = range_limit_m(mission.sensor) + (clearance ? clearance->distance_m : 0);
+  return internal::app::incomplete_warning(mission.scene(), {{std::move(targets), within_m}}, {lines},
+                                           "the sight lines");
+}
+
 std::vector<Warning> beyond_data_warnings(const Mission& mission, const FlownPlaces& flown, const Progress& progress) {
   std::vector<Vec2> points;
   for (const Vec3& position : flown.positions) points.emplace_back(position.head<2>());
@@ -265,7 +260,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                             ": what stands out there hides nothing, and the volume may claim too much; " +
                             shortfall.fix});
   }
-  if (auto missing = incomplete(mission, volume)) warnings.push_back(std::move(*missing));
+  if (auto missing = incomplete_warning(mission, volume)) warnings.push_back(std::move(*missing));
   Box box;
   for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);
   const double across = (box.max - box.min).norm();

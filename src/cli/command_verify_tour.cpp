@@ -50,6 +50,7 @@ std::string table_text(const TourCertificateCheck& check, const VerifyTourArgume
     return table.text();
   }
   table.heading(options.certificate + ": accepted");
+  if (!check.scene_incomplete.empty()) table.heading(check.scene_incomplete);
   table.row("bound", fixed(check.bound_m, 3),
             std::string("m: no ") + (check.closed ? "closed" : "open") + " tour of these regions is shorter");
   if (check.turn_radius_m > 0) {

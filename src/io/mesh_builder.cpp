@@ -66,6 +66,7 @@ void MeshBuilder::add_face() {
     add_triangle({corners_[0], corners_[2], corners_[3]});
     add_triangle({corners_[0], corners_[1], corners_[3]});
     add_triangle({corners_[1], corners_[2], corners_[3]});
+    ++doubled_;
     return;
   }
   if (farthest > 0) {
@@ -162,6 +163,11 @@ RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
                  "export a surface mesh with faces");
   }
   tell_uneven(keep_used_objects());
+  if (doubled_ > 0) {
+    mesh_.notes.push_back(core::count_text(doubled_, "quadrilateral is not flat: it has become",
+                                           "quadrilaterals are not flat: each has become") +
+                          " the triangles of both its diagonals");
+  }
   return std::move(mesh_);
 }
 

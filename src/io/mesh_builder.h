@@ -79,9 +79,9 @@ class MeshBuilder {
 
   // A face: begin_face, add_corner for each corner, end_face. A polygon counts as flat where its corners lie within 1
   // cm and a thousandth of its width of a plane, or within what single precision can tell there. A quadrilateral that
-  // is not becomes the four triangles of both its diagonals: whatever it means lies between them. Others become
-  // triangles, and an entry of the ledger for each object. Corners count from 0 and may be vertices that come later
-  // in the file.
+  // is not becomes the four triangles of both its diagonals: whatever it means lies between them, and a note counts
+  // them. Others become triangles, and an entry of the ledger for each object. Corners count from 0 and may be vertices
+  // that come later in the file.
   void begin_face(std::uint64_t place) {
     place_ = place;
     corners_.clear();
@@ -147,6 +147,7 @@ class MeshBuilder {
   std::vector<std::uint32_t> late_corners_;
   std::vector<Vec3> polygon_;
   std::map<std::uint32_t, Uneven> uneven_;  // by object
+  std::size_t doubled_ = 0;                 // quadrilaterals with both diagonals
   std::vector<Triangle> ears_;
 };
 

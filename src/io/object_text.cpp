@@ -103,6 +103,7 @@ using LedgerJson = nlohmann::json;
 constexpr std::string_view kLedgerMark = "vantage ledger:";
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kTooFarM = 100e3;  // from all triangles: then its numbers are wrong
+constexpr double kFarM = 1e3;       // a scene smaller than that may have been moved without its ledger
 
 [[noreturn]] void fail_entry(const std::string& problem) {
   throw LedgerProblem{"an entry of the ledger of vantage in it cannot be read: " + problem};
@@ -252,15 +253,34 @@ bool covers(const Box& holder, const Box& box) {
 /// `boxes`: of the objects; `built`: of all of them.
 void bear_out(const RawMesh& mesh, const std::vector<Box>& boxes, const Box& built, LedgerEntry& entry) {
   const Box* holder = entry.stand_in && may_hold(mesh, *entry.stand_in, entry) ? &boxes[*entry.stand_in] : nullptr;
-  const bool is_lost = entry.box && (distance(*entry.box, built) > kTooFarM ||
+  const double far_m = std::clamp((built.max - built.min).norm(), kFarM, kTooFarM);
+  const bool is_lost = entry.box && (distance(*entry.box, built) > far_m ||
                                      (holder && distance(*entry.box, *holder) > 0 && !covers(*holder, *entry.box)));
   const bool is_held = holder && !is_lost && (!entry.box || covers(*holder, *entry.box));
-  if (is_lost) entry.box.reset();
-  if (is_lost) entry.outlines.clear();
+  if (is_lost) {
+    entry.box.reset();
+    entry.outlines.clear();
+  }
   if (is_held) return;
   if (entry.stand_in) entry.reason += "; what held its place is not there any more";
   entry.stand_in.reset();
   entry.instead.clear();
+}
+
+/// Stand-ins that no entry names, as in files that lost their ledger: nobody knows what they stand in for.
+void add_unnamed(RawMesh& mesh, const std::vector<Box>& boxes) {
+  std::vector<bool> is_named(boxes.size());
+  for (const Missing& missing : mesh.ledger) {
+    if (missing.entry.stand_in) is_named.at(*missing.entry.stand_in) = true;
+  }
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (mesh.objects[i].kind != ObjectKind::stand_in || is_named[i] || boxes[i].empty()) continue;
+    Missing& missing = mesh.ledger.emplace_back();
+    missing.entry = {mesh.objects[i], "", "it is a stand-in, and no ledger of its file tells what for", boxes[i]};
+    missing.entry.stand_in = i;
+    missing.entry.instead = "it as it is";
+    missing.entry.may_be_larger = true;
+  }
 }
 
 }  // namespace
@@ -276,6 +296,9 @@ void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::pa
   for (const Box& box : boxes) built.extend(box);
   for (Missing& missing : mesh.ledger) {
     if (missing.is_stated) bear_out(mesh, boxes, built, missing.entry);
+  }
+  add_unnamed(mesh, boxes);
+  for (Missing& missing : mesh.ledger) {
     if (missing.is_stated || missing.entry.stand_in) continue;
     const Mesh holder = std::exchange(missing.holder, {});
     const bool is_near = std::all_of(holder.vertices.begin(), holder.vertices.end(), [&](const Vec3& vertex) {

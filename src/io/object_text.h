@@ -51,9 +51,10 @@ Missing held_by_box(LedgerEntry entry, const Box& box);
 
 /// As `policy` says, of a mesh in the scene frame: the holders become objects of the kind stand_in, or what they would
 /// hold is held by nothing. One that lies more than 100 km from all triangles is not built: its numbers are wrong. Of a
-/// ledger that the file states such a place is none, nor is one that does not meet what holds it; and an object holds
-/// it that is a stand-in or goes by its name, and reaches round its box, or else nothing does. Throws
-/// Error(scene_incomplete) for MissingPolicy::refuse where there is any entry.
+/// ledger that the file states a place is none that lies farther from them than they reach (1 km at least), or does not
+/// meet what holds it; and an object holds it that is a stand-in or goes by its name, and reaches round its box, or
+/// else nothing does. A stand-in that no entry names gets one. Throws Error(scene_incomplete) for MissingPolicy::refuse
+/// where there is any entry.
 void apply_policy(RawMesh& mesh, MissingPolicy policy, const std::filesystem::path& file,
                   const core::ProgressReporter& progress);
 

@@ -97,7 +97,10 @@ std::string file_text(const std::string& file, const std::string& hash) {
 }  // namespace
 
 std::string certificate_text(const Certificate& certificate, const CertifiedFiles& files) {
-  return "{\"format\":\"vantage certificate 1\",\n \"scene\":" + file_text(files.scene_file, files.scene_hash) +
+  const std::string& missing = certificate.scene_incomplete;
+  return "{\"format\":\"vantage certificate 1\"" +
+         (missing.empty() ? "" : ",\n \"scene_incomplete\":" + quoted_json(missing)) +
+         ",\n \"scene\":" + file_text(files.scene_file, files.scene_hash) +
          ",\n \"volume\":" + file_text(files.volume_file, files.volume_hash) +
          ",\n \"mission_hash\":" + quoted_json(files.mission_hash) +
          ",\n \"shrink\":" + number_text(certificate.shrink) +

@@ -49,9 +49,14 @@ class CertificateJudge {
       : file_(file), check_(check), progress_(progress) {}
 
   /// Throws Refusal.
-  void judge(const Json& json) {
+  void judge(Json json) {
     constexpr const char* kKeys[] = {"format", "bound_m", "turn_radius_m", "closed",
                                      "first",  "last",    "regions",       "proof"};
+    if (const auto missing = json.find("scene_incomplete"); missing != json.end()) {
+      check_.scene_incomplete = missing->get<std::string>();
+      demand(!check_.scene_incomplete.empty(), "it says that the scene lacks nothing");
+      json.erase(missing);
+    }
     demand_keys(json, kKeys, "it has keys too many or too few");
     demand(json["format"] == "vantage tour certificate 2", "it is a certificate of another version");
     progress_.begin("regions of the certificate");
@@ -214,8 +219,8 @@ TourCertificateCheck verify_tour_certificate(const std::filesystem::path& file, 
   const internal::core::ProgressReporter reporter(progress, file.string());
   TourCertificateCheck check;
   try {
-    const judge::Json json = judge::parsed(file, judge::bytes_of(file, judge::kMostBytes));
-    judge::CertificateJudge(file, check, reporter).judge(json);
+    judge::Json json = judge::parsed(file, judge::bytes_of(file, judge::kMostBytes));
+    judge::CertificateJudge(file, check, reporter).judge(std::move(json));
     check.is_accepted = true;
   } catch (const judge::Refusal& refusal) {
     check.reason = refusal.what();
@@ -244,6 +249,7 @@ std::string json_text(const TourCertificateCheck& check) {
   for (const TourCertificateRegion& region : check.regions) {
     json["regions"].push_back({{"name", region.name}, {"kind", name_of(region.kind)}, {"dwell_m", region.dwell_m}});
   }
+  json["scene_incomplete"] = check.scene_incomplete.empty() ? Ordered() : Ordered(check.scene_incomplete);
   constexpr int kIndentation = 2;
   return internal::core::escaped_json(json.dump(kIndentation, ' ', false, Ordered::error_handler_t::replace)) + "\n";
 }

@@ -239,7 +239,9 @@ TourLowerBound bound_of(const Mission& mission, const PreparedScene& scene, cons
   auto proof =
       std::make_shared<const TourProof>(TourProof{tour::bound_tour(problem, incumbent_of(of.tour), bounds, progress)});
   const tour::TourBound& found = proof->bound;
-  if (!options.certificate.empty()) tour::write_tour_certificate(found, options.certificate);
+  if (!options.certificate.empty()) {
+    tour::write_tour_certificate(found, options.certificate, of.scene_incomplete);
+  }
   TourLowerBound bound = {found.length_m, found.gap, tour::name_of(found.kind), found.ignored, proof};
   if (rounded_away_m > 0) {
     bound.length_m = std::max(0.0, bound.length_m - rounded_away_m);
@@ -274,7 +276,16 @@ void note_beyond_data(const Mission& mission, MissionTour& of) {
   FlownPlaces places{{}, {}, {}, of.settings.tube_m + flight.chord_error_m, of.settings.clearance_m};
   for (const FlightPoint& point : flight.points) places.positions.push_back(point.position);
   for (const MissionTourTarget& target : of.targets) places.seen.push_back(target.centre);
-  for (const Warning& note : beyond_data_warnings(mission, places)) of.notes.push_back(note.text);
+  for (const Warning& note : beyond_data_warnings(mission, places)) {
+    of.notes.push_back(note.text);
+    if (note.code == WarningCode::scene_incomplete) of.scene_incomplete = note.text;
+  }
+  if (!of.scene_incomplete.empty()) return;
+  // The flight keeps away, and the volumes and the bound depend on it none the less.
+  if (const auto missing = incomplete_warning(mission)) {
+    of.scene_incomplete = missing->text;
+    of.notes.push_back(missing->text);
+  }
 }
 
 /// A computed volume is a right region to fly through, but its bound is none of flights that see its target.
@@ -437,7 +448,7 @@ void write_tour_certificate(const MissionTour& of, const std::filesystem::path& 
     throw Error(ErrorCode::nothing_given, "the tour has no bound that a certificate could prove", file.string(),
                 "plan it with its bound");
   }
-  tour::write_tour_certificate(of.bound->proof->bound, file);
+  tour::write_tour_certificate(of.bound->proof->bound, file, of.scene_incomplete);
 }
 
 std::string json_text(const MissionTour& of) {

@@ -94,9 +94,11 @@ std::string region_ply(const OuterRegion& region) {
   return text;
 }
 
-std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files) {
+std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files,
+                                  const std::string& scene_incomplete) {
   Json json;
   json["format"] = "vantage tour certificate 2";
+  if (!scene_incomplete.empty()) json["scene_incomplete"] = scene_incomplete;
   json["bound_m"] = bound.length_m;
   json["turn_radius_m"] = bound.space.turn_radius_m;
   json["closed"] = bound.space.closed;
@@ -119,7 +121,7 @@ std::string tour_certificate_text(const TourBound& bound, const std::vector<std:
   std::vector<Json> lines;
   std::visit([&](const auto& proof) { add_proof(proof, json["proof"], lines); }, bound.proof);
   json["proof"]["tree"] = Json::array();
-  std::string text = json.dump();
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // in ASCII
   // The tree is the last thing in it, one node a line.
   const std::string end = "]}}";
   text.resize(text.size() - end.size());
@@ -136,7 +138,8 @@ std::filesystem::path region_file(const std::filesystem::path& certificate, std:
   return certificate.parent_path() / (name + ".region" + std::to_string(region) + ".ply");
 }
 
-void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file) {
+void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file,
+                            const std::string& scene_incomplete) {
   std::vector<std::string> files;
   std::vector<std::unique_ptr<AtomicFile>> written;
   for (std::size_t r = 0; r < bound.regions.size(); ++r) {
@@ -149,7 +152,7 @@ void write_tour_certificate(const TourBound& bound, const std::filesystem::path&
   }
   check_certificate_output(file);
   written.push_back(std::make_unique<AtomicFile>(file));
-  written.back()->write(tour_certificate_text(bound, files));
+  written.back()->write(tour_certificate_text(bound, files, scene_incomplete));
   commit_all(written);
 }
 

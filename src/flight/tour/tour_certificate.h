@@ -18,6 +18,7 @@ std::string region_ply(const OuterRegion& region);
 /// JSON, one entry of the tree a line. `files`: of each region the name of its mesh, relative to the certificate's
 /// folder; of points it is not read.
 ///   format      "vantage tour certificate 2"
+///   scene_incomplete  MissionTour's; only where it says anything
 ///   bound_m     what is proved
 ///   turn_radius_m  of a fixed wing: the track over ground curves no tighter but at points. Else 0
 ///   closed      first, last: numbers of regions, or null
@@ -29,7 +30,8 @@ std::string region_ply(const OuterRegion& region);
 ///               three whole numbers, "tree": in preorder
 ///                 ["edge", i, j] ["leaf", which vectors, p by rows, d, [[s, regions of the set], ...]]
 /// Whole numbers of vectors are in units of 2^-30.
-std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files);
+std::string tour_certificate_text(const TourBound& bound, const std::vector<std::string>& files,
+                                  const std::string& scene_incomplete);
 
 /// The mesh of a region, beside the certificate: its stem with .region0.ply and so on. What is neither an ASCII letter
 /// nor a digit, nor one of "_.-", becomes "_": checkers refuse other names, as they could lead elsewhere.
@@ -37,6 +39,7 @@ std::filesystem::path region_file(const std::filesystem::path& certificate, std:
 
 /// Writes FILE and, beside it, a mesh of each region, its region_file. All are written whole, or none. Throws
 /// Error(output), and as check_derived_output for a mesh.
-void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file);
+void write_tour_certificate(const TourBound& bound, const std::filesystem::path& file,
+                            const std::string& scene_incomplete = "");
 
 }  // namespace vantage::internal::flight::tour

@@ -131,37 +131,54 @@ bool is_cable(const osm::Tags& tags) {
   return overhead_height_m(tags) && !(tags.get("man_made") == "pipeline" && says_its_height(tags));
 }
 
-bool is_stand_in(const osm::Tags& tags) {
-  return says_its_height(tags) && !stands_nowhere(tags) && !is_no_blocker(tags);
-}
-
 struct StandInKind {
   std::string_view key, value;  ///< an empty value stands for any
   std::string_view name;        ///< of the switch
+  bool is_high = false;         ///< it is told of though nothing says how high it is
+
+  bool has(const osm::Tags& tags) const { return value.empty() ? says_yes(tags.get(key)) : tags.get(key) == value; }
 };
 
-constexpr std::array kStandInKinds = {StandInKind{"natural", "wood", "woods"},
-                                      StandInKind{"natural", "scrub", "woods"},
-                                      StandInKind{"natural", "tree_group", "woods"},
-                                      StandInKind{"landuse", "forest", "woods"},
-                                      StandInKind{"landuse", "orchard", "woods"},
-                                      StandInKind{"leisure", "stadium", "stadiums"},
-                                      StandInKind{"leisure", "sports_hall", "stadiums"},
+constexpr std::array kStandInKinds = {StandInKind{"natural", "wood", "woods", true},
+                                      StandInKind{"natural", "scrub", "woods", true},
+                                      StandInKind{"natural", "tree_group", "woods", true},
+                                      StandInKind{"landuse", "forest", "woods", true},
+                                      StandInKind{"landuse", "orchard", "woods", true},
+                                      StandInKind{"leisure", "stadium", "stadiums", true},
+                                      StandInKind{"leisure", "sports_hall", "stadiums", true},
                                       StandInKind{"leisure", "sports_centre", "stadiums"},
-                                      StandInKind{"generator:source", "wind", "turbines"},
-                                      StandInKind{"man_made", "windmill", "turbines"},
-                                      StandInKind{"man_made", "wind_turbine", "turbines"},
-                                      StandInKind{"man_made", "crane", "cranes"},
-                                      StandInKind{"man_made", "tank", "tanks"},
-                                      StandInKind{"man_made", "bunker_silo", "tanks"},
-                                      StandInKind{"man_made", "antenna", "masts"},
+                                      StandInKind{"generator:source", "wind", "turbines", true},
+                                      StandInKind{"man_made", "windmill", "turbines", true},
+                                      StandInKind{"man_made", "wind_turbine", "turbines", true},
+                                      StandInKind{"man_made", "crane", "cranes", true},
+                                      StandInKind{"man_made", "tank", "tanks", true},
+                                      StandInKind{"man_made", "bunker_silo", "tanks", true},
+                                      StandInKind{"man_made", "antenna", "masts", true},
                                       StandInKind{"man_made", "utility_pole", "masts"},
+                                      StandInKind{"power", "tower", "masts", true},
+                                      StandInKind{"power", "portal", "masts", true},
                                       StandInKind{"power", "", "masts"},
+                                      StandInKind{"aerialway", "pylon", "masts", true},
+                                      StandInKind{"aerialway", "station", "masts", true},
                                       StandInKind{"aerialway", "", "masts"},
+                                      StandInKind{"historic", "castle", "monuments", true},
+                                      StandInKind{"historic", "city_gate", "monuments", true},
+                                      StandInKind{"historic", "monument", "monuments", true},
+                                      StandInKind{"historic", "ruins", "monuments", true},
+                                      StandInKind{"historic", "tower", "monuments", true},
                                       StandInKind{"historic", "", "monuments"},
-                                      StandInKind{"man_made", "obelisk", "monuments"},
+                                      StandInKind{"man_made", "obelisk", "monuments", true},
                                       StandInKind{"tourism", "artwork", "monuments"},
                                       StandInKind{"memorial", "", "monuments"}};
+
+bool stands_high(const osm::Tags& tags) {
+  return std::any_of(kStandInKinds.begin(), kStandInKinds.end(),
+                     [&](const StandInKind& kind) { return kind.is_high && kind.has(tags); });
+}
+
+bool is_stand_in(const osm::Tags& tags) {
+  return (says_its_height(tags) || stands_high(tags)) && !stands_nowhere(tags) && !is_no_blocker(tags);
+}
 
 }  // namespace
 
@@ -201,14 +218,15 @@ std::optional<double> overhead_height_m(const osm::Tags& tags) {
 }
 
 const OccluderSwitch& stand_in_switch(const osm::Tags& tags) {
-  const auto fits = [&](const StandInKind& kind) {
-    const std::string_view value = tags.get(kind.key);
-    return kind.value.empty() ? says_yes(value) : value == kind.value;
-  };
-  const auto kind = std::find_if(kStandInKinds.begin(), kStandInKinds.end(), fits);
+  const auto kind =
+      std::find_if(kStandInKinds.begin(), kStandInKinds.end(), [&](const StandInKind& one) { return one.has(tags); });
   const std::string_view name = kind == kStandInKinds.end() ? "others" : kind->name;
   const auto all = occluder_switches();
   return *std::find_if(all.begin(), all.end(), [&](const OccluderSwitch& one) { return name == one.name; });
+}
+
+bool lacks_height(const osm::Tags& tags, Geometry geometry) {
+  return kind_of(tags, geometry) == ObjectKind::stand_in && !says_its_height(tags);
 }
 
 double column_radius_m(const osm::Tags& tags, double height_m) {

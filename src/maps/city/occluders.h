@@ -19,11 +19,14 @@ namespace vantage::internal::city {
 enum class Geometry { point, line, area };
 
 /// What the tags make of an object, from building to stand-in, or nothing for what hides nothing. A stand-in is what
-/// says how high it is, stands in the open, and is neither of the other kinds nor only furniture of a street. A
-/// building that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how
-/// it is drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the
-/// barrier itself is drawn, or nothing else is).
+/// says how high it is, or of a kind that is high (lacks_height), stands in the open, and is neither of the other kinds
+/// nor only furniture of a street. A building that is a tower as well is a building, but a tower where it is a point.
+/// What an object is may depend on how it is drawn: a garden with barrier=fence is a wall as a line and nothing as an
+/// area (unless area=yes says that the barrier itself is drawn, or nothing else is).
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
+
+/// A stand-in, a wood or a crane, of which no tag says how high it is: it is told of, and nothing is built.
+bool lacks_height(const osm::Tags& tags, Geometry geometry);
 
 /// How high above the ground the supports of a line overhead are whose tags and nodes say no height, metres; nothing
 /// for what is no such line.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/format.h"
+#include "maps/city/occluders.h"
 #include "maps/osm/longitude_span.h"
 #include "vantage/error.h"
 
@@ -116,11 +117,12 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
   return osm::Region{{}, b};
 }
 
-/// Calls `visit` with the outlines' positions. Of the areas alone: a file may have a coast or a border that goes on for
-/// kilometres.
+/// Calls `visit` with the outlines' positions. Of areas that are built alone: a file may have a coast, a border or a
+/// wood that goes on for kilometres.
 template <typename Visit>
 void for_corners(const osm::Extract& extract, const Visit& visit) {
   for (const osm::Area& area : extract.areas) {
+    if (lacks_height(area.tags, Geometry::area)) continue;
     for (const osm::Polygon& polygon : area.polygons) std::for_each(polygon.outer.begin(), polygon.outer.end(), visit);
   }
 }

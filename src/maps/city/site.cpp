@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <type_traits>
 
 #include "core/format.h"
 #include "maps/city/structures.h"
@@ -435,6 +436,12 @@ class OccluderSorter {
     if (is_underground(tags)) return pass_over(site_, item.record, kUnderground);
     note_remarks(item.record, remarks);
     if (item.shapes.empty()) return lose(site_, item.record, tags, "without a length or an area", drawn);
+    const Geometry geometry = std::is_same_v<Positions, osm::Area> ? Geometry::area
+                              : id.type == osm::ObjectType::node   ? Geometry::point
+                                                                   : Geometry::line;
+    if (lacks_height(tags, geometry)) {
+      return lose(site_, item.record, tags, "nothing tells how high it is", bounds_of(item.shapes));
+    }
     item.entry = entry_of(item.record, tags, kind);
     add_faults(item.faults, repairs);
     add_faults(item.faults, remarks);

@@ -12,18 +12,20 @@
 namespace vantage::internal::terrain {
 namespace {
 
-/// What a void was filled with; heights are those of the file, in metres.
+/// What a void was filled with; heights are those of the file, in metres. What a height is given for is known.
 std::string filling_text(const VoidRegion& region) {
   if (region.others > 0) return "filled as larger ones are";
   switch (region.filled) {
     case VoidRegion::Filled::from_rim:
-      return core::format("filled with the highest posts of its rim, up to {:.6g} m", region.highest_m);
+      return core::format("filled with the highest posts of its rim, up to {:.6g} m: what is in the void may be higher",
+                          region.highest_m);
     case VoidRegion::Filled::as_given:
       return core::format("filled with the height that is given for voids, {:.6g} m", region.highest_m);
     case VoidRegion::Filled::from_neighbours:
       break;
   }
-  return core::format("filled from its neighbours, {:.6g} to {:.6g} m", region.lowest_m, region.highest_m);
+  return core::format("filled from its neighbours, {:.6g} to {:.6g} m: what is in the void may be higher",
+                      region.lowest_m, region.highest_m);
 }
 
 Box box_of(const VoidRegion& region, const HeightGrid& grid, const geo::LocalFrame& frame) {
