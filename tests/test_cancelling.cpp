@@ -242,6 +242,27 @@ TEST(Cancelling, ZonesOfManyCorners) {
   }
 }
 
+TEST(Cancelling, PlansOfManyCircles) {
+  FlightPlan plan;
+  plan.vehicle = PlanVehicle::multirotor;
+  for (int i = 0; i < 13000; ++i) {
+    PlanItem& item = plan.items.emplace_back();
+    item.kind = PlanItemKind::loiter;
+    item.position = {{11 + i % 100 * 1e-4, 48 + i / 100 * 1e-4}, 50, HeightDatum::scene_z};
+    item.loiter_radius_m = 40;
+    item.turns = 1;
+  }
+  LocateOptions options;
+  options.georeference.emplace();
+  options.georeference->latitude_deg = 48;
+  options.georeference->longitude_deg = 11;
+  EXPECT_LT(longest_deafness_s([&](const Progress& progress) {
+              options.progress = progress;
+              locate_flight(plan, options);
+            }),
+            kPromised);
+}
+
 TEST(Cancelling, ToursOfManyPoints) {
   const TemporaryDirectory directory;
   write_bytes(directory / "ground.obj", "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3 4\n");

@@ -103,6 +103,24 @@ TEST(FlightCheck, JoinsWhatIsSeenAcrossPointsAndCountsStays) {
   EXPECT_EQ(check.arrival_s, (std::vector<double>{0, 3, 7, 13}));
 }
 
+// A way that the vehicle may not fly is judged, and nothing on it counts as seen.
+TEST(FlightCheck, SeesNothingFromOtherWays) {
+  Flight flight = flight_along({{-30, -20, 20}, {-20, -20, 20}, {-20, 6.5, 12}, {-20, -20, 20}, {-10, -20, 20}}, 10);
+  const FlightCheckOptions options{.clearance_m = 20};
+  EXPECT_EQ(check_flight(behind_a_wall(), flight).targets[0].seen.size(), 1U);
+  const double nearest = check_flight(behind_a_wall(), flight).nearest.distance_m;
+  flight.points[2].is_other_way = flight.points[3].is_other_way = true;
+  const FlightCheck check = check_flight(behind_a_wall(), flight, options);
+  ASSERT_EQ(check.targets[0].seen.size(), 2U);
+  EXPECT_EQ(check.targets[0].seen[0].end_m, 10);
+  EXPECT_EQ(check.targets[0].seen[1].end_m, 20);
+  EXPECT_EQ(check.length_m, 20);
+  EXPECT_EQ(check.duration_s, 2);
+  EXPECT_EQ(check.nearest.distance_m, nearest);
+  EXPECT_EQ(check.nearest.at_m, 10);
+  EXPECT_FALSE(check.passes());
+}
+
 TEST(FlightCheck, OfOnePointIsAStay) {
   Flight flight = flight_along({{0, -20, 20}});
   flight.points[0].hold_s = 7;

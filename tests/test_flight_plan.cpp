@@ -223,6 +223,49 @@ TEST(ReadFlightPlan, NamesWaypointsThatItPassesBy) {
   EXPECT_TRUE(read("null").empty());
 }
 
+// The time of a circle replaces its turns; that of a delay is a stay behind it. Nothing with wings stays.
+TEST(ReadFlightPlan, TakesDelaysAsStays) {
+  const auto read = [](const std::string& before, int vehicle) {
+    return parsed_plan(plan({waypoint(48, 11, 50), before, simple(93, 2, "[4, -1, -1, -1, 0, 0, 0]")}, vehicle));
+  };
+  const std::string turns = simple(18, 3, "[2, 0, 60, 0, 48.001, 11, 50]"),
+                    timed = simple(19, 3, "[7, 0, 60, 0, 48.001, 11, 50]"),
+                    lands = simple(21, 3, "[0, 0, 0, 0, 48.001, 11, 0]");
+  for (const int vehicle : {0, 2}) {
+    const PlanItem circle = read(turns, vehicle).items.at(1);
+    EXPECT_EQ(circle.hold_s, 4);
+    EXPECT_EQ(circle.turns, 2);
+    EXPECT_FALSE(circle.is_timed);
+    EXPECT_EQ(read(timed, vehicle).items.at(1).is_timed, vehicle == 0);
+    EXPECT_EQ(read(timed, vehicle).items[1].hold_s, 11);
+    EXPECT_TRUE(read(turns, vehicle).not_judged.empty());
+  }
+  for (const int vehicle : {1, 20}) {
+    const FlightPlan circle = read(turns, vehicle);
+    EXPECT_EQ(circle.items.at(1).hold_s, 0);
+    ASSERT_EQ(circle.not_judged.size(), 1u);
+    EXPECT_EQ(read(waypoint(48.001, 11, 50), vehicle).not_judged.size(), 1u);
+    EXPECT_EQ(read(timed, vehicle).items.at(1).hold_s, 7);
+    EXPECT_TRUE(read(timed, vehicle).items[1].is_timed);
+    EXPECT_TRUE(read(lands, vehicle).not_judged.empty()) << "it stands on the ground";
+    EXPECT_EQ(read(lands, vehicle).items.at(1).hold_s, 4);
+    if (vehicle == 1) expect_wording(circle.not_judged);
+  }
+}
+
+// Where the vehicle stops it comes to the waypoint.
+TEST(ReadFlightPlan, TellsOfCornersThatMayBeCut) {
+  const auto notes = [](const std::string& hold, int vehicle) {
+    return parsed_plan(plan({waypoint(48, 11, 10), simple(16, 3, "[" + hold + ", 80, 0, null, 48.001, 11, 10]"),
+                             simple(16, 3, "[0, 5, 0, null, 48.002, 11, 10]"), waypoint(48.003, 11, 10)},
+                            vehicle))
+        .notes;
+  };
+  ASSERT_EQ(notes("0", 2).size(), 1u);
+  expect_wording({notes("0", 2)[0].text, notes("3", 2).at(0).text});
+  EXPECT_EQ(notes("3", 1).at(0).text, notes("0", 1).at(0).text);
+}
+
 TEST(ReadFlightPlan, TellsOfSettingsTimesOfTheDayAndLandingsInsteadOfReturns) {
   const auto read = [](const std::string& item) {
     return parsed_plan(plan({waypoint(48, 11, 10), item, simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")}));

@@ -222,7 +222,8 @@ TEST(LocateFlight, CirclesForATime) {
   const LocatedPlan located = locate_flight(circles, in_munich());
   double length = 0;
   for (std::size_t i = 1; i < located.items.size(); ++i) {
-    if (located.items[i - 1] == 1) length += (located.flight.leg(i - 1).to - located.flight.leg(i - 1).from).norm();
+    if (located.items[i - 1] != 1 || located.flight.points[i].is_other_way) continue;
+    length += (located.flight.leg(i - 1).to - located.flight.leg(i - 1).from).norm();
   }
   EXPECT_NEAR(length, 100 * 15, 3);
   // A multirotor stays.
@@ -326,8 +327,8 @@ TEST(LocateFlight, FollowsEdgesAndStepsOfTheGround) {
 }
 
 TEST(LocateFlight, TakesOffAndReturns) {
-  const std::vector<std::string> items{simple(22, 3, "[0, 0, 0, null, 48.001, 11, 30]"), waypoint(48.002, 11, 50),
-                                       simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")};
+  std::vector<std::string> items{simple(22, 3, "[0, 0, 0, null, 48, 11, 30]"), waypoint(48.002, 11, 50),
+                                 simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")};
   const FlightPlan copter = parsed_plan(plan(items));
   const auto heights = [](const LocatedPlan& located) {
     std::vector<double> z;
@@ -336,17 +337,18 @@ TEST(LocateFlight, TakesOffAndReturns) {
   };
   LocateOptions options = in_munich();
   const LocatedPlan plain = locate_flight(copter, options);
-  EXPECT_EQ(heights(plain), (std::vector<double>{530, 530, 550, 550}));
+  EXPECT_EQ(heights(plain), (std::vector<double>{530, 550, 550}));
   EXPECT_LT(plain.flight.points[0].position.head<2>().norm(), 1e-6);
-  EXPECT_LT(plain.flight.points[3].position.head<2>().norm(), 1e-6);
+  EXPECT_LT(plain.flight.points[2].position.head<2>().norm(), 1e-6);
   ASSERT_TRUE(plain.home);
   EXPECT_EQ(plain.home->z(), 500);
   EXPECT_TRUE(has_note(plain.notes, WarningCode::plan_assumed));
   options.return_height_m = 80;
   options.with_ground_legs = true;
   const LocatedPlan whole = locate_flight(copter, options);
-  EXPECT_EQ(heights(whole), (std::vector<double>{500, 530, 530, 550, 580, 580, 500}));
+  EXPECT_EQ(heights(whole), (std::vector<double>{500, 530, 550, 580, 580, 500}));
   EXPECT_TRUE(whole.notes.empty());
+  items[0] = simple(22, 3, "[0, 0, 0, null, 48.001, 11, 30]");
   EXPECT_EQ(heights(locate_flight(parsed_plan(plan(items, 1)), options)),
             (std::vector<double>{500, 530, 550, 580, 580, 500}));
   const FlightPlan lands = parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48.003, 11, 0]")}));
@@ -533,9 +535,217 @@ TEST(LocateFlight, FliesBothWaysOfVehiclesThatNobodyKnows) {
   const Flight lands = locate_flight(plan, {}).flight;
   EXPECT_TRUE(flies(lands, centre, end) && flies(lands, entry, end) && flies(lands, end, {60, 90, 0}));
   for (std::size_t i = 0; i < lands.leg_count(); ++i) {
-    const Leg leg = lands.leg(i);
-    EXPECT_TRUE(leg.from.z() == leg.to.z() || leg.from.head<2>() == leg.to.head<2>()) << i;
+    EXPECT_TRUE(lands.leg(i).from.z() > 0 || lands.leg(i).to.z() > 0) << i;
   }
+}
+
+/// The legs that the vehicle flies for certain.
+double length_of(const FlightPlan& plan, const LocateOptions& options = {}) {
+  return length_m(locate_flight(plan, options).flight);
+}
+
+// A delay behind a circle takes nothing away from it.
+TEST(LocateFlight, StaysBehindACircle) {
+  for (const PlanVehicle vehicle : {PlanVehicle::unknown, PlanVehicle::multirotor}) {
+    FlightPlan plan = with_loiter(20);
+    plan.vehicle = vehicle;
+    const double length = length_of(plan);
+    plan.items[1].hold_s = 3;
+    EXPECT_EQ(length_of(plan), length);
+    const Flight flight = locate_flight(plan, {}).flight;
+    EXPECT_TRUE(flies(flight, {60, -20, 10}, {60, -20, 10}));
+    double held_s = 0;
+    for (const FlightPoint& point : flight.points) held_s += point.hold_s;
+    EXPECT_EQ(held_s, 3);
+    plan.speed_m_s = 1;
+    plan.items[1].is_timed = true;
+    EXPECT_LT(length_of(plan), length - 100);
+  }
+  // Of a climb: in the end alone.
+  FlightPlan plan = with_loiter(20, 40);
+  plan.vehicle = PlanVehicle::multirotor;
+  plan.items[1].is_climb = true;
+  plan.items[1].turns = 0;
+  plan.items[1].hold_s = 3;
+  double held_s = 0;
+  for (const FlightPoint& point : locate_flight(plan, {}).flight.points) held_s += point.hold_s;
+  EXPECT_EQ(held_s, 3);
+}
+
+// It is wherever it may be, and what nobody knows is no part of what is seen, of the length or of the time.
+TEST(LocateFlight, FliesAllWaysOffACircle) {
+  const double along = 20 * std::sqrt(1 - 4 / 81.0), across = 20 * 2 / 9.0;  // of the tangents through (60, 90)
+  const Vec3 end(60, 90, 10), east(60 + along, across, 10), west(60 - along, across, 10), north(60, 20, 10);
+  for (const double radius : {20.0, -20.0}) {
+    for (const double turns : {0.1, 1.0, 2.5}) {
+      SCOPED_TRACE(shortest(radius) + ", " + shortest(turns));
+      FlightPlan plan = with_loiter(radius);
+      plan.items[1].turns = turns;
+      plan.vehicle = PlanVehicle::multirotor;
+      const Flight hovers = locate_flight(plan, {}).flight;
+      EXPECT_FALSE(flies(hovers, east, end) || flies(hovers, west, end) || flies(hovers, north, end));
+      for (const PlanVehicle vehicle : {PlanVehicle::fixed_wing, PlanVehicle::vtol, PlanVehicle::unknown}) {
+        plan.vehicle = vehicle;
+        const Flight flight = locate_flight(plan, {}).flight;
+        EXPECT_TRUE(flies(flight, east, end) && flies(flight, west, end) && flies(flight, north, end));
+        EXPECT_TRUE(flies(flight, {40, 0, 10}, end));
+        for (int i = 0; i < 16; ++i) {
+          const double angle = i * std::numbers::pi / 8;
+          const Vec3 on_circle(60 + 20 * std::cos(angle), 20 * std::sin(angle), 10);
+          EXPECT_TRUE(flies(flight, on_circle, on_circle)) << i;
+        }
+        EXPECT_NEAR(length_m(flight), 100 + 40 * std::numbers::pi * turns, 1);
+        EXPECT_TRUE(flight.points[flight.points.size() - 2].is_other_way);
+        EXPECT_FALSE(flight.points.back().is_other_way) << "it is there on any way";
+        EXPECT_TRUE(flight.not_judged.empty());
+        plan.items.pop_back();  // all of the circle, and there it ends
+        EXPECT_TRUE(flies(locate_flight(plan, {}).flight, {60, -20, 10}, {60, -20, 10}));
+        plan.items = with_loiter(radius).items;
+        plan.items[1].turns = turns;
+      }
+    }
+  }
+  // On to another circle, to a stay, and within the circle.
+  FlightPlan plan = with_loiter(20);
+  plan.vehicle = PlanVehicle::fixed_wing;
+  plan.items[2].kind = PlanItemKind::loiter;
+  plan.items[2].loiter_radius_m = 30;
+  plan.items[2].turns = 1;
+  const Flight on = locate_flight(plan, {}).flight;
+  EXPECT_TRUE(flies(on, {60, 120, 10}, {60, 120, 10}) && flies(on, north, {60, 60, 10}));
+  plan = with_loiter(20);
+  plan.items[2].hold_s = 5;
+  EXPECT_EQ(locate_flight(plan, {}).flight.points.back().hold_s, 5);
+  plan.items[2].position.horizontal = {60, 5};
+  EXPECT_TRUE(flies(locate_flight(plan, {}).flight, north, {60, 5, 10}));
+}
+
+// Nothing with wings stops.
+TEST(LocateFlight, CountsNoStaysOfWings) {
+  FlightPlan plan = in_scene({{0, 0, 10}, {50, 0, 10}, {90, 0, 10}});
+  plan.items[1].hold_s = 8;
+  const auto held_s = [&](PlanVehicle vehicle) {
+    plan.vehicle = vehicle;
+    return locate_flight(plan, {}).flight.points[1].hold_s;
+  };
+  EXPECT_EQ(held_s(PlanVehicle::multirotor), 8);
+  EXPECT_EQ(held_s(PlanVehicle::fixed_wing), 0);
+  EXPECT_EQ(held_s(PlanVehicle::vtol), 0);
+  const std::vector<Warning> notes = locate_flight(plan, {}).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  expect_wording(notes[0].text);
+}
+
+/// A home at the origin of the scene, whose ground is at 0.
+LocateOptions with_home() {
+  static const Ground kGround{0, nullptr};
+  LocateOptions options;
+  options.ground = &kGround;
+  options.home = Eigen::Vector2d(0, 0);
+  return options;
+}
+
+// Copters climb above the home and go on; others fly to the place of the takeoff first.
+TEST(LocateFlight, TakesOffElsewhereOnBothWays) {
+  FlightPlan plan = in_scene({{0, 100, 20}, {200, 100, 30}, {300, 100, 30}});
+  LocateOptions options = with_home();
+  plan.items[0].kind = PlanItemKind::takeoff;
+  plan.items[0].hold_s = 5;
+  const Vec3 above(0, 0, 20), away(0, 100, 20), next(200, 100, 30);
+  for (const PlanVehicle vehicle : {PlanVehicle::multirotor, PlanVehicle::vtol, PlanVehicle::unknown}) {
+    plan.vehicle = vehicle;
+    const Flight flight = locate_flight(plan, options).flight;
+    EXPECT_TRUE(flies(flight, above, away) && flies(flight, away, next) && flies(flight, above, next));
+    EXPECT_NEAR(length_m(flight), 100, 1e-9) << "but for the last leg nothing is certain";
+    EXPECT_TRUE(flight.not_judged.empty());
+    for (const FlightPoint& point : flight.points) EXPECT_EQ(point.hold_s, 0);
+  }
+  plan.vehicle = PlanVehicle::fixed_wing;
+  EXPECT_EQ(locate_flight(plan, options).flight.points.size(), 3u);
+  plan.vehicle = PlanVehicle::multirotor;
+  plan.items[0].position.horizontal = {0, 0.5};
+  EXPECT_FALSE(locate_flight(plan, options).flight.points[1].is_other_way) << "it is at the home";
+}
+
+// Straight up and down, or on slopes: nobody knows which.
+TEST(LocateFlight, TakesOffAndLandsOnSlopesToo) {
+  FlightPlan plan = in_scene({{0, 100, 40}, {200, 100, 60}, {300, 100, 7}});
+  LocateOptions options = with_home();
+  plan.items[0].kind = PlanItemKind::takeoff;
+  plan.items[2].kind = PlanItemKind::land;
+  options.with_ground_legs = true;
+  const auto on_slopes = [&](PlanVehicle vehicle) {
+    plan.vehicle = vehicle;
+    const Flight flight = locate_flight(plan, options).flight;
+    return std::pair(flies(flight, {0, 0, 0}, {0, 100, 40}), flies(flight, {200, 100, 60}, {300, 100, 0}));
+  };
+  const auto straight = [&](PlanVehicle vehicle) {
+    plan.vehicle = vehicle;
+    const Flight flight = locate_flight(plan, options).flight;
+    return std::pair(flies(flight, {0, 0, 0}, {0, 0, 40}), flies(flight, {300, 100, 60}, {300, 100, 0}));
+  };
+  EXPECT_EQ(on_slopes(PlanVehicle::multirotor), std::pair(false, false));
+  EXPECT_EQ(on_slopes(PlanVehicle::fixed_wing), std::pair(true, true));
+  EXPECT_EQ(on_slopes(PlanVehicle::unknown), std::pair(true, true));
+  EXPECT_EQ(straight(PlanVehicle::multirotor), std::pair(true, true));
+  EXPECT_EQ(straight(PlanVehicle::fixed_wing), std::pair(false, false));
+  EXPECT_EQ(straight(PlanVehicle::unknown), std::pair(true, true));
+}
+
+// Whatever height it states; and time on the ground is none in the air.
+TEST(LocateFlight, LandsOnTheGround) {
+  FlightPlan plan = in_scene({{100, 0, 50}, {0, 0, 30}});
+  LocateOptions options = with_home();
+  plan.items[1].kind = PlanItemKind::land;
+  plan.items[1].hold_s = 60;
+  plan.items[1].place = "a.plan: item 2";
+  options.with_ground_legs = true;
+  const Flight home = locate_flight(plan, options).flight;
+  EXPECT_EQ(home.points.back().position, Vec3(0, 0, 0));
+  EXPECT_TRUE(home.not_judged.empty());
+  EXPECT_EQ(home.points[home.points.size() - 2].hold_s, 0);
+  options.with_ground_legs = false;
+  EXPECT_EQ(locate_flight(plan, options).flight.points.back().hold_s, 0);
+  plan.items[1].position.horizontal = {200, 0};
+  EXPECT_EQ(locate_flight(plan, options).flight.points.back().position, Vec3(200, 0, 0));
+  options.ground = nullptr;
+  options.home_z_m = 0;
+  const std::vector<std::string> told = locate_flight(plan, options).flight.not_judged;
+  ASSERT_EQ(told.size(), 1u);
+  expect_wording(told);
+}
+
+// What has wings circles about the home until the pilot acts.
+TEST(LocateFlight, CirclesAboutTheHome) {
+  FlightPlan plan = in_scene({{0, 300, 50}, {0, 0, 0}});
+  LocateOptions options = with_home();
+  plan.file = "a.plan";
+  plan.format = PlanFormat::qgroundcontrol;
+  plan.items[1] = PlanItem();
+  plan.items[1].kind = PlanItemKind::return_home;
+  plan.items[1].place = "a.plan: item 2";
+  const auto located = [&](PlanVehicle vehicle) {
+    plan.vehicle = vehicle;
+    return locate_flight(plan, options);
+  };
+  EXPECT_TRUE(located(PlanVehicle::multirotor).flight.not_judged.empty());
+  const std::vector<std::string> wing = located(PlanVehicle::fixed_wing).flight.not_judged;
+  ASSERT_EQ(wing.size(), 1u);
+  expect_wording(wing);
+  EXPECT_EQ(located(PlanVehicle::vtol).flight.not_judged.size(), 1u);
+  EXPECT_EQ(located(PlanVehicle::unknown).flight.not_judged.size(), 1u);
+  plan.format = PlanFormat::waypoints;
+  EXPECT_TRUE(located(PlanVehicle::unknown).flight.not_judged.empty());
+  EXPECT_EQ(located(PlanVehicle::unknown).notes.size(), 2u) << "of the circle, and of the height";
+  options.loiter_radius_m = 80;
+  for (const PlanVehicle vehicle : {PlanVehicle::fixed_wing, PlanVehicle::vtol, PlanVehicle::unknown}) {
+    const Flight flight = located(vehicle).flight;
+    EXPECT_TRUE(flies(flight, {80, 0, 50}, {80, 0, 50}) && flies(flight, {0, -80, 50}, {0, -80, 50}));
+    EXPECT_TRUE(flies(flight, {0, 300, 50}, {0, 0, 50}));
+    EXPECT_NEAR(length_m(flight), 300, 1e-9);
+    EXPECT_TRUE(flight.not_judged.empty());
+  }
+  EXPECT_FALSE(flies(located(PlanVehicle::multirotor).flight, {80, 0, 50}, {80, 0, 50}));
 }
 
 // Without a radius a table is taken as of a multirotor, with a note, and others are not judged; unless it is given.

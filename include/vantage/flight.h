@@ -27,6 +27,9 @@ struct FlightPoint {
   double hold_s = 0;                                            ///< for so long it stays there; >= 0
   double speed_m_s = std::numeric_limits<double>::quiet_NaN();  ///< of the leg that ends here; NaN: not stated
   std::string place = {};  ///< in the plan that it came from, for messages: "survey.plan: item 3"; may be empty
+  /// The leg that ends here is one of several ways, and which of them the vehicle flies is not known: limits, links and
+  /// clearances are judged on it, what is seen from it does not count, and it has no length and takes no time.
+  bool is_other_way = false;
 };
 
 /// A flight along straight legs, from each point to the next one.
@@ -41,7 +44,7 @@ struct Flight {
   Leg leg(std::size_t index) const { return {points[index].position, points[index + 1].position}; }
 };
 
-/// Of all legs, metres.
+/// Of all legs but other ways, metres.
 VANTAGE_API double length_m(const Flight& flight);
 
 /// Throws Error(input) for a flight without points, and with the point's place for a position, a hold or a speed that
@@ -111,7 +114,8 @@ struct PlanItem {
   std::optional<PlanPosition> look_at;  ///< what the camera is turned to; instead of yaw and pitch
   double acceptance_radius_m = 0;       ///< the item counts as reached so near; 0: not stated
   double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
-  double turns = 0;                     ///< of a loiter; with `hold_s` above 0 it circles for that time instead
+  double turns = 0;                     ///< of a loiter; then it stays for `hold_s` where they end
+  bool is_timed = false;                ///< of a loiter with turns: it circles for `hold_s` instead, and does not stay
   /// Of a loiter with turns: a multirotor stays in its centre instead, and the plan does not say which vehicle flies
   /// it.
   bool may_stay = false;
@@ -219,6 +223,7 @@ struct LocateOptions {
   double chord_error_m = 0.05;   ///< so far may legs lie from the curves that they stand for; > 0
   double ground_error_m = 0.25;  ///< so much may a leg that follows the ground be too high or too low; > 0
   double farthest_m = 50e3;      ///< from the origin of the scene; a plan that goes farther is one of another place
+  Progress progress;             ///< asked whether to go on
 };
 
 /// No more points are made of a plan.
@@ -241,11 +246,14 @@ struct LocatedPlan {
 /// Flight::chord_error_m is a bound of what the legs miss: of circles and cut corners, and of legs that follow the
 /// ground, what was allowed. Positions are exact to 15 nm (scene_position).
 ///
-/// A loiter is entered at the point of the circle that is nearest, and left where its turns end.
+/// A loiter is entered at the point of the circle that is nearest, and left where its turns end. What may be no
+/// multirotor flies all of the circle, and may leave it elsewhere: straight away from its centre, along a tangent, or
+/// where it came. Where there are several ways all of them are in the flight, there and back
+/// (FlightPoint::is_other_way).
 ///
 /// Throws Error(input) with the item's place: not_georeferenced, too_far_away, height_unknown (with what to give),
 /// ground_missing, missing_key where a home or a radius is needed, work_too_large beyond kMostFlightPoints.
-/// Cost: linear in the points; for legs that follow the ground also in its triangles.
+/// Error(cancelled). Cost: linear in the points; for legs that follow the ground also in its triangles.
 VANTAGE_API LocatedPlan locate_flight(const FlightPlan& plan, const LocateOptions& options);
 
 // ---- writing ----

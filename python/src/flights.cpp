@@ -80,6 +80,7 @@ PyFlight read_plan(const PyMission& mission, const std::filesystem::path& file, 
     const FlightPlan plan = read_flight_plan(file, {track, told});
     if (home && plan.is_in_scene_frame) options.home = Eigen::Vector2d((*home)[0], (*home)[1]);
     if (home && !plan.is_in_scene_frame) options.home = Eigen::Vector2d((*home)[1], (*home)[0]);
+    options.progress = told;
     LocatedPlan located = locate_flight(*mission, plan, options);
     PyFlight flight = py_flight(std::move(located.flight));
     flight.notes = note_rows(plan.notes, located.notes);

@@ -197,7 +197,7 @@ int run_check(const CheckArguments& options) {
   ProgressLine progress(options.common);
   const FlightPlan plan = read_plan_argument(options, progress.callback());
   const Mission mission = resolve_mission(file, progress.callback());
-  const LocatedPlan located = locate_plan_argument(options, plan, mission);
+  const LocatedPlan located = locate_plan_argument(options, plan, mission, progress.callback());
   FlightCheck check = check_flight(mission, located.flight, asked, progress.callback());
   for (const auto* of_plan : {&plan.notes, &located.notes}) {
     for (const Warning& one : *of_plan) check.notes.push_back(one.text);

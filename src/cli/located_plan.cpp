@@ -80,8 +80,11 @@ LocateOptions locate_options(const PlanArguments& arguments, const FlightPlan& p
   return options;
 }
 
-LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission) {
-  return locate_flight(mission, plan, locate_options(arguments, plan));
+LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission,
+                                 const Progress& progress) {
+  LocateOptions options = locate_options(arguments, plan);
+  options.progress = progress;
+  return locate_flight(mission, plan, options);
 }
 
 }  // namespace vantage::cli

@@ -32,6 +32,7 @@ LocateOptions locate_options(const PlanArguments& arguments, const FlightPlan& p
 
 /// The plan in the frame of the mission's scene, with the mission's ground and sea level, and its home where neither
 /// the plan nor the arguments have one.
-LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission);
+LocatedPlan locate_plan_argument(const PlanArguments& arguments, const FlightPlan& plan, const Mission& mission,
+                                 const Progress& progress);
 
 }  // namespace vantage::cli

@@ -219,15 +219,18 @@ FlownPlaces places_of(const FlightCheck& check, const Mission& mission, const Fl
   return places;
 }
 
-/// What was found on the legs, leg after leg.
-std::vector<OnLeg> judge_legs(const std::vector<Leg>& legs, const LegChecks& judges, double radius_m,
-                              const internal::core::ProgressReporter& reporter) {
+/// What was found on the legs, leg after leg. From another way nothing counts as seen: it may not be flown.
+std::vector<OnLeg> judge_legs(const Flight& flight, const std::vector<Leg>& legs, const LegChecks& judges,
+                              double radius_m, const internal::core::ProgressReporter& reporter) {
   std::vector<OnLeg> found(legs.size());
   std::atomic<std::size_t> done = 0;
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       reporter.report(done.load(), legs.size());
-      for (const JudgedTarget& target : judges.targets) found[i].targets.push_back(target.look(legs[i], radius_m));
+      const bool is_other_way = i < flight.leg_count() && flight.points[i + 1].is_other_way;
+      for (const JudgedTarget& target : judges.targets) {
+        found[i].targets.push_back(is_other_way ? TargetOnLeg() : target.look(legs[i], radius_m));
+      }
       for (const flight::JudgedLink& link : judges.links) found[i].links.push_back(link.look(legs[i], radius_m));
       found[i].broken = judges.limits.broken(legs[i], radius_m);
       ++done;
@@ -419,7 +422,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   }
   const internal::core::ProgressReporter reporter(progress);
   reporter.begin("checking the flight");
-  const std::vector<OnLeg> found = judge_legs(legs, judges, check.tube_radius_m, reporter);
+  const std::vector<OnLeg> found = judge_legs(flight, legs, judges, check.tube_radius_m, reporter);
   reporter.finish();
   for (std::size_t i = 0; i < judges.targets.size(); ++i) {
     check.targets.push_back(check_target(judges.targets[i], i, found, flight, along, options));

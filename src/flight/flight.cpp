@@ -28,7 +28,9 @@ void check_point(const FlightPoint& point, std::size_t index) {
 
 double length_m(const Flight& flight) {
   double length = 0;
-  for (std::size_t i = 0; i < flight.leg_count(); ++i) length += (flight.leg(i).to - flight.leg(i).from).norm();
+  for (std::size_t i = 0; i < flight.leg_count(); ++i) {
+    if (!flight.points[i + 1].is_other_way) length += (flight.leg(i).to - flight.leg(i).from).norm();
+  }
   return length;
 }
 

@@ -12,7 +12,7 @@ FlightTimeline::FlightTimeline(const Flight& flight, double speed_m_s) : flight_
   departure_s_.push_back(flight.points.front().hold_s);
   for (std::size_t i = 0; i < flight.leg_count(); ++i) {
     const FlightPoint& end = flight.points[i + 1];
-    const double length = (end.position - flight.points[i].position).norm();
+    const double length = end.is_other_way ? 0 : (end.position - flight.points[i].position).norm();
     speed_m_s_.push_back(std::isnan(end.speed_m_s) ? speed_m_s : end.speed_m_s);
     at_m_.push_back(at_m_.back() + length);
     arrival_s_.push_back(departure_s_.back() + (length > 0 ? length / speed_m_s_.back() : 0));

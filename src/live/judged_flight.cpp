@@ -26,7 +26,9 @@ std::string on_one_line(const std::string& json) {
 std::string judged_flight(const GivenFlight& given, const Mission& mission, const PreparedScene& prepared,
                           const Progress& progress) {
   using Json = nlohmann::ordered_json;
-  const LocatedPlan located = locate_flight(mission, given.plan, given.locate);
+  LocateOptions locate = given.locate;
+  locate.progress = progress;
+  const LocatedPlan located = locate_flight(mission, given.plan, locate);
   FlightCheckOptions options;
   options.speed_m_s = given.speed_m_s;
   options.prepared = prepared;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/input.h"
+#include "core/progress_reporter.h"
 #include "core/text.h"
 #include "flight/plans/arcs.h"
 #include "flight/plans/ground_profile.h"
@@ -32,7 +33,14 @@ struct Corner {
   std::optional<double> above_ground_m;  ///< where its height is that
   bool follows_ground = false;           ///< the leg that ends here
   double hold_s = 0, speed_m_s = std::nan(""), cut_m = 0;
+  bool is_other_way = false;  ///< FlightPoint::is_other_way
   std::size_t item = 0;
+};
+
+/// A circle that the vehicle leaves where it likes. Angles are clockwise from north.
+struct Circle {
+  Corner centre;
+  double radius_m, begin, end;  ///< > 0: clockwise; angles of where it was come to, and of where its turns end
 };
 
 [[noreturn]] void fail(ErrorCode code, const std::string& where, const std::string& problem, const std::string& fix) {
@@ -42,7 +50,10 @@ struct Corner {
 class Locator {
  public:
   Locator(const FlightPlan& plan, const LocateOptions& options)
-      : plan_(plan), options_(options), levels_(options.georeference, options.levels) {
+      : plan_(plan),
+        options_(options),
+        progress_(options.progress, plan.file),
+        levels_(options.georeference, options.levels) {
     check_options();
     if (plan.is_in_scene_frame) return;
     if (!options.georeference) {
@@ -72,7 +83,7 @@ class Locator {
   double stated_home_z(const std::string& where);
   double z_of(const PlanPosition& position, const Point& at, const std::string& where);
   Corner corner_of(std::size_t item);
-  void add(Corner corner);
+  void add(Corner corner, bool is_other_way = false);
   void add_waypoint(std::size_t index);
   void add_arc(std::size_t index);
   void add_spline(std::size_t index);
@@ -81,15 +92,22 @@ class Locator {
   bool check_alike(std::size_t spline, const Corner& corner, const Corner& to);
   void add_curve(const std::vector<Vec3>& points, bool above_ground, const Corner& to);
   void add_item(std::size_t index);
-  void add_from_other_end(std::size_t index);
+  void add_from_any(std::size_t index);
+  void add_lap(const Circle& circle, std::size_t next);
+  void add_there_and_back(std::size_t index);
   void add_back_to(Corner from, const Corner& to);
   void add_takeoff(std::size_t index);
   void add_loiter(std::size_t index);
   void add_levels(const PlanItem& item, const std::vector<Corner>& circle);
+  Point from_centre(const Corner& centre, const Point& at) const;
+  std::vector<Corner> circle_corners(const Corner& centre, double angle, double radius_m, double turns);
   void tell_open_circle(std::size_t index);
   void add_landing(std::size_t index);
   bool is_at_home(const Corner& corner) const;
+  bool may_circle() const { return plan_.vehicle != PlanVehicle::multirotor; }
+  bool may_stop() const { return plan_.vehicle == PlanVehicle::multirotor || plan_.vehicle == PlanVehicle::unknown; }
   void add_return(std::size_t index);
+  void add_circle_about_home(const Corner& home);
   double loiter_radius(const PlanItem& item) const;
   double loiter_turns(const PlanItem& item, double radius_m);
   std::vector<Corner> with_cut_corners();
@@ -111,6 +129,7 @@ class Locator {
 
   const FlightPlan& plan_;
   const LocateOptions& options_;
+  internal::core::ProgressReporter progress_;
   plans::Levels levels_;
   std::optional<geo::LocalFrame> frame_;         ///< none: the plan is in the scene frame
   std::optional<internal::geo::OnGlobe> globe_;  ///< of a scene whose frame is no map: from a tileset
@@ -118,11 +137,16 @@ class Locator {
   std::optional<plans::GroundProfile> profile_;
   std::optional<double> home_z_;
   std::vector<Corner> corners_;
-  std::optional<Corner> other_end_;     ///< of the last item: the way to the next one may begin there, too
+  // Of the last item: where the way to the next one may begin, too.
+  std::optional<Circle> circle_;
+  std::optional<Corner> other_start_;
+  bool is_other_way_ = false;           ///< what is added
   Vec3 spline_tangent_ = Vec3::Zero();  ///< at the end of the last spline
   LocatedPlan located_;
   plans::NotJudged not_judged_{plan_.file, located_.flight.not_judged};
-  std::size_t timed_circles_ = 0, level_returns_ = 0, open_circles_ = 0;
+  struct Counts {
+    std::size_t timed_circles = 0, level_returns = 0, open_circles = 0;
+  } counts_;
   bool has_curves_ = false, has_following_ = false, has_levels_ = false;
   mutable double bent_m_ = 0;  // geodesics lie at most so far from their chords
 };
@@ -301,7 +325,7 @@ Corner Locator::corner_of(std::size_t index) {
   const PlanItem& item = plan_.items[index];
   Corner corner;
   corner.item = index;
-  corner.hold_s = item.hold_s;
+  corner.hold_s = may_stop() ? item.hold_s : 0;
   corner.speed_m_s = std::isnan(item.speed_m_s) ? plan_.speed_m_s : item.speed_m_s;
   corner.cut_m = item.cut_m;
   corner.follows_ground = item.follows_ground;
@@ -328,13 +352,16 @@ Corner Locator::corner_of(std::size_t index) {
 }
 
 /// Circles and curves may lead farther than the positions of a plan.
-void Locator::add(Corner corner) {
+void Locator::add(Corner corner, bool is_other_way) {
+  progress_.tick();
   const double away_m = corner.position.head<2>().norm();
   if (frame_ && !(away_m <= farthest_m())) {
     fail(ErrorCode::too_far_away, place(corner.item),
          "the way to it leads " + internal::core::number_text(std::round(away_m / 1000)) + " km from the scene",
          "correct its circle or its curve");
   }
+  corner.is_other_way = is_other_way || is_other_way_;
+  if (corner.is_other_way) corner.hold_s = 0;
   corners_.push_back(std::move(corner));
 }
 
@@ -459,39 +486,41 @@ Vec3 Locator::spline_end(std::size_t index, const Corner& from, const Corner& to
 
 constexpr double kSamePlaceM = 1;  // plans round positions to centimetres
 
-/// A multirotor climbs above the home, or where it is, and then goes to the place of the item; a fixed wing climbs on
-/// the way to it.
+/// A multirotor climbs above the home, or where it is, and then goes to the place of the item, or on to the next one at
+/// once; a fixed wing climbs on the way to it.
 void Locator::add_takeoff(std::size_t index) {
   const Corner corner = corner_of(index);
   const auto home = home_position();
-  if (home && corners_.empty()) {
-    Corner above = corner;
-    above.hold_s = 0;
-    above.follows_ground = false;
-    above.above_ground_m.reset();
+  Corner above = corner;
+  above.hold_s = 0;
+  above.follows_ground = false;
+  above.above_ground_m.reset();
+  const bool is_first = corners_.empty();
+  if (is_first && home) {
     above.position.head<2>() = *home;
     if (options_.with_ground_legs) {
       Corner below = above;
       below.position.z() = home_z(place(index));
       add(below);
     }
-    constexpr double kSameM = 1e-3;
-    const bool is_elsewhere = (corner.position - above.position).norm() > kSameM;
-    if (is_elsewhere && plan_.vehicle != PlanVehicle::fixed_wing) add(above);
-  } else if (!corners_.empty() && plan_.vehicle != PlanVehicle::fixed_wing) {
-    const Vec3 last = corners_.back().position;
-    const double away_m = (corner.position - last).head<2>().norm();
-    if (away_m > kSamePlaceM) {
-      not_judged_.name(place(index), "it takes off elsewhere than the vehicle is, and some climb where they are");
-    }
-    Corner above = corner;
-    above.hold_s = 0;
-    above.follows_ground = false;
-    above.above_ground_m.reset();
-    above.position.head<2>() = last.head<2>();
-    if (away_m > 0 && above.position.z() > last.z()) add(above);
+  } else if (!is_first) {
+    above.position.head<2>() = corners_.back().position.head<2>();
   }
-  add(corner);
+  const double away_m = (corner.position - above.position).head<2>().norm();
+  constexpr double kSameM = 1e-3;
+  if (plan_.vehicle == PlanVehicle::fixed_wing || away_m <= kSameM) return add(corner);
+  if (plan_.vehicle == PlanVehicle::unknown && !corners_.empty()) {
+    const Corner last = corners_.back();
+    add(corner, true);
+    add_back_to(last, corner);
+  }
+  if (is_first || above.position.z() > corners_.back().position.z()) add(above);
+  const bool is_elsewhere = away_m > kSamePlaceM;
+  if (is_elsewhere && is_first) other_start_ = above;
+  if (is_elsewhere && !is_first) {
+    not_judged_.name(place(index), "it takes off elsewhere than the vehicle is, and some climb where they are");
+  }
+  add(corner, is_elsewhere);
 }
 
 double Locator::loiter_radius(const PlanItem& item) const {
@@ -503,11 +532,45 @@ double Locator::loiter_radius(const PlanItem& item) const {
 
 /// For a time: as often as that takes. The time is then in the legs.
 double Locator::loiter_turns(const PlanItem& item, double radius_m) {
-  if (item.hold_s <= 0) return item.turns;
+  if (!item.is_timed) return item.turns;
   const double speed = std::isnan(item.speed_m_s) ? plan_.speed_m_s : item.speed_m_s;
   if (speed > 0) return item.hold_s * speed / (2 * std::numbers::pi * std::abs(radius_m));
-  ++timed_circles_;
+  ++counts_.timed_circles;
   return 1;
+}
+
+/// The place about the circle's centre, on the earth: the frame bends circles that are far from its origin.
+Point Locator::from_centre(const Corner& centre, const Point& at) const {
+  if (!frame_) return at - centre.position.head<2>();
+  return geo::LocalFrame(frame_->to_lonlat(centre.position.head<2>())).to_local(frame_->to_lonlat(at));
+}
+
+/// Clockwise from north; 0 for the origin.
+double angle_of(const Point& p) {
+  constexpr double kNoDirectionM = 1e-6;
+  return p.norm() > kNoDirectionM ? std::atan2(p.x(), p.y()) : 0;
+}
+
+/// On the circle from that angle on.
+std::vector<Corner> Locator::circle_corners(const Corner& centre, double angle, double radius_m, double turns) {
+  if (plans::chord_count(radius_m, turns, arc_error_m()) > static_cast<double>(kMostFlightPoints)) {
+    fail(ErrorCode::work_too_large, place(centre.item), "the circles take more than a million chords",
+         "allow a larger error of chords");
+  }
+  std::optional<geo::LocalFrame> about;
+  if (frame_) about.emplace(frame_->to_lonlat(centre.position.head<2>()));
+  std::vector<Corner> circle;
+  for (const Point& p : plans::circle_points(Point(std::sin(angle), std::cos(angle)), radius_m, turns, arc_error_m())) {
+    Corner corner = centre;
+    corner.hold_s = corner.cut_m = 0;
+    corner.position.head<2>() = about ? frame_->to_local(about->to_lonlat(p)) : Point(centre.position.head<2>() + p);
+    if (corner.follows_ground && corner.above_ground_m) {
+      corner.position.z() = ground_z(corner.position.head<2>(), place(centre.item)) + *corner.above_ground_m;
+    }
+    circle.push_back(corner);
+  }
+  has_curves_ = true;
+  return circle;
 }
 
 /// What circles, and of a vehicle that nobody knows the stay in the centre first: the next item begins at either.
@@ -519,48 +582,34 @@ void Locator::add_loiter(std::size_t index) {
   if (item.turns == 0 || is_open) return add_levels(item, {centre});
   if (item.may_stay) {
     const std::optional<Corner> from = corners_.empty() ? std::nullopt : std::optional(corners_.back());
+    const bool was_other_way = std::exchange(is_other_way_, true);
     add_levels(item, {centre});
-    other_end_ = corners_.back();
-    other_end_->hold_s = 0;
     if (from) add_back_to(*from, centre);
+    is_other_way_ = was_other_way;
   }
   const double radius = loiter_radius(item), turns = loiter_turns(item, radius);
-  centre.hold_s = 0;
-  centre.cut_m = 0;
-  if (plans::chord_count(radius, turns, arc_error_m()) > static_cast<double>(kMostFlightPoints)) {
-    fail(ErrorCode::work_too_large, item.place, "the circles take more than a million chords",
-         "allow a larger error of chords");
-  }
-  // On the earth about the circle's own centre: the frame bends circles that are far from its origin.
-  const Point before = corners_.empty() ? Point(centre.position.head<2>()) : Point(corners_.back().position.head<2>());
-  std::optional<geo::LocalFrame> about;
-  if (frame_) about.emplace(frame_->to_lonlat(centre.position.head<2>()));
-  const Point towards = about ? about->to_local(frame_->to_lonlat(before)) : Point(before - centre.position.head<2>());
-  constexpr double kNoDirectionM = 1e-6;
-  std::vector<Corner> circle;
-  for (const Point& p :
-       plans::circle_points(towards.norm() > kNoDirectionM ? towards : Point(0, 0), radius, turns, arc_error_m())) {
-    Corner corner = centre;
-    corner.position.head<2>() = about ? frame_->to_local(about->to_lonlat(p)) : Point(centre.position.head<2>() + p);
-    if (corner.follows_ground && corner.above_ground_m) {
-      corner.position.z() = ground_z(corner.position.head<2>(), item.place) + *corner.above_ground_m;
-    }
-    circle.push_back(corner);
-  }
+  const double begin = corners_.empty() ? 0 : angle_of(from_centre(centre, corners_.back().position.head<2>()));
+  const bool is_flown_anyway = is_other_way_ && may_circle();
+  std::vector<Corner> circle = circle_corners(centre, begin, radius, is_flown_anyway ? 0 : turns);
+  if (!item.is_timed) circle.back().hold_s = centre.hold_s;
   add_levels(item, circle);
-  has_curves_ = true;
+  const double end = begin + std::copysign(2 * std::numbers::pi * turns, radius);
+  if (may_circle()) circle_ = Circle{centre, radius, begin, end};
+  if (item.may_stay) other_start_ = centre;
 }
 
 /// A circle, or the place of a stay. It is come to at its own height or at that before, and between these the vehicle
 /// may be anywhere on a circle: all of that is flown. Circles lie so close that none of the heights between is farther
-/// away than the ground's error.
+/// away than the ground's error. How much of them it flies is not known.
 void Locator::add_levels(const PlanItem& item, const std::vector<Corner>& circle) {
   const std::optional<Corner> from = corners_.empty() ? std::nullopt : std::optional(corners_.back());
-  for (const Corner& corner : circle) add(corner);
-  if (!item.is_climb || !from) return;
-  const bool above_ground = circle.front().follows_ground && from->above_ground_m && circle.front().above_ground_m;
-  const double first = with_height(*from, above_ground).z(), last = with_height(circle.front(), above_ground).z();
-  if (first == last) return;
+  const bool above_ground =
+      from && circle.front().follows_ground && from->above_ground_m && circle.front().above_ground_m;
+  const double last = with_height(circle.front(), above_ground).z(),
+               first = from ? with_height(*from, above_ground).z() : last;
+  const bool climbs = item.is_climb && first != last;
+  for (std::size_t i = 0; i < circle.size(); ++i) add(circle[i], climbs || (item.is_climb && i > 0));
+  if (!climbs) return;
   const double steps = circle.size() > 1 ? std::ceil(std::abs(last - first) / (2 * options_.ground_error_m)) : 1;
   if (!(steps * static_cast<double>(circle.size()) < static_cast<double>(kMostFlightPoints))) {
     fail(ErrorCode::work_too_large, item.place, "the circles take more than a million chords",
@@ -574,7 +623,7 @@ void Locator::add_levels(const PlanItem& item, const std::vector<Corner>& circle
       const double height = last + step / steps * (first - last);
       if (above_ground) corner.above_ground_m = height;
       corner.position.z() = height + (above_ground ? ground_z(corner.position.head<2>(), item.place) : 0);
-      add(corner);
+      add(corner, true);
     }
   }
   add_back_to(*from, circle.front());
@@ -587,13 +636,13 @@ void Locator::add_back_to(Corner from, const Corner& to) {
   from.hold_s = from.cut_m = 0;
   from.follows_ground = to.follows_ground;
   from.item = to.item;
-  add(from);
+  add(from, true);
 }
 
 /// Tables of waypoints never say which vehicle it is, and are taken as of ArduPilot's Copter; others leave it out.
 void Locator::tell_open_circle(std::size_t index) {
   if (plan_.format == PlanFormat::waypoints) {
-    ++open_circles_;
+    ++counts_.open_circles;
   } else {
     not_judged_.name(place(index),
                      "a multirotor stays there, and others circle with a radius of their own: give a plan that names "
@@ -607,21 +656,38 @@ bool Locator::is_at_home(const Corner& corner) const {
 }
 
 /// At the height before, above the place, and down to the ground; above the home only with ground legs. A fixed wing
-/// comes down on a slope.
+/// comes down on a slope, and what nobody knows on one of the two ways.
 void Locator::add_landing(std::size_t index) {
   const PlanItem& item = plan_.items[index];
   Corner corner = corner_of(index);
   corner.follows_ground = false;
+  corner.hold_s = 0;
   Corner below = corner;
+  below.hold_s = item.hold_s;
   const Point at = corner.position.head<2>();
   const bool is_first = corners_.empty(), is_home = is_at_home(corner),
              comes_down = !is_first && (options_.with_ground_legs || !is_home);
   if (comes_down || is_first) {
     // Whatever height is stated, it goes on down until it is on the ground.
-    const auto ground = options_.ground && !is_home ? ground_level(at) : std::nullopt;
+    std::optional<double> ground;
+    if (is_home) {
+      ground = known_home_z();
+    } else if (options_.ground) {
+      ground = ground_level(at);
+    }
     below.position.z() = ground ? *ground : z_of(item.position, at, item.place);
+    if (!ground) {
+      not_judged_.name(item.place,
+                       "it lands, and how far down the ground is there is not known: give a scene with ground there "
+                       "('navigation.ground' of a mission)");
+    }
   }
   corner.position.z() = is_first ? below.position.z() : corners_.back().position.z();
+  if (comes_down && plan_.vehicle == PlanVehicle::unknown) {
+    const Corner last = corners_.back();
+    add(below, true);
+    add_back_to(last, below);
+  }
   if (!(comes_down && plan_.vehicle == PlanVehicle::fixed_wing)) add(corner);
   if (comes_down) add(below);
 }
@@ -641,18 +707,36 @@ void Locator::add_return(std::size_t index) {
     }
     z = std::max(z, least);
   } else {
-    ++level_returns_;
+    ++counts_.level_returns;
   }
   corner.position.z() = z;
+  if (may_circle()) add_circle_about_home(corner);
   add(corner);
   if (!options_.with_ground_legs) return;
   corner.position.z() = home_z(place(index));
   add(corner);
 }
 
+/// A fixed wing circles there until the pilot acts. The circle is come to on the way to its centre.
+void Locator::add_circle_about_home(const Corner& home) {
+  const double radius = options_.loiter_radius_m.value_or(0);
+  if (radius != 0) {
+    const double begin = corners_.empty() ? 0 : angle_of(from_centre(home, corners_.back().position.head<2>()));
+    const std::vector<Corner> circle = circle_corners(home, begin, radius, is_other_way_ ? 0 : 1);
+    for (std::size_t i = 0; i < circle.size(); ++i) add(circle[i], i > 0);
+  } else if (plan_.vehicle == PlanVehicle::unknown) {
+    tell_open_circle(home.item);
+  } else {
+    not_judged_.name(place(home.item),
+                     "the vehicle circles about the home, with a radius of its own: give it with --loiter-radius "
+                     "(loiter_radius_m in Python)");
+  }
+}
+
 std::vector<Corner> Locator::with_cut_corners() {
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
+    progress_.tick();
     const Corner& corner = corners_[i];
     const bool is_cut = corner.cut_m > 0 && corner.hold_s == 0 && i > 0 && i + 1 < corners_.size(),
                follows = is_cut && (corner.follows_ground || corners_[i + 1].follows_ground);
@@ -729,6 +813,7 @@ std::vector<double> Locator::level_shares(const std::vector<double>& shares, dou
 }
 
 void Locator::push(const Vec3& position, const Corner& to, bool is_last) {
+  progress_.tick();
   if (located_.flight.points.size() >= kMostFlightPoints) {
     fail(ErrorCode::work_too_large, place(to.item), "the flight takes more than a million points",
          "take a part of the plan, or allow larger errors of chords and of the ground");
@@ -738,6 +823,7 @@ void Locator::push(const Vec3& position, const Corner& to, bool is_last) {
   point.hold_s = is_last ? to.hold_s : 0;
   point.speed_m_s = to.speed_m_s;
   point.place = place(to.item);
+  point.is_other_way = to.is_other_way;
   located_.items.push_back(to.item);
 }
 
@@ -793,18 +879,85 @@ void Locator::add_following(const Corner& from, const Corner& to, bool is_last) 
   if (jumps_at_end) push_at(1, last.z(), true);
 }
 
-/// Goes to the item and back, and then to the other end of the item before: the item follows from there, too.
-void Locator::add_from_other_end(std::size_t index) {
-  Corner from = *std::exchange(other_end_, std::nullopt);
-  const std::size_t first = corners_.size(), timed_circles = timed_circles_, level_returns = level_returns_,
-                    open_circles = open_circles_;
+/// To the item and back.
+void Locator::add_there_and_back(std::size_t index) {
+  const std::size_t first = corners_.size();
+  const Counts counts = counts_;
   add_item(index);
-  timed_circles_ = timed_circles;  // it is counted again
-  level_returns_ = level_returns;
-  open_circles_ = open_circles;
+  counts_ = counts;  // it is counted again
+  circle_.reset();
+  other_start_.reset();
   for (std::size_t i = corners_.size(); i-- > first;) add_back_to(corners_[i - 1], corners_[i]);
-  from.item = index;
-  add_back_to(from, from);
+}
+
+/// Once round the circle, back to where its turns end. Vehicles with wings leave it where they head for the next item,
+/// on a tangent, or on the line from its centre to that.
+void Locator::add_lap(const Circle& circle, std::size_t next) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  std::vector<double> stops;  // how many turns from the end of its turns on
+  const auto stop_at = [&](double angle) {
+    const double turns = (angle - circle.end) / kTurn * (circle.radius_m < 0 ? -1 : 1),
+                 share = turns - std::floor(turns);
+    constexpr double kSame = 1e-9;
+    if (kSame < share && share < 1 - kSame) stops.push_back(share);
+  };
+  if (next < plan_.items.size()) {
+    const Point to = from_centre(circle.centre, corner_of(next).position.head<2>());
+    const double angle = angle_of(to), radius = std::abs(circle.radius_m);
+    stop_at(circle.begin);
+    stop_at(angle);
+    if (to.norm() > radius) {
+      stop_at(angle - std::acos(radius / to.norm()));
+      stop_at(angle + std::acos(radius / to.norm()));
+    }
+    std::sort(stops.begin(), stops.end());
+  }
+  double at = 0;
+  const auto go_on_to = [&](double stop) {
+    const double angle = circle.end + std::copysign(kTurn * at, circle.radius_m);
+    const std::vector<Corner> part = circle_corners(circle.centre, angle, circle.radius_m, stop - at);
+    for (std::size_t i = 1; i < part.size(); ++i) add(part[i]);
+    at = stop;
+  };
+  for (const double stop : stops) {
+    go_on_to(stop);
+    add_there_and_back(next);
+  }
+  go_on_to(1);
+}
+
+/// The item, from all places where the vehicle may leave the one before: nobody knows then on which way it is come to.
+/// Behind the last item that is but the rest of its circle.
+void Locator::add_from_any(std::size_t index) {
+  auto circle = std::exchange(circle_, std::nullopt);
+  auto start = std::exchange(other_start_, std::nullopt);
+  const bool is_over = index == plan_.items.size();
+  is_other_way_ = true;
+  if (circle) {
+    if (!is_over) circle->centre.item = index;
+    add_lap(*circle, index);
+  }
+  if (start && !is_over) {
+    Corner here = corners_.back();
+    here.item = start->item = index;
+    add(*start);
+    add_there_and_back(index);
+    add(here);
+  }
+  is_other_way_ = false;
+  if (is_over) return;
+  const std::size_t first = corners_.size();
+  add_item(index);
+  if (!circle && !start) return;
+  std::size_t last = plan_.items[index].is_spline ? corners_.size() - 1 : first;
+  while (last + 1 < corners_.size() && corners_[last].is_other_way) ++last;
+  for (std::size_t i = first; i <= last; ++i) corners_[i].is_other_way = true;
+  if (corners_[last].cut_m > 0) return;
+  // It is there whichever way it came.
+  Corner there = corners_[last];
+  there.is_other_way = there.follows_ground = false;
+  corners_[last].hold_s = 0;
+  corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(last) + 1, there);
 }
 
 void Locator::add_item(std::size_t index) {
@@ -824,14 +977,19 @@ void Locator::add_item(std::size_t index) {
 
 LocatedPlan Locator::locate() {
   located_.flight.not_judged = plan_.not_judged;
+  progress_.begin("locate the plan");
+  std::size_t stays = 0;
   for (std::size_t i = 0; i < plan_.items.size(); ++i) {
-    if (other_end_) add_from_other_end(i);
-    add_item(i);
+    const PlanItem& item = plan_.items[i];
+    const bool passes = item.hold_s > 0 && !item.is_timed && item.kind != PlanItemKind::land && !may_stop();
+    stays += passes ? 1 : 0;
+    add_from_any(i);
     if (corners_.size() > kMostFlightPoints) {
       fail(ErrorCode::work_too_large, place(i), "the flight takes more than a million points",
            "take a part of the plan, or allow a larger error of chords");
     }
   }
+  add_from_any(plan_.items.size());
   for (const Corner& corner : corners_) has_curves_ = has_curves_ || corner.cut_m > 0;
   const std::vector<Corner> corners = with_cut_corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -847,16 +1005,19 @@ LocatedPlan Locator::locate() {
   const auto home = home_position();
   if (home && known_home_z()) located_.home = scene_of({home->x(), home->y(), *known_home_z()});
   using internal::core::count_text;
-  if (timed_circles_ > 0) {
-    note(count_text(timed_circles_, "loiter is", "loiters are") +
+  if (stays > 0) {
+    note(count_text(stays, "stay is", "stays are") + " taken as none: a vehicle with wings does not stop there");
+  }
+  if (counts_.timed_circles > 0) {
+    note(count_text(counts_.timed_circles, "loiter is", "loiters are") +
          " for a time, and no speed is known: one circle is taken");
   }
-  if (open_circles_ > 0) {
-    note(count_text(open_circles_, "loiter is", "loiters are") +
+  if (counts_.open_circles > 0) {
+    note(count_text(counts_.open_circles, "loiter or return is", "loiters or returns are") +
          " taken as a stay, as of a multirotor: others circle there, judged where the radius is given with "
          "--loiter-radius (loiter_radius_m in Python)");
   }
-  if (level_returns_ > 0) {
+  if (counts_.level_returns > 0) {
     note(
         "the return to the home is taken at the height of the last item: the height that the vehicle is set to is not "
         "in the plan");

@@ -96,12 +96,14 @@ class Runner {
   bool move(const MissionItem& item);  ///< false for a command of another kind
   bool set(const MissionItem& item);   ///< likewise
   void loiter(const MissionItem& item, double radius_m, double turns, double hold_s);
+  void delay(const MissionItem& item);
   void land(const MissionItem& item);
   void turn_camera(const MissionItem& item);
   void come_to(const MissionItem& item);
   bool come_on_arc(const MissionItem& item);
   void leave_out(const MissionItem& item);
   void not_judged(const MissionItem& item, const std::string& why) { not_judged_.name(item.place, why); }
+  bool has_wings() const { return plan_.vehicle == PlanVehicle::fixed_wing || plan_.vehicle == PlanVehicle::vtol; }
   std::optional<std::size_t> jump(std::size_t at);
   PlanItem& add(PlanItemKind kind, const MissionItem& item);
   void take_zero_height(const PlanItem* before, bool is_here, const MissionItem& item, PlanItem& added);
@@ -130,7 +132,8 @@ class Runner {
   // For notes.
   std::map<std::string, std::size_t> unknown_;
   std::size_t splines_ = 0, old_arcs_ = 0, airspeeds_ = 0, unlimited_ = 0, climbs_ = 0, endless_jumps_ = 0,
-              kept_heights_ = 0, not_flown_ = 0, settings_ = 0, until_times_ = 0;
+              kept_heights_ = 0, not_flown_ = 0, settings_ = 0, until_times_ = 0, cut_corners_ = 0;
+  double widest_cut_m_ = 0;
 };
 
 void Runner::run() {
@@ -238,6 +241,10 @@ void Runner::come_to(const MissionItem& item) {
   added.is_spline = is_spline;
   splines_ += is_spline ? 1 : 0;
   added.acceptance_radius_m = is_spline ? 0 : or_zero(1);
+  if (added.acceptance_radius_m > 0 && (added.hold_s == 0 || has_wings())) {
+    ++cut_corners_;
+    widest_cut_m_ = std::max(widest_cut_m_, added.acceptance_radius_m);
+  }
   if (!is_spline && or_zero(2) != 0) {
     not_judged(item, "its third parameter, " + shortest(p[2]) + ", lets the vehicle pass by the waypoint: write 0");
   }
@@ -289,9 +296,7 @@ bool Runner::move(const MissionItem& item) {
       add(PlanItemKind::takeoff, item);
       return true;
     case kNavDelay:
-      if (!plan_.items.empty() && or_zero(0) > 0) plan_.items.back().hold_s += p[0];
-      until_times_ += or_zero(0) > 0 ? 0 : 1;
-      if (!plan_.items.empty() && plan_.items.back().is_spline) not_judged(item, "it is a delay behind a spline");
+      delay(item);
       return true;
     default:
       return false;
@@ -308,6 +313,21 @@ void Runner::loiter(const MissionItem& item, double radius_m, double turns, doub
   added.may_stay = !all_circle && plan_.vehicle == PlanVehicle::unknown;
   added.is_climb = item.command == kNavLoiterToAltitude;
   added.hold_s = hold_s;
+  added.is_timed = is_circle && item.command == kNavLoiterTime;
+}
+
+/// A stay where the vehicle is. Nothing with wings stays in the air.
+void Runner::delay(const MissionItem& item) {
+  const double seconds = std::isnan(item.parameters[0]) ? 0 : item.parameters[0];
+  until_times_ += seconds > 0 ? 0 : 1;
+  if (plan_.items.empty()) return;
+  PlanItem& before = plan_.items.back();
+  if (before.is_spline) not_judged(item, "it is a delay behind a spline");
+  if (has_wings() && before.kind != PlanItemKind::land) {
+    if (seconds != 0) not_judged(item, "it is a delay, and what has wings flies on or circles there, as it is set to");
+  } else if (seconds > 0) {
+    before.hold_s += seconds;
+  }
 }
 
 /// The angle, above 0 clockwise, is the first parameter, as in the standard; in early files of ArduPilot the second.
@@ -464,6 +484,11 @@ void Runner::add_notes() {
   assume(unlimited_, "loiter has", "loiters have", " no end: one circle is taken, or a point, and then what follows");
   assume(climbs_, "climb in circles is", "climbs in circles are",
          " taken as circles at all heights from that before: its length and its time are not those of the flight");
+  assume(cut_corners_, "waypoint counts", "waypoints count",
+         (" as reached up to " + core::metres_text(widest_cut_m_) +
+          " before it, and the vehicle may cut the corner by so much: judge it with a tube of that radius (--tube, "
+          "tube_m in Python)")
+             .c_str());
   assume(until_times_, "delay is", "delays are", " until a time of the day, and taken as none");
   assume(endless_jumps_, "jump has", "jumps have", " no end: taken once");
 }
