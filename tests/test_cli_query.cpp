@@ -108,10 +108,18 @@ TEST_F(CliQuery, TakesTheTitlesOfPlans) {
   const std::string placed = lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1);
   options_.input = "Latitude,LNG,z\n\"48\u00b0 6' 0\"\"N\",11\u00b029'60\"E,30.48\n";
   EXPECT_EQ(lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1), placed);
-  for (const std::string title : {"alt", "altitude(m)", "Altitude (m)", "AltitudeAMSL", "msl"}) {
+  const std::string above_sea = "48.1,11.5,530.48" + placed.substr(std::string("48.1,11.5,30.48").size());
+  for (const std::string title : {"amsl", "Altitude AMSL (m)", "AltitudeAMSL", "msl"}) {
     options_.input = "latitude,longitude," + title + "\n48.1,11.5,530.48\n";
-    const std::string row = lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1);
-    EXPECT_EQ(row, "48.1,11.5,530.48" + placed.substr(std::string("48.1,11.5,30.48").size())) << title;
+    EXPECT_EQ(lines(output_of({"query", "mission.yaml", "-", "-q"})).at(1), above_sea) << title;
+  }
+  // The titles of check that do not say what they are measured from.
+  for (const std::string title : {"alt", "altitude(m)", "elevation_m", "ele", "height"}) {
+    options_.input = "latitude,longitude," + title + "\n48.1,11.5,530.48\n";
+    const std::string row = lines(output_of({"query", "mission.yaml", "-", "-q", "--heights", "sea"})).at(1);
+    EXPECT_EQ(row, above_sea) << title;
+    write("points.csv", options_.input);
+    expect_bad({"query", "mission.yaml", "points.csv", "-q"}, "points.csv:1");
   }
 }
 
@@ -390,24 +398,36 @@ TEST_F(CliQuery, HeightsMayBeAboveTheSeaOrTheGround) {
   const std::string expected = inside("x,y,z", "50,0,525");
   EXPECT_EQ(expected.rfind("50,0,525,true,", 0), 0U) << expected;
   for (const auto& [header, row] :
-       {std::pair("x,y,alt", "50,0,505"), {"Altitude,y,X", "505,0,50"}, {"x,y,agl", "50,0,10"}}) {
+       {std::pair("x,y,amsl", "50,0,505"), {"MSL,y,X", "505,0,50"}, {"x,y,agl", "50,0,10"}}) {
     const std::string answer = inside(header, row);
     EXPECT_EQ(answer.rfind(row, 0), 0U) << answer;  // as it was given
     EXPECT_EQ(rest(answer), rest(expected)) << header;
   }
   EXPECT_NE(inside("x,y,agl", "50,0,-1").find("ground"), std::string::npos);  // below it
+  for (const auto& [level, row] : {std::pair("sea", "50,0,505"), {"ground", "50,0,10"}, {"scene", "50,0,525"}}) {
+    for (const std::string header : {"", "x,y,height\n"}) {
+      options_.input = header + row + "\n";
+      const std::vector<std::string> answers = lines(output_of({"query", "hill.yaml", "-", "-q", "--heights", level}));
+      ASSERT_EQ(answers.size(), 2U);
+      EXPECT_EQ(answers[0].rfind("x,y,height,inside", 0), 0U) << answers[0];
+      EXPECT_EQ(rest(answers[1]), rest(expected)) << level << header;
+    }
+    options_.input = std::string("x,y,height,z,agl\n") + "50,0,-1,525,-1\n";  // z says it
+    EXPECT_EQ(rest(lines(output_of({"query", "hill.yaml", "-", "-q", "--heights", level})).at(1)), rest(expected));
+  }
+  expect_bad({"query", "hill.yaml", "-", "--heights", "sea", "--z", "5"}, "command line");
   options_.input = "x,y,z,alt\n50,0,525,3\n";
   testing::expect_wording(run({"query", "hill.yaml", "-"}).err);
   const auto refused = [&](const std::string& points, const std::string& mission, const std::string& where) {
     write("points.csv", points);
     expect_bad({"query", mission, "points.csv", "-q"}, where);
   };
-  refused("x,y,alt,agl\n50,0,505,10\n", "hill.yaml", "points.csv:1");
+  refused("x,y,amsl,agl\n50,0,505,10\n", "hill.yaml", "points.csv:1");
   refused("x,y,agl\n50,0,10\n500,0,10\n", "hill.yaml", "points.csv:3");  // beyond the ground
-  write("points.csv", "x,y,alt\n50,0,505\n");
+  write("points.csv", "x,y,amsl\n50,0,505\n");
   expect_bad({"query", "hill.yaml", "points.csv", "-q", "--z", "5"}, "points.csv:1");
   write("nowhere.yaml", "scene: {mesh: hill.obj}\n" + target + kSensor);
-  refused("x,y,alt\n50,0,505\n", "nowhere.yaml", "points.csv");
+  refused("x,y,amsl\n50,0,505\n", "nowhere.yaml", "points.csv");
   write("bare.obj", "o roof\nv 0 0 500\nv 9 0 500\nv 9 9 500\nf 1 2 3\n");
   write("bare.yaml", "scene: {mesh: bare.obj}\n" + target + kSensor);
   refused("x,y,agl\n50,0,10\n", "bare.yaml", "points.csv");
@@ -417,7 +437,7 @@ TEST_F(CliQuery, HeightsMayBeAboveTheSeaOrTheGround) {
 TEST_F(CliQuery, OfOneMeaningThereIsOneColumn) {
   write_hill(folder_ / "hill.obj");
   write("hill.yaml", "scene: {mesh: hill.obj, sea_level: 20}\ntarget: {point: [0, 0, 515]}\n" + std::string(kSensor));
-  for (const char* const header : {"x,y,alt,altitude", "Altitude,ALT,x,y", "x,y,agl,agl", "x,X,y,z",
+  for (const char* const header : {"x,y,amsl,alt_msl", "Altitude AMSL,MSL,x,y", "x,y,agl,agl", "x,X,y,z",
                                    "lon,lat,longitude,z", "lat,lon,z,latitude", "x,y,z,z"}) {
     write("points.csv", std::string(header) + "\n50,0,505,10\n");
     expect_bad({"query", "hill.yaml", "points.csv", "-q"}, "points.csv:1");

@@ -318,6 +318,15 @@ TEST_F(CliSceneBadTerrain, CannotBeUsed) {
   expect_bad_option({"--terrain", "far.asc"}, "far.asc");
   write_dem("nowhere", grid_of_heights("500"), "");
   expect_bad_option({"--terrain", "nowhere.asc"}, "nowhere.asc");
+  expect_bad_option({"--terrain", "nowhere.asc", "--crs", "nonsense"}, "nowhere.asc");
+}
+
+TEST_F(CliSceneBadTerrain, MayBeGivenItsReferenceSystem) {
+  write_dem("dem", grid_of_heights("500"));
+  write_dem("nowhere", grid_of_heights("500"), "");
+  const std::string map = content(folder_ / "city.osm");
+  EXPECT_EQ(report_of(map, {"--terrain", "nowhere.asc", "--crs", "EPSG:4326"}).at("records"),
+            report_of(map, {"--terrain", "dem.asc"}).at("records"));
 }
 
 TEST_F(CliSceneBadTerrain, VoidsAreFilledAndCounted) {

@@ -129,6 +129,12 @@ TEST(Mission, SaysWhomPicturesHaveToName) {
   EXPECT_EQ(refusal(with_scene("mesh: city.obj\n  attribution: [a, b]")).code(), ErrorCode::wrong_type);
 }
 
+TEST(Mission, TheReferenceSystemOfAMapIsThatOfItsTerrain) {
+  EXPECT_EQ(parse(with_scene("osm: city.osm\n  terrain: dem.asc\n  crs: EPSG:25832")).scene.city.terrain_crs,
+            "EPSG:25832");
+  EXPECT_EQ(refusal(with_scene("osm: city.osm\n  crs: EPSG:25832")).code(), ErrorCode::not_applicable);
+}
+
 // What is written reads back as the same text: nothing that a mission says is lost.
 TEST(Mission, TextReadsBackAsTheSameMission) {
   const std::string scenes[] = {
@@ -139,7 +145,7 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
       "scene: {osm: 'a \"b\".osm', bbox: [11.1, 48, 11.2, 48.1]}\n",
       "scene: {raster: dsm.tif, center: [48.1, 11.5], radius: 100, error: 0.125, origin: [48.1, 11.5]}\n",
       "scene: {raster: dsm.tif, crs: 'EPSG:2263', z_unit: us-ft, void: -0.5}\n",
-      "scene: {osm: city.json, partial: true, terrain: dem.tif, z_unit: ft, void: 3}\n",
+      "scene: {osm: city.json, partial: true, terrain: dem.tif, crs: 'EPSG:25832', z_unit: ft, void: 3}\n",
       "scene: {tiles: tileset.json, terrain: dem.tif, z_unit: m, void: 3}\n"};
   const std::string targets[] = {
       "target: {name: \"the 'plaza': north\", vertices: [[0.1, 1e-9, 1], [1e6, 0, 1], [0, 10, 1]], offset: 0.25, "
@@ -174,6 +180,7 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
         EXPECT_EQ(again.scene.city.defaults.levels_of, read.scene.city.defaults.levels_of);
         EXPECT_EQ(again.scene.city.partial, read.scene.city.partial);
         EXPECT_EQ(again.scene.raster.crs, read.scene.raster.crs);
+        EXPECT_EQ(again.scene.city.terrain_crs, read.scene.city.terrain_crs);
         for (const auto& [now, before] : {std::pair{again.scene.raster.heights, read.scene.raster.heights},
                                           {again.scene.city.terrain_heights, read.scene.city.terrain_heights},
                                           {again.scene.terrain_options.heights, read.scene.terrain_options.heights}}) {

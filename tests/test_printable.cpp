@@ -60,7 +60,23 @@ TEST(Printable, AddressesAreCutToWhatIsNoSecret) {
            {"/data/http:/me:secret@a.example/x?key=1", "/data/http:/a.example/x"},
            {"zip://a.osm::https://me:secret@a.example/a.zip?key=1", "zip://a.osm::https://a.example/a.zip"},
            {"s3://bucket/a@b.osm", "s3://bucket/a@b.osm"},
+           {"https//a.example/t.json?key=secret", "https//a.example/t.json"},
+           {"https//me:secret@a.example/t.json", "https//a.example/t.json"},
+           {"http:a.example/t.json?key=secret", "http:a.example/t.json"},
+           {"http ://me:secret@a.example/x?key=1", "http ://a.example/x"},
+           {"x://me:secret@a.example/x?key=1", "x://a.example/x"},
+           {"me:secret@a.example/t.json", "a.example/t.json"},
+           {"me:s@secret@a.example?key=1", "a.example"},
+           {"me%3asecret%40a.example/t.json", "a.example/t.json"},
+           {"me:secret?x@a.example/t.json", ""},
+           {"127.0.0.1:1/a?key=secret", "127.0.0.1:1/a"},
+           {"127.0.0.1:1/a?to=me:b@secret", "127.0.0.1:1/"},
+           {"tiles/miss.glb;key=secret", "tiles/miss.glb"},
+           {"miss.glb%3bkey=secret/", "miss.glb"},
            {"C:\\data\\a@b?.osm", "C:\\data\\a@b?.osm"},
+           {"C:\\me@home\\a;b.osm", "C:\\me@home\\a;b.osm"},
+           {"/data/a=1/me@home.osm", "/data/a=1/me@home.osm"},
+           {"/me@home/mission.yaml:4:32, a/b? c=d", "/me@home/mission.yaml:4:32, a/b? c=d"},
            {"/data/me@home/a&b?.osm", "/data/me@home/a&b?.osm"}}) {
     EXPECT_EQ(without_secrets(address, true), shown);
     const Error error(ErrorCode::file_not_found, "no file " + in_quotes(address) + ", is there?", address, "");
@@ -69,9 +85,14 @@ TEST(Printable, AddressesAreCutToWhatIsNoSecret) {
   }
   EXPECT_EQ(without_secrets("at 'http://me:secret@a.example/x?key=1' & me@b.org; why? http://c.example/?k"),
             "at 'http://a.example/x' & me@b.org; why? http://c.example/");
+  EXPECT_EQ(without_secrets("no 'h/a?key=secret', nor \"me:secret@h\"; why? a.b;c=secret, and so on"),
+            "no 'h/a', nor \"h\"; why? a.b, and so on");
   EXPECT_EQ(without_secrets("why? At a:/b"), "why? At a:/b");
   const std::string many(100'000, '/');
   EXPECT_EQ(without_secrets(many).size(), many.size());
+  std::string marks;
+  for (int i = 0; i < 50'000; ++i) marks += "/?";
+  EXPECT_EQ(without_secrets(marks), marks);
 }
 
 TEST(Printable, EveryByteIsHarmlessAndUtf8) {

@@ -304,6 +304,35 @@ TEST(ZoneFiles, ReadsListsOfZonesByOtherNames) {
   refuse(features + ", \"geoFence\": {\"polygons\": []}}", kSyntax, "/data/zones");
 }
 
+TEST(ZoneFiles, AreasInMembersThatAreNotReadAreUnread) {
+  const std::string one = feature(polygon());
+  const auto beside = [](const std::string& object, const std::string& member) {
+    return object.substr(0, object.size() - 1) + ", " + member + "}";
+  };
+  const auto unread = [&](const std::string& text) {
+    const ZoneList list = parsed(text);
+    EXPECT_EQ(list.zones.size(), 1u) << text;
+    EXPECT_LE(list.unread.size(), 1u) << text;
+    return list.unread.empty() ? "" : list.unread[0].zone.place;
+  };
+  const std::string circle = "\"coordinates\": [11, 48]}, \"properties\": {\"radius\": 50}}";
+  EXPECT_EQ(unread(beside(collection(one), "\"more\": " + collection(one))), "more");
+  EXPECT_EQ(unread(beside(collection(one), "\"zones\": [" + polygon() + "]")), "zones");
+  EXPECT_EQ(unread(beside(collection(one), "\"geometry\": " + polygon())), "geometry");
+  EXPECT_EQ(unread(beside(collection(one), "\"ring\": " + kSquare)), "ring");
+  EXPECT_EQ(unread(beside(collection(one), "\"a\": {\"b\": {\"geometry\": {" + circle + "}")), "a");
+  EXPECT_EQ(unread(collection(beside(one, "\"geometries\": [" + polygon() + "]"))), "features[0].geometries");
+  EXPECT_EQ(unread(collection(feature(polygon(), "{\"old\": " + polygon() + "}"))), "features[0].properties.old");
+  EXPECT_EQ(unread(collection(feature(polygon(", \"geometries\": [" + polygon() + "]")))), "features[0].geometries");
+  EXPECT_EQ(unread(volume(polygon(", \"more\": " + polygon()), kMetres)), "features[0].geometry[0].more");
+  EXPECT_EQ(unread(volume(polygon(), kMetres + ", \"more\": " + polygon())), "features[0].geometry[0].more");
+  // What bounds nothing.
+  const std::string place = "{\"type\": \"Point\", \"coordinates\": [11, 48]}";
+  const std::string properties = "{\"radius\": 5, \"center\": [11, 48], \"centroid\": " + place + "}";
+  const std::string line = "\"bbox\": [1, 2, 3, 4], \"line\": [[1, 2], [3, 4], [5, 6], [7, 8]], \"query\": ";
+  EXPECT_EQ(unread(beside(collection(feature(polygon(), properties)), line + place)), "");
+}
+
 TEST(ZoneFiles, RefusesPositionsOfAnotherSystem) {
   const auto crs = [](const std::string& name) {
     return ", \"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"" + name + "\", \"was\": \"EPSG:4326\"}}";
@@ -449,6 +478,29 @@ TEST(ZoneFiles, AFloorACeilingAndWallsAreOneZone) {
   EXPECT_FALSE(alone.zones[0].has_heights);
   const ZoneList elsewhere = solid(level_face("520") + level_face("560") + wall("11,48", "11.002,48"));
   EXPECT_EQ(elsewhere.zones.size(), 3u);
+}
+
+// Many may meet at one corner: neither is each wall held against all of them, nor is nobody asked meanwhile.
+TEST(ZoneFiles, SolidsAtOneCornerAreFoundInTheirOrder) {
+  constexpr std::size_t kCount = 300;
+  std::string faces;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::string x = shortest(11.001 + 1e-6 * static_cast<double>(i));
+    faces += face("11,48,520 " + x + ",48,520 " + x + ",48.001,520 11,48,520") + wall("11,48", "12," + x);
+  }
+  const std::string begin = "<kml><Placemark><MultiGeometry>" + faces;
+  const core::ProgressReporter::AskAlways always;
+  std::size_t asked = 0;
+  const Progress count = [&](std::string_view, double) { return ++asked > 0; };
+  const auto parse = [&](const std::string& text) {
+    asked = 0;
+    return app::parse_zones(text, "/data/zones", core::ProgressReporter(count));
+  };
+  expect_code([&] { parse(begin); }, kSyntax);  // it ends too early
+  const std::size_t before = asked;
+  EXPECT_EQ(parse(begin + "</MultiGeometry></Placemark></kml>").zones.size(), 2 * kCount);
+  EXPECT_GE(asked, before + 2 * kCount);
+  EXPECT_LE(asked, before + 10 * kCount);
 }
 
 /// A mission in a map about 48 N, 11 E, with these files beside it.

@@ -192,11 +192,11 @@ def test_points_of_a_query_are_those_of_proj(origin, distance_m, tmp_path):
     degrees = proj.degrees(points)
     flat = ["x,y,z", *(f"{a},{b},{c}" for a, b, c in points.tolist())]
     wanted = margins(tmp_path, flat)
-    for name, heights in (("z", points[:, 2]), ("alt", degrees[:, 2] - 36.7), ("agl", points[:, 2] - 40)):
+    for name, heights in (("z", points[:, 2]), ("amsl", degrees[:, 2] - 36.7), ("agl", points[:, 2] - 40)):
         rows = [f"lon,lat,{name}", *(f"{a!r},{b!r},{c!r}" for a, b, c in
                                      np.column_stack([degrees[:, :2], heights]).tolist())]
         assert np.abs(margins(tmp_path, rows) - wanted).max() < 2e-6, name
-    rows = ["x,y,alt", *(f"{a!r},{b!r},{c!r}" for a, b, c in np.column_stack([points[:, :2], degrees[:, 2] - 36.7]).tolist())]
+    rows = ["x,y,amsl", *(f"{a!r},{b!r},{c!r}" for a, b, c in np.column_stack([points[:, :2], degrees[:, 2] - 36.7]).tolist())]
     assert np.abs(margins(tmp_path, rows) - wanted).max() < 2e-6
 
 

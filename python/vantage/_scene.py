@@ -111,7 +111,7 @@ class Scene(Triangles):
                  z_unit: str | None = None, void: float | None = None, partial: bool | None = None,
                  without: Sequence[str] | None = None, defaults: Mapping[str, float] | None = None,
                  frame: Mapping[str, Any] | None = None, sea_level: float | None = None, missing: str | None = None,
-                 progress: Progress = None) -> Scene:
+                 crs: str | None = None, progress: Progress = None) -> Scene:
         """Builds the scene of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf, JSON of Overpass).
 
         Args:
@@ -130,6 +130,7 @@ class Scene(Triangles):
             sea_level: z of the mean sea level.
             missing: what holds the place of what cannot be built as the map has it (`ledger`): "block", a stand-in, which is
                 the default; "warn", nothing; "refuse", it is an error.
+            crs: the coordinate reference system of `terrain`: "EPSG:25832". Default: what it says.
             progress: called with stage and fraction; False stops.
 
         Raises:
@@ -138,7 +139,7 @@ class Scene(Triangles):
         return cls._load({"osm": path, "center": center, "radius": radius, "bbox": bbox, "terrain": terrain,
                           "error": error, "z_unit": z_unit, "void": void, "partial": partial, "without": without,
                           "defaults": defaults, "frame": frame,
-                          "sea_level": sea_level, "missing": missing}, progress)
+                          "sea_level": sea_level, "missing": missing, "crs": crs}, progress)
 
     @classmethod
     def from_raster(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,

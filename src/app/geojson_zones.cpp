@@ -1,6 +1,7 @@
 // RFC 7946; EUROCAE ED-269 (2020) and ED-318 (2024), whose schemas are at github.com/UASGeoZones.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,8 +18,12 @@ using nlohmann::json;
 
 constexpr double kFootM = 0.3048;
 
+std::string member_place(const std::string& place, const std::string& key) {
+  return (place.empty() ? "" : place + ".") + key;
+}
+
 std::string indexed_place(const std::string& place, const char* key, std::size_t index) {
-  return (place.empty() ? "" : place + ".") + key + "[" + std::to_string(index) + "]";
+  return member_place(place, key) + "[" + std::to_string(index) + "]";
 }
 
 /// Which members of a volume say between which heights it lies.
@@ -50,6 +55,9 @@ class GeoJsonReader {
   void read_line(const json& positions, const std::string& place, const std::string& name);
   void read_volume(const json& volume, const std::string& place, const std::string& name);
   bool read_fence(const json& feature, const std::string& place);
+  void leave_others(const json& object, const std::string& place, const std::string& name,
+                    std::initializer_list<std::string_view> read);
+  bool may_hold_area(const json& value) const;
   ListedZone zone_of(const std::string& place, const std::string& name, const Heights& heights) const;
   /// One area that cannot be read does not keep the others from being read.
   template <typename Read>
@@ -172,6 +180,8 @@ ZoneList GeoJsonReader::read(const json& root) {
   }
   if (type == "FeatureCollection") {
     const std::string key = lists.empty() ? "features" : lists.front();
+    feature_ = static_cast<std::size_t>(-1);  // of none
+    leave_others(root, "", "", {key});
     read_features(list(root, key.c_str(), ""), key);
   } else if (type == "Feature") {
     guarded("", "", [&] { read_feature(root, "", 0); });
@@ -216,6 +226,8 @@ void GeoJsonReader::read_feature(const json& feature, const std::string& place, 
     ++result_.left_out[kDisabledArea];
     return;
   }
+  leave_others(feature, place, name, {"geometry", "properties"});
+  if (properties_ != nullptr) leave_others(*properties_, member_place(place, "properties"), name, {});
   const json& geometry = member(feature, "geometry", place);
   if (geometry.is_null() || (geometry.is_array() && geometry.empty())) {
     ++result_.left_out[kEmptyArea];
@@ -251,6 +263,45 @@ bool GeoJsonReader::read_fence(const json& feature, const std::string& place) {
   return enable == nullptr || enable->get<bool>();
 }
 
+/// Members that are not read, and may hold an area, are unread.
+void GeoJsonReader::leave_others(const json& object, const std::string& place, const std::string& name,
+                                 std::initializer_list<std::string_view> read) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(read.begin(), read.end(), key) != read.end() || !may_hold_area(value)) continue;
+    const std::string clean = io::clean_name(key);
+    ListedZone zone = zone_of(member_place(place, clean), name.empty() ? clean : name, {});
+    const Error fault(ErrorCode::value_unsupported,
+                      "the member " + in_quotes(clean) + " may hold an area, and is not read",
+                      file_.string() + ", " + zone.place, "write the area as a feature of its own, or take it out");
+    leave_unread(std::move(zone), fault, result_);
+  }
+}
+
+/// Whether there is a polygon in it, a ring of positions that is closed, or a place with a radius.
+bool GeoJsonReader::may_hold_area(const json& value) const {
+  constexpr std::size_t kFewest = 4;
+  progress_.tick();
+  if (!value.is_structured()) return false;
+  const auto is_position = [](const json& one) {
+    return one.is_array() && one.size() >= 2 && number_in(one[0]) && number_in(one[1]);
+  };
+  const bool is_line = value.is_array() && std::all_of(value.begin(), value.end(), is_position);
+  if (is_line && value.size() >= kFewest && value.front() == value.back()) return true;
+  const json* const coordinates = find_member(&value, "coordinates");
+  const bool is_polygon = word_in(find_member(&value, "type")).ends_with("Polygon");
+  if (is_polygon && coordinates != nullptr && !coordinates->empty()) return true;
+  const auto has_radius = [](const json* object) {
+    const json* const radius = find_member(object, "radius");
+    return radius != nullptr && number_in(*radius) != std::optional(0.0);
+  };
+  const bool has_place = coordinates != nullptr || find_member(&value, "center") || find_member(&value, "geometry");
+  if (has_place && (has_radius(&value) || has_radius(find_member(&value, "extent")) ||
+                    has_radius(find_member(&value, "properties")))) {
+    return true;
+  }
+  return std::any_of(value.begin(), value.end(), [this](const json& part) { return may_hold_area(part); });
+}
+
 void GeoJsonReader::read_geometry(const json& geometry, const std::string& place, const std::string& name,
                                   Heights heights) {
   if (!geometry.is_object()) fail(place, "the geometry is not an object");
@@ -259,6 +310,7 @@ void GeoJsonReader::read_geometry(const json& geometry, const std::string& place
     heights = heights_of(*layer, kLayerKeys, place);
   }
   const std::string type = type_of(geometry, place);
+  leave_others(geometry, place, name, {type == "GeometryCollection" ? "geometries" : "coordinates"});
   const auto read_all = [&](const char* key, const auto& read) {
     const json& parts = list(geometry, key, place);
     if (parts.empty()) ++result_.left_out[kEmptyArea];
@@ -318,6 +370,8 @@ void GeoJsonReader::read_volume(const json& volume, const std::string& place, co
   const json& projection = member(volume, "horizontalProjection", place);
   if (!projection.is_object()) fail(place, "\"horizontalProjection\" is not an object");
   const std::string type = type_of(projection, place);
+  leave_others(volume, place, name, {"horizontalProjection"});
+  leave_others(projection, place, name, {type == "Circle" ? "center" : "coordinates"});
   if (type == "Polygon") {
     add_polygon(list(projection, "coordinates", place), place, name, heights);
   } else if (type == "Circle") {

@@ -72,40 +72,54 @@ CornerSet corners_of(const SideSet& sides) {
   return corners;
 }
 
+/// Between which heights faces lie, as far as they say it.
+struct FaceHeights {
+  double low_m = INFINITY, high_m = -INFINITY;
+  bool are_known = true, reach_ground = false;
+
+  void add(const FaceHeights& more) {
+    low_m = std::min(low_m, more.low_m);
+    high_m = std::max(high_m, more.high_m);
+    are_known = are_known && more.are_known;
+    reach_ground = reach_ground || more.reach_ground;
+  }
+};
+
+FaceHeights heights_of(const DrawnPolygon& face) {
+  return {face.low_m, face.high_m, face.is_absolute && face.has_all_altitudes, face.zone.has_heights};
+}
+
 /// One zone of a floor, a ceiling and walls, which say how high it is if floor and ceiling are level.
-ListedZone joined_solid(const std::vector<DrawnPolygon>& levels, const std::vector<DrawnPolygon>& walls) {
-  double low = INFINITY, high = -INFINITY;
-  bool are_known = true, reaches_ground = false;
-  for (const std::vector<DrawnPolygon>* const faces : {&levels, &walls}) {
-    for (const DrawnPolygon& face : *faces) {
-      low = std::min(low, face.low_m);
-      high = std::max(high, face.high_m);
-      are_known = are_known && face.is_absolute && face.has_all_altitudes;
-      reaches_ground = reaches_ground || face.zone.has_heights;
-    }
-  }
-  for (const DrawnPolygon& level : levels) {
-    are_known = are_known && level.is_level() && (level.low_m == low || level.low_m == high);
-  }
+ListedZone joined_solid(const std::vector<DrawnPolygon>& levels, FaceHeights heights) {
+  for (const DrawnPolygon& level : levels) heights.add(heights_of(level));
+  const auto is_end = [&](const DrawnPolygon& level) {
+    return level.is_level() && (level.low_m == heights.low_m || level.low_m == heights.high_m);
+  };
+  const bool are_known = heights.are_known && std::all_of(levels.begin(), levels.end(), is_end);
   ListedZone zone = levels.front().zone;
   zone.is_solid = true;
-  zone.has_heights = are_known && low < high;
+  zone.has_heights = are_known && heights.low_m < heights.high_m;
   zone.lower = zone.upper = std::nullopt;
   if (!zone.has_heights) {
     zone.unused_heights = ": its floor and its ceiling are not level above the sea";
     return zone;
   }
-  if (!reaches_ground) zone.lower = ZoneHeight{low, HeightReference::sea_level};
-  zone.upper = ZoneHeight{high, HeightReference::sea_level};
+  if (!heights.reach_ground) zone.lower = ZoneHeight{heights.low_m, HeightReference::sea_level};
+  zone.upper = ZoneHeight{heights.high_m, HeightReference::sea_level};
   return zone;
 }
 
 /// The zones of a placemark: walls go to the polygons above or below which all their corners lie. Those that are of no
 /// solid stay as they are.
-std::vector<ListedZone> joined_solids(std::vector<DrawnPolygon> drawn) {
+std::vector<ListedZone> joined_solids(std::vector<DrawnPolygon> drawn, const core::ProgressReporter& progress) {
   struct Solid {
     CornerSet corners;
-    std::vector<DrawnPolygon> levels, walls;
+    std::vector<DrawnPolygon> levels;
+    std::optional<FaceHeights> walls;
+  };
+  struct Walls {
+    FaceHeights heights;
+    bool are_of_solid = false;
   };
   std::vector<Solid> solids;
   std::map<SideSet, std::size_t> solid_of;
@@ -113,6 +127,7 @@ std::vector<ListedZone> joined_solids(std::vector<DrawnPolygon> drawn) {
   const auto first_wall = std::stable_partition(drawn.begin(), drawn.end(),
                                                 [](const DrawnPolygon& one) { return !is_upright(one.zone.outer); });
   for (auto level = drawn.begin(); level != first_wall; ++level) {
+    progress.tick();
     const auto [found, is_new] = solid_of.try_emplace(sides_of(level->zone), solids.size());
     if (is_new) {
       solids.push_back({corners_of(found->first), {}, {}});
@@ -120,21 +135,34 @@ std::vector<ListedZone> joined_solids(std::vector<DrawnPolygon> drawn) {
     }
     solids[found->second].levels.push_back(std::move(*level));
   }
+  std::map<CornerSet, Walls> walls_on;  // by their corners in plan
+  std::vector<const Walls*> walls_of;   // of each wall, those on the same corners
+  for (auto wall = first_wall; wall != drawn.end(); ++wall) {
+    progress.tick();
+    Walls& walls = walls_on[corners_of(sides_of(wall->zone))];
+    walls.heights.add(heights_of(*wall));
+    walls_of.push_back(&walls);
+  }
+  for (auto& [feet, walls] : walls_on) {
+    // Many solids may meet at one of the corners. At the one with the fewest, little is looked through in all.
+    const auto has_fewer = [&](const Corner& a, const Corner& b) { return solids_at[a].size() < solids_at[b].size(); };
+    for (const std::size_t index : solids_at[*std::min_element(feet.begin(), feet.end(), has_fewer)]) {
+      progress.tick();
+      Solid& solid = solids[index];
+      const auto is_corner = [&](const Corner& foot) { return solid.corners.contains(foot); };
+      if (!std::all_of(feet.begin(), feet.end(), is_corner)) continue;
+      walls.are_of_solid = true;
+      if (!solid.walls) solid.walls.emplace();
+      solid.walls->add(walls.heights);
+    }
+  }
   std::vector<ListedZone> zones;
   for (auto wall = first_wall; wall != drawn.end(); ++wall) {
-    const CornerSet feet = corners_of(sides_of(wall->zone));
-    bool is_of_solid = false;
-    for (const std::size_t solid : solids_at[*feet.begin()]) {
-      const CornerSet& corners = solids[solid].corners;
-      if (!std::includes(corners.begin(), corners.end(), feet.begin(), feet.end())) continue;
-      is_of_solid = true;
-      solids[solid].walls.push_back(*wall);
-    }
-    if (!is_of_solid) zones.push_back(std::move(wall->zone));
+    if (!walls_of[static_cast<std::size_t>(wall - first_wall)]->are_of_solid) zones.push_back(std::move(wall->zone));
   }
   for (Solid& solid : solids) {
-    if (!solid.walls.empty()) zones.push_back(joined_solid(solid.levels, solid.walls));
-    if (solid.walls.empty()) {
+    if (solid.walls) zones.push_back(joined_solid(solid.levels, *solid.walls));
+    if (!solid.walls) {
       for (DrawnPolygon& level : solid.levels) zones.push_back(std::move(level.zone));
     }
   }
@@ -416,7 +444,7 @@ void KmlReader::end_polygon() {
 }
 
 void KmlReader::end_placemark() {
-  for (ListedZone& zone : joined_solids(std::exchange(drawn_, {}))) result_.zones.push_back(std::move(zone));
+  for (ListedZone& zone : joined_solids(std::exchange(drawn_, {}), progress_)) result_.zones.push_back(std::move(zone));
 }
 
 /// "longitude,latitude[,altitude]", with blanks between them and none within.

@@ -155,6 +155,7 @@ class Writer {
   void add_city(const CityOptions& city, Section& section) const {
     if (!city.terrain.empty()) section.add("terrain", path(city.terrain));
     section.add("error", city.terrain_error_m);
+    if (!city.terrain_crs.empty()) section.add("crs", quoted(city.terrain_crs));
     add_heights(city.terrain_heights, section);
     if (city.partial) section.add("partial", "true");
     std::string without;

@@ -84,8 +84,13 @@ class SceneParser {
     if (const YamlNode* scale = take("scale", {Kind::mesh}, "meshes"))
       mesh.scale = reader_.positive_length(*scale, "scene.scale");
     if (const YamlNode* lod = take("lod", {Kind::mesh}, "CityJSON files")) mesh.lod = reader_.text(*lod, "scene.lod");
-    if (const YamlNode* crs = take("crs", {Kind::mesh, Kind::raster, Kind::tileset}, "meshes, rasters and tilesets")) {
-      mesh.crs = section_.source.raster.crs = section_.source.tileset.crs = reader_.text(*crs, "scene.crs");
+    if (const YamlNode* crs = find(node_, "crs")) {
+      SceneSource& source = section_.source;
+      if (source.kind == Kind::map && !find(node_, "terrain")) {
+        reader_.fail(ErrorCode::not_applicable, *crs, "scene.crs of a map is that of its terrain, and there is none",
+                     "leave it out, or give 'terrain: FILE'");
+      }
+      mesh.crs = source.raster.crs = source.tileset.crs = source.city.terrain_crs = reader_.text(*crs, "scene.crs");
     }
     if (const YamlNode* origin = take("origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters")) {
       mesh.origin_deg = section_.source.raster.origin_deg = parse_lat_lon(*origin, reader_, "scene.origin");

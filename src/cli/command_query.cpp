@@ -13,6 +13,7 @@
 #include "cli/chosen_target.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/located_plan.h"
 #include "cli/point_table.h"
 #include "cli/progress_line.h"
 #include "cli/row_reader.h"
@@ -37,9 +38,9 @@ constexpr const char* kQueryExamples =
     "  A row each; commas, semicolons, tabs or blanks separate the columns. A header may name them: x, y, z in metres\n"
     "  of the scene frame, z up; or lon, lat in degrees (WGS 84) and z, for a scene that says where on the earth it\n"
     "  lies. Without a header the first three columns are taken. z is the scene's: measured from the flat ground of a\n"
-    "  map, or from the zero of its terrain. A column alt instead of z is metres above mean sea level, a column agl\n"
-    "  metres above the ground under the point. Titles may have units, alt_ft or \"Altitude (m)\", as check reads "
-    "them.\n"
+    "  map, or from the zero of its terrain. A column amsl instead of z is metres above mean sea level, a column agl\n"
+    "  metres above the ground under the point. Titles are those that check reads, and may have units, amsl_ft or\n"
+    "  \"Altitude (m)\"; for those that do not say what they are measured from, as alt, --heights does.\n"
     "\n"
     "ANSWERS\n"
     "  The table of the points, all of its columns in their order, and after them\n"
@@ -65,13 +66,14 @@ constexpr const char* kQueryExamples =
     "  vantage query mission.yaml points.csv -o answers.csv\n"
     "  echo 10 20 35 | vantage query mission.yaml -\n"
     "  vantage query mission.yaml track.csv --lonlat --z 60 --json | jq '.[] | select(.inside)'\n"
+    "  vantage query mission.yaml photos.csv --heights sea\n"
     "  vantage query mission.yaml points.csv --fraction solid_angle -o answers.csv --seen seen.geojson\n";
 
 struct QueryArguments {
   CommonOptions common;
   std::string mission_file, points_file, output_file, target;
   std::string fraction, seen_file;  // empty: not asked for
-  std::string z;                    // as typed
+  std::string z, heights;           // as typed
   bool lonlat = false, json = false;
 
   bool is_to_stdout() const { return output_file.empty() || is_standard_stream(output_file); }
@@ -126,6 +128,7 @@ TableOptions table_options(const QueryArguments& options, bool has_targets) {
   result.json = options.json;
   result.fraction = !options.fraction.empty();
   result.target = has_targets;
+  result.heights = datum_of(options.heights);
   if (options.z.empty()) return result;
   result.z = length_option("--z", options.z);
   return result;
@@ -171,7 +174,7 @@ double zero_of(const Mission& mission, const PointTable& table, const std::strin
       points,
       height == HeightDatum::sea_level
           ? "say with 'scene.sea_level' which z of the scene the mean sea level has, or give z or agl"
-          : "give z, alt or agl");
+          : "give z, amsl or agl");
 }
 
 /// Throws Error(input) where the heights of the points cannot be those of the scene.
@@ -190,7 +193,7 @@ PointFrame frame_of(const Mission& mission, const PointTable& table, const std::
       throw Error(
           ErrorCode::ground_missing,
           table.height_name() + " of the points is above the ground, and the scene does not say what of it is ground",
-          points, "give z or alt, or a scene with ground: a map, or what 'vantage scene' made of one");
+          points, "give z or amsl, or a scene with ground: a map, or what 'vantage scene' made of one");
     }
   }
   return frame;
@@ -432,8 +435,10 @@ void add_query(CLI::App& app, Command& chosen) {
                    "Write the answers to a file; -, the default, is standard output")
       ->option_text("FILE");
   command->add_flag("--lonlat", options->lonlat, "The points are longitude and latitude in degrees, WGS 84");
-  command->add_option("--z", options->z, "One height for all points; the table then needs no column z")
-      ->option_text("METRES");
+  CLI::Option* const z =
+      command->add_option("--z", options->z, "One height for all points; the table then needs no column z")
+          ->option_text("METRES");
+  add_heights_option(*command, options->heights, "the points do")->excludes(z);
   command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
   command->add_flag("--json", options->json, "Write a JSON array of objects, one per line");
   command

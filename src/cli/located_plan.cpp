@@ -16,15 +16,6 @@ std::optional<double> length_if_given(const char* name, const std::string& text)
   return text.empty() ? std::nullopt : std::optional(length_option(name, text));
 }
 
-std::optional<HeightDatum> datum_of(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  if (word == "sea") return HeightDatum::sea_level;
-  if (word == "ellipsoid") return HeightDatum::ellipsoid;
-  if (word == "ground") return HeightDatum::ground;
-  if (word == "home") return HeightDatum::home;
-  return HeightDatum::scene_z;
-}
-
 /// Longitude and latitude, or x and y for a plan in the scene frame.
 std::optional<Eigen::Vector2d> home_if_given(const PlanArguments& arguments, const FlightPlan& plan) {
   if (arguments.home.empty()) return std::nullopt;
@@ -33,6 +24,23 @@ std::optional<Eigen::Vector2d> home_if_given(const PlanArguments& arguments, con
 }
 
 }  // namespace
+
+CLI::Option* add_heights_option(CLI::App& command, std::string& heights, const std::string& what) {
+  return command
+      .add_option("--heights", heights,
+                  "What heights are measured from where " + what + " not say: sea, ellipsoid, ground, home or scene")
+      ->option_text("LEVEL")
+      ->check(CLI::IsMember({"sea", "ellipsoid", "ground", "home", "scene"}));
+}
+
+std::optional<HeightDatum> datum_of(const std::string& heights) {
+  if (heights.empty()) return std::nullopt;
+  if (heights == "sea") return HeightDatum::sea_level;
+  if (heights == "ellipsoid") return HeightDatum::ellipsoid;
+  if (heights == "ground") return HeightDatum::ground;
+  if (heights == "home") return HeightDatum::home;
+  return HeightDatum::scene_z;
+}
 
 void add_options_of_plan(CLI::App& command, PlanArguments& arguments, CLI::Option& plan) {
   const auto add = [&](const char* name, auto& value, const char* what, const char* text) {
@@ -43,9 +51,7 @@ void add_options_of_plan(CLI::App& command, PlanArguments& arguments, CLI::Optio
   add("--home-z", arguments.home_z, "z of the home in the scene; without it that of the ground there", "METRES");
   add("--undulation", arguments.undulation,
       "How high the mean sea level lies above the ellipsoid there, for heights above the ellipsoid", "METRES");
-  add("--heights", arguments.heights,
-      "What heights are measured from where the plan does not say: sea, ellipsoid, ground, home or scene", "LEVEL")
-      ->check(CLI::IsMember({"sea", "ellipsoid", "ground", "home", "scene"}));
+  add_heights_option(command, arguments.heights, "the plan does")->needs(&plan);
   add("--height", arguments.height, "The height of all positions that have none, above --heights", "METRES");
   add("--return-height", arguments.return_height, "Of the way back to the home, above it", "METRES");
   add("--loiter-radius", arguments.loiter_radius, "Of circles for which the plan leaves it to the vehicle", "METRES");

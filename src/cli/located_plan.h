@@ -25,6 +25,12 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments);
 /// The options of a plan that `plan` names. They need it.
 void add_options_of_plan(CLI::App& command, PlanArguments& arguments, CLI::Option& plan);
 
+/// The option --heights: a level for what does not say its own. `what`: "the plan does".
+CLI::Option* add_heights_option(CLI::App& command, std::string& heights, const std::string& what);
+
+/// Its level; nothing where it is not given.
+std::optional<HeightDatum> datum_of(const std::string& heights);
+
 FlightPlan read_plan_argument(const PlanArguments& arguments, const Progress& progress);
 
 /// What the arguments say of it.

@@ -69,11 +69,6 @@ void append_names(std::string& text, const std::vector<std::string>& names) {
   text += csv_field(joined);
 }
 
-/// What a height's title says it is measured from. "alt" alone is above mean sea level.
-HeightDatum meant_datum(const KnownColumn& known) {
-  return known.name == "alt" || known.name == "altitude" ? HeightDatum::sea_level : known.datum;
-}
-
 /// Bytes that are not UTF-8 are replaced rather than refused.
 const char* truth(bool value) { return value ? "true" : "false"; }
 
@@ -100,7 +95,9 @@ PointTable::PointTable(const RowReader& reader, const Row& first, const TableOpt
   } else {
     for (std::size_t axis = 0; axis < (options.z ? 2 : 3); ++axis) column_[axis] = axis;
     names_ = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y"};
-    if (!options.z) names_.emplace_back("z");
+    if (!options.z) names_.emplace_back(options.heights ? "height" : "z");
+    height_ = options.heights.value_or(HeightDatum::scene_z);
+    height_name_ = options.z ? "" : names_.back();
     while (names_.size() < fields_.size()) names_.push_back("column_" + std::to_string(names_.size() + 1));
   }
   for (const std::string& name : names_) {
@@ -159,7 +156,7 @@ void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
     factor_[static_cast<Eigen::Index>(axis)] = known_[*column_[axis]]->factor;
     if (!is_lonlat_) names_[*column_[axis]] = lower_case(names_[*column_[axis]]);
   }
-  const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z, alt or agl"};
+  const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z, amsl or agl"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (column_[axis] || (axis == 2 && options_.z)) continue;
     const std::string form = is_lonlat_
@@ -184,14 +181,16 @@ std::vector<std::string> PointTable::unused_heights() const {
   return names;
 }
 
-/// z comes first, then heights that say what they are measured from. Of these only one can be meant.
+/// z comes first, then heights that say what they are measured from, then others. Of these only one can be meant.
 void PointTable::take_height(const Row& row) {
-  std::vector<std::size_t> meant = columns_of(TableColumn::z);
+  std::vector<std::size_t> meant = columns_of(TableColumn::z), without_level;
   const bool has_z = !meant.empty();
   for (const std::size_t column : columns_of(TableColumn::height)) {
-    const bool is_known = meant_datum(*known_[column]) != HeightDatum::unknown;
-    (is_known && !has_z ? meant : unused_heights_).push_back(column);
+    const bool is_known = known_[column]->datum != HeightDatum::unknown;
+    (!is_known ? without_level : has_z ? unused_heights_ : meant).push_back(column);
   }
+  if (meant.empty() && options_.heights) meant.swap(without_level);
+  unused_heights_.insert(unused_heights_.end(), without_level.begin(), without_level.end());
   if (options_.z && !meant.empty()) {
     fail(ErrorCode::conflicting_keys,
          "the points have a column " + names_[meant.front()] + ", and --z gives another height", row,
@@ -201,11 +200,12 @@ void PointTable::take_height(const Row& row) {
   if (!meant.empty()) {
     column_[2] = meant.front();
     height_name_ = names_[meant.front()];
-    if (!has_z) height_ = meant_datum(*known_[meant.front()]);
+    const HeightDatum said = known_[meant.front()]->datum;
+    if (!has_z) height_ = said == HeightDatum::unknown ? *options_.heights : said;
   } else if (!unused_heights_.empty() && !options_.z) {
     fail(ErrorCode::height_unknown,
          names_[unused_heights_.front()] + " of the points does not say what it is measured from", row,
-         "name it height_amsl above mean sea level, height_agl above ground, or z of the scene");
+         "say it with --heights sea, ellipsoid, ground, home or scene, or name it such as height_amsl or height_agl");
   }
 }
 
@@ -317,14 +317,14 @@ double PointTable::scene_height(const Vec3& coordinates, const Eigen::Vector2d& 
   constexpr double kSameM = 1e-3;
   const auto ground = frame.ground->at(at.x(), at.y());
   if (!ground) {
-    fail(ErrorCode::ground_missing, "there is no ground under the point, so its agl says nothing", row,
-         "give z or alt, or leave the point out");
+    fail(ErrorCode::ground_missing, "there is no ground under the point, so its " + height_name_ + " says nothing", row,
+         "give z or amsl, or leave the point out");
   }
   if (ground->highest_m - ground->lowest_m > kSameM) {
     fail(ErrorCode::ground_missing,
          "pieces of the ground lie over each other at the point, at z " + shortest(ground->lowest_m) + " and " +
              shortest(ground->highest_m),
-         row, "give z or alt");
+         row, "give z or amsl");
   }
   return coordinates.z() + ground->highest_m;
 }

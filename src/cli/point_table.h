@@ -23,6 +23,7 @@ struct TableOptions {
   bool fraction = false;    ///< write which part of the target is seen, too
   bool target = false;      ///< write the target's name, too
   std::optional<double> z;  ///< of all points; then the table has no such column
+  std::optional<HeightDatum> heights;  ///< what heights are measured from where the table does not say
 };
 
 /// What moves points of a table into the scene frame.
@@ -35,6 +36,7 @@ struct PointFrame {
 
 /// A table whose first row is read. Where that holds words it is a header, with titles as known_column has them: x, y
 /// and z are taken, or lon, lat and z, or in the place of z another height. Else the first three columns are taken.
+/// Heights that say nothing of their level need that of the options.
 class PointTable {
  public:
   /// Throws Error(input), with the line, for a header that lacks a column or has one that contradicts the options.

@@ -97,7 +97,7 @@ SceneSource source_of(const SceneOptions& options) {
   source.mesh.up = options.up == "y" ? UpAxis::y : UpAxis::z;
   source.mesh.scale = positive_length_option("--scale", options.scale);
   source.mesh.lod = options.lod;
-  source.mesh.crs = source.raster.crs = options.crs;
+  source.mesh.crs = source.raster.crs = source.city.terrain_crs = options.crs;
   HeightOptions heights;
   if (!options.z_unit.empty()) heights.unit = height_unit(options.z_unit, "command line, --z-unit");
   if (!options.void_height.empty()) heights.void_m = length_option("--void", options.void_height);
@@ -133,8 +133,9 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   only_for(options.up == "y", "--up", {Kind::mesh}, "meshes");
   only_for(options.scale != "1", "--scale", {Kind::mesh}, "meshes");
   only_for(!options.lod.empty(), "--lod", {Kind::mesh}, "CityJSON files");
-  only_for(!options.crs.empty(), "--crs", {Kind::mesh, Kind::raster, Kind::tileset}, "meshes, rasters and tilesets");
   const bool is_terrain = !options.terrain.empty();
+  only_for(!options.crs.empty() && !is_terrain, "--crs", {Kind::mesh, Kind::raster, Kind::tileset},
+           "meshes, rasters, tilesets and terrain");
   only_for(!options.z_unit.empty() && !is_terrain, "--z-unit", {Kind::raster}, "rasters and terrain");
   only_for(!options.void_height.empty() && !is_terrain, "--void", {Kind::raster}, "rasters and terrain");
   only_for(options.partial, "--partial", {Kind::map}, "maps");
@@ -196,7 +197,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--ground", options.ground, "Height of a plane that is the ground of a tileset (default: none)")
       ->option_text("Z");
   command.add_option("--lod", options.lod, "Level of detail of CityJSON (default: the highest)")->option_text("LOD");
-  command.add_option("--crs", options.crs, "Reference system of the coordinates, such as EPSG:28992; not of maps")
+  command
+      .add_option("--crs", options.crs,
+                  "Reference system of the coordinates, such as EPSG:28992; of a map, that of its terrain")
       ->option_text("CRS");
   command.add_option("--origin", options.origin, "Origin of the scene frame (default: the middle)")
       ->option_text("LAT,LON");

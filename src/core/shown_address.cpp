@@ -26,6 +26,15 @@ std::size_t find_mark(std::string_view text, std::string_view marks, std::size_t
   return kNowhere;
 }
 
+std::size_t find_last_mark(std::string_view text, std::string_view marks) {
+  std::size_t last = kNowhere;
+  for (std::size_t at = find_mark(text, marks); at != kNowhere; at = find_mark(text, marks, at + 1)) last = at;
+  return last;
+}
+std::size_t length_of_mark(std::string_view text, std::size_t at) { return text[at] == '%' ? 3 : 1; }
+
+constexpr std::string_view kQueryMarks = "?#;&";
+
 /// Of what follows "https://". Nothing where it is not clear what of it is a password.
 std::string without_user(std::string_view rest) {
   constexpr std::string_view kEnds = "/\\?#";
@@ -36,25 +45,24 @@ std::string without_user(std::string_view rest) {
     if (!is_path || find_mark(rest, ":") < first) return {};
   } else if (first != kNowhere) {
     const std::size_t path = std::min(rest.find_first_of("/\\", first), rest.size());
-    std::size_t last = first;
-    for (std::size_t at = first; at < path; at = find_mark(rest, "@", at + 1)) last = at;
+    const std::size_t last = find_last_mark(rest.substr(0, path), "@");
     if (rest.find_first_of("?#") < last) return {};
-    rest.remove_prefix(last + (rest[last] == '%' ? 3 : 1));
+    rest.remove_prefix(last + length_of_mark(rest, last));
   }
   // A name before a colon and no port behind it: a user and a password that are cut off.
   const std::string_view host = rest.substr(0, find_mark(rest, "/\\?#;&"));
   const std::size_t colon = host.find(':', host.starts_with('[') ? std::min(host.find(']'), host.size()) : 0);
   const std::string_view port = colon == kNowhere ? "" : host.substr(colon + 1);
   if (port.find_first_not_of("0123456789") != kNowhere) return {};
-  return std::string(rest.substr(0, find_mark(rest, "?#;&")));
+  return std::string(rest.substr(0, find_mark(rest, kQueryMarks)));
 }
 
 /// Where the next address begins behind its slashes. One without a scheme has a user.
 std::size_t find_address(std::string_view text, std::size_t from) {
   for (std::size_t at = from; at + 1 < text.size(); ++at) {
-    const bool has_scheme = text[at] == ':' && is_slash(text[at + 1]) && at >= 2 &&
-                            std::isalnum(static_cast<unsigned char>(text[at - 1])) &&
-                            std::isalnum(static_cast<unsigned char>(text[at - 2]));  // "C:\" is a disk
+    const bool is_name = at >= 2 && std::isalnum(static_cast<unsigned char>(text[at - 1])) &&
+                         std::isalnum(static_cast<unsigned char>(text[at - 2]));  // "C:\" is a disk
+    const bool has_scheme = text.substr(at, 3) == "://" || (text[at] == ':' && is_slash(text[at + 1]) && is_name);
     const bool is_begin = at == 0 || !(std::isalnum(static_cast<unsigned char>(text[at - 1])) || text[at - 1] == ':' ||
                                        is_slash(text[at - 1]));
     const bool may_have_user = text.substr(at, 2) == "//" && is_begin;
@@ -87,6 +95,39 @@ std::size_t end_of_address(std::string_view text, std::size_t done, std::size_t 
   return end;
 }
 
+/// Of what may be meant as an address, and is written as none: "me:password@host/a", "https//host/a?key=K",
+/// "a.glb;key=K".
+std::string without_loose_secrets(std::string_view text, bool to_the_end) {
+  std::string shown;
+  for (std::size_t done = 0; done < text.size();) {
+    const std::size_t word_end = std::min(text.find_first_of(" \t\n'\"", done), text.size());
+    const std::string_view word = text.substr(done, word_end - done);
+    const std::size_t path = word.find_first_of("./\\:"), value = find_last_mark(word, "=");
+    std::size_t end = word_end + 1;
+    for (std::size_t begin = 0; begin <= word.size();) {
+      const std::string_view part = word.substr(begin, word.find_first_of("/\\", begin) - begin);
+      const std::size_t colon = find_mark(part, ":"), mark = find_mark(part, kQueryMarks);
+      const std::size_t user = find_last_mark(part, "@");
+      const bool has_user = user != kNowhere && colon > 0 && colon < user;
+      const bool has_query = mark != kNowhere && path < begin + mark && value != kNowhere && begin + mark < value;
+      if (has_user ? mark < user : has_query) {
+        shown += part.substr(0, has_user ? 0 : mark);
+        end = end_of_address(text, done, done + begin, to_the_end);
+        break;
+      }
+      if (has_user) {
+        begin += user + length_of_mark(part, user);
+        continue;
+      }
+      shown += part;
+      begin += part.size() + 1;
+      if (done + begin <= text.size()) shown += text[done + begin - 1];
+    }
+    done = end;
+  }
+  return shown;
+}
+
 }  // namespace
 
 std::string without_secrets(std::string_view text, bool is_address) {
@@ -98,7 +139,8 @@ std::string without_secrets(std::string_view text, bool is_address) {
     shown += without_user(text.substr(at, end - at));
     done = end;
   }
-  return shown += text.substr(done);
+  shown += text.substr(done);
+  return without_loose_secrets(shown, is_address);
 }
 
 std::filesystem::path shown_address(const std::filesystem::path& file) { return without_secrets(file.string(), true); }

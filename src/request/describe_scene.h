@@ -47,8 +47,9 @@ inline constexpr std::array kSceneKeys = {
     Own{{.path = "lod", .says = "for CityJSON, the level of detail", .without = "the highest"}, Kind::text},
     Own{{.path = "crs",
          .says =
-             "for a mesh, a raster or a tileset, the coordinate reference system of its coordinates, such as "
-             "`EPSG:28992`, whatever the file says; or, not for a raster, `none`: they are metres of no known place",
+             "for a mesh, a raster, a tileset or the `terrain` of a map, the coordinate reference system of its "
+             "coordinates, such as `EPSG:28992`, whatever the file says; or, for a mesh or a tileset, `none`: they are "
+             "metres of no known place",
          .without = "what the file says"},
         Kind::text},
     Own{{.path = "origin",

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/shown_address.h"
 #include "io/object_text.h"
 #include "tiles/instances.h"
 #include "tiles/tables.h"
@@ -56,7 +57,7 @@ std::optional<io::TileMesh> ContentReader::surfaces_of(const io::MeshSource& sou
 }
 
 void ContentReader::count_unreadable(const std::string& shown, io::UnreadableProperties more) {
-  if (more.count > 0) more.first.insert(0, shown + ": ");
+  if (more.count > 0) more.first.insert(0, without_secrets(shown, true) + ": ");
   unreadable_properties_.add(more);
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "common/shown_address.h"
 #include "core/progress_reporter.h"
 #include "vantage/error.h"
 
@@ -33,7 +34,7 @@ class TileSource {
   /// What people call it, in errors.
   virtual std::string shown(const std::string& address) const = 0;
   /// The same in ids of objects: short, and without keys.
-  virtual std::string name(const std::string& address) const { return address; }
+  virtual std::string name(const std::string& address) const { return without_secrets(address, true); }
 };
 
 /// Files of the folder that holds `tileset`, and of folders below it, links followed.

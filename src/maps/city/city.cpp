@@ -66,7 +66,7 @@ internal::city::Ground ground_under(const internal::city::Site& site, const City
   const Vec2 min = site.min - margin, max = site.max + margin;
   if (options.terrain.empty()) return Ground::plane(min, max);
   return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
-                           {"", options.terrain_heights, options.missing}, notes, progress);
+                           {options.terrain_crs, options.terrain_heights, options.missing}, notes, progress);
 }
 
 /// The ledger's entry of an item that is object `index` of the scene.

@@ -253,8 +253,8 @@ void RasterFile::read_georeference() {
   }
   if (!system && crs_wkt_.empty()) {
     fail(ErrorCode::crs_missing, "the raster has no coordinate reference system",
-         "give it: of a raster that is the scene as scene.crs, such as 'crs: EPSG:25832' (vantage inspect --crs); of "
-         "terrain with gdal_translate -a_srs EPSG:25832 in out.tif");
+         "give it: of a raster that is the scene, or the terrain of a map, as scene.crs, such as 'crs: EPSG:25832' "
+         "(--crs); of other terrain with gdal_translate -a_srs EPSG:25832 in out.tif");
   }
   if (transform[2] != 0 || transform[4] != 0) {
     fail(ErrorCode::raster_grid_unsupported, "the raster's rows do not run east (it is rotated or sheared)",
