@@ -87,8 +87,7 @@ std::vector<Standing> raised(const Shape& shape, const Ground& ground, double lo
   std::vector<Footprint> pieces;
   PlanBounds bounds;
   bounds.extend(shape.footprint);
-  const double least =
-      std::max(is_wall ? kLeastWall : kLeastPiece, (bounds.max - bounds.min).maxCoeff() / kMostPieces);
+  const double least = std::max(is_wall ? kLeastWall : kLeastPiece, (bounds.max - bounds.min).maxCoeff() / kMostPieces);
   const bool is_flat = shape.form.roof == RoofShape::flat;
   const double rise =
       is_flat ? std::max(is_wall ? 0 : kLeastRise, shape.form.top_m) : std::numeric_limits<double>::infinity();

@@ -75,11 +75,12 @@ constexpr double kFoot = 0.3048, kInch = 0.0254;
 /// Metres in a unit.
 std::optional<double> unit_m(std::string_view unit) {
   static constexpr std::array<std::pair<std::string_view, double>, 29> units = {
-      {{"", 1},           {"m", 1},         {"m.", 1},          {"meter", 1},         {"meters", 1},   {"metre", 1},
-       {"metres", 1},     {"mi", 1609.344}, {"mile", 1609.344}, {"miles", 1609.344},  {"yd", 0.9144},  {"yard", 0.9144},
-       {"yards", 0.9144}, {"mm", 0.001},    {"cm", 0.01},       {"km", 1000},         {"ft", kFoot},   {"ft.", kFoot},
-       {"feet", kFoot},   {"foot", kFoot},  {"'", kFoot},       {"in", kInch},        {"inch", kInch}, {"\"", kInch},
-       {"dam", 10},       {"hm", 100},      {"nm", 1852},       {"nmi", 1852},        {"nautical", 1852}}};
+      {{"", 1},        {"m", 1},         {"m.", 1},         {"meter", 1},       {"meters", 1},
+       {"metre", 1},   {"metres", 1},    {"mi", 1609.344},  {"mile", 1609.344}, {"miles", 1609.344},
+       {"yd", 0.9144}, {"yard", 0.9144}, {"yards", 0.9144}, {"mm", 0.001},      {"cm", 0.01},
+       {"km", 1000},   {"ft", kFoot},    {"ft.", kFoot},    {"feet", kFoot},    {"foot", kFoot},
+       {"'", kFoot},   {"in", kInch},    {"inch", kInch},   {"\"", kInch},      {"dam", 10},
+       {"hm", 100},    {"nm", 1852},     {"nmi", 1852},     {"nautical", 1852}}};
   const auto found = std::find_if(units.begin(), units.end(), [&](const auto& known) { return known.first == unit; });
   if (found == units.end()) return std::nullopt;
   return found->second;
@@ -351,8 +352,8 @@ std::optional<double> any_length_m(std::string_view text, double level_m) {
     const double unit_length = is_kilometres ? 1000 : is_word ? 1 : unit_m(unit).value_or(1);
     const double metres = floors > 0 || counts_levels(unit) ? level_m : unit_length;
     lengths.push_back(term.number * metres);
-    if (before) lengths.push_back(metres * (before->sign == '*' ? before->number * term.number
-                                                                : before->number / term.number));
+    if (before)
+      lengths.push_back(metres * (before->sign == '*' ? before->number * term.number : before->number / term.number));
     before = term.sign == ' ' ? nullptr : &term;
   }
   const auto says = [&](std::string_view word) { return plain.find(word) != std::string::npos; };

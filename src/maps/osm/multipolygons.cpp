@@ -204,7 +204,7 @@ void Multipolygons::absorb(const osmium::Relation& relation, const Tags& area_ta
 }
 
 void Multipolygons::add_rings_of_others(const osmium::Relation& relation, const Tags& area_tags,
-                                    const std::vector<MemberWay>& members) {
+                                        const std::vector<MemberWay>& members) {
   std::vector<MemberWay> pieces;
   std::vector<std::size_t> next;  // of each piece one before it that it meets, or itself
   const auto first_of = [&next](std::size_t piece) {
