@@ -190,10 +190,106 @@ TEST_F(CityTest, HeightsOfPiecesAndRelationsCount) {
     map.relation({{"way", south, "outer"}, {"way", north, "outer"}}, tags);
     EXPECT_NEAR(object_volume(build(map).scene, "relation/1"), 20 * 20 * 100, 80) << tagged;
   }
-  MapText group;
-  const long outline = group.box(0, 0, 20, 20, {{"building", "yes"}});
-  group.relation({{"way", outline, "outline"}}, {{"type", "building"}, {"height", "100"}});
-  EXPECT_NEAR(object_volume(build(group).scene, "way/1"), 20 * 20 * 100, 80);
+  struct Case {
+    MapText::TagList own, other;
+    double top_m;
+  };
+  const auto expect_top = [&](const MapText& map, const std::string& object, const Case& one) {
+    EXPECT_NEAR(record_of(build(map), object).top_m, one.top_m, 1e-6)
+        << (one.own.empty() ? "" : one.own[0].first) << " and " << one.other.back().first;
+  };
+  const std::vector<Case> both = {{{}, {{"height", "100"}}, 100},
+                                  {{}, {{"height", "6"}}, 6},
+                                  {{{"height", "10"}}, {{"building:levels", "20"}}, 60},
+                                  {{{"building:levels", "20"}}, {{"height", "4"}}, 60},
+                                  {{{"est_height", "60"}}, {{"height", "12"}}, 60},
+                                  {{{"height", "10"}}, {{"building:levels", "5"}, {"roof:levels", "4"}}, 25},
+                                  {{{"building:levels", "5"}}, {{"roof:levels", "4"}}, 25},
+                                  {{{"height", "10"}}, {{"building:height", "9 storeys"}}, 27}};
+  const std::vector<Case> others = {{{{"building:levels", "20"}}, {{"barrier", "fence"}, {"height", "2"}}, 60},
+                                    {{}, {{"barrier", "fence"}, {"height", "2"}}, 9},
+                                    {{{"est_height", "60"}}, {{"leisure", "park"}, {"height", "12"}}, 60},
+                                    {{{"est_height", "6"}}, {{"leisure", "park"}, {"height", "12"}}, 12}};
+  for (const bool is_piece : {false, true}) {
+    std::vector<Case> cases = both;
+    if (is_piece) cases.insert(cases.end(), others.begin(), others.end());
+    for (Case& one : cases) {
+      MapText map;
+      one.own.emplace_back("building", "yes");
+      one.own.emplace_back("type", "multipolygon");
+      const long a = map.node(0, 0), b = map.node(20, 0), c = map.node(20, 20), d = map.node(0, 20);
+      const long south = map.way({a, b, c}, is_piece ? one.other : MapText::TagList()), north = map.way({c, d, a}, {});
+      const long outline = map.relation({{"way", south, "outer"}, {"way", north, "outer"}}, one.own);
+      one.other.emplace_back("type", "building");
+      if (!is_piece) map.relation({{"relation", outline, "outline"}}, one.other);
+      expect_top(map, "relation/1", one);
+    }
+  }
+  MapText tank;
+  const long a = tank.node(0, 0), b = tank.node(20, 0), c = tank.node(20, 20);
+  const long piece = tank.way({a, b, c}, {{"height", "30"}}), rest = tank.way({c, a}, {});
+  tank.relation({{"way", piece, "outer"}, {"way", rest, "outer"}},
+                {{"type", "multipolygon"}, {"man_made", "storage_tank"}, {"est_height", "12"}});
+  EXPECT_NEAR(record_of(build(tank), "relation/1").top_m, 30, 1e-6);
+}
+
+TEST_F(CityTest, BuildingRelationsBuildWhatNoMemberIs) {
+  const MapText::TagList building = {{"type", "building"}, {"building", "yes"}, {"height", "50"}};
+  const MapText::TagList low = {{"building", "yes"}, {"height", "20"}}, part = {{"building:part", "yes"}};
+  const auto built = [&](const MapText::TagList& first, const MapText::TagList& second, const std::string& role) {
+    MapText map;
+    const long west = map.box(0, 0, 20, 20, first), east = map.box(40, 0, 60, 20, second);
+    map.relation({{"way", west, role}, {"way", east, role}}, building);
+    return build(map);
+  };
+  const City outlines = built(low, {}, "outline");
+  EXPECT_NEAR(record_of(outlines, "way/1").top_m, 50, 1e-6);
+  EXPECT_NEAR(object_volume(outlines.scene, "relation/1"), 20 * 20 * 50, 40) << "the outline without tags";
+  const City fence = built({{"barrier", "fence"}}, {{"barrier", "fence"}}, "outline");
+  EXPECT_NEAR(object_volume(fence.scene, "relation/1"), 2 * 20 * 20 * 50, 80);
+  EXPECT_NEAR(record_of(fence, "way/1").top_m, 1.5, 1e-6);
+  const City parts = built(part, {{"building:part", "yes"}, {"height", "8"}}, "part");
+  EXPECT_NEAR(record_of(parts, "way/1").top_m, 50, 1e-6) << "it says no height";
+  EXPECT_NEAR(record_of(parts, "way/2").top_m, 8, 1e-6);
+  const City mixed = built(part, {}, "part");
+  EXPECT_NEAR(record_of(mixed, "way/1").top_m, 50, 1e-6);
+  EXPECT_NEAR(object_volume(mixed.scene, "relation/1"), 20 * 20 * 50, 40) << "the part without tags";
+  MapText tower;
+  const long outline = tower.box(0, 0, 20, 20, low);
+  tower.relation({{"way", outline, "outline"}}, {{"type", "building"}, {"man_made", "tower"}, {"height", "50"}});
+  const City told = build(tower);
+  EXPECT_NEAR(record_of(told, "way/1").top_m, 50, 1e-6);
+  EXPECT_NE(reason_of(told, "relation/1"), "");
+}
+
+TEST_F(CityTest, APartLowersNoBuildingButItsOwn) {
+  for (const bool named : {false, true}) {
+    MapText map;
+    map.box(-30, -30, 30, 30, {{"building", "yes"}, {"height", "100"}});
+    const long own = map.box(-20, -20, 10, 10, {{"building", "yes"}, {"height", "50"}});
+    const long part = map.box(-15, -15, 5, -5, {{"building:part", "yes"}, {"height", "10"}});
+    if (named) map.relation({{"way", own, "outline"}, {"way", part, "part"}}, {{"type", "building"}});
+    const City city = build(map);
+    EXPECT_NEAR(object_volume(city.scene, "way/1"), 60 * 60 * 100, 500) << named;
+    EXPECT_NEAR(record_of(city, "way/2").footprint_m2, 30 * 30 - 20 * 10, 2) << named;
+  }
+  MapText two;  // the part lies in the first of two outlines
+  const long west = two.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "100"}});
+  const long east = two.box(40, 0, 60, 20, {{"building", "yes"}, {"height", "100"}});
+  const long part = two.box(0, 0, 20, 10, {{"building:part", "yes"}, {"height", "10"}});
+  two.relation({{"way", west, "outline"}, {"way", east, "outline"}, {"way", part, "part"}}, {{"type", "building"}});
+  EXPECT_NEAR(record_of(build(two), "way/1").footprint_m2, 20 * 10, 1);
+}
+
+TEST_F(CityTest, SmallBuildingsAreBuilt) {
+  MapText map;
+  map.box(0, 0, 0.9, 0.9, {{"building", "yes"}, {"height", "30"}});
+  map.box(0, 0, 0.9, 0.9, {{"building:part", "yes"}, {"layer", "-1"}, {"height", "2"}});
+  map.box(10, 0, 10.9, 0.9, {{"building", "yes"}, {"height", "30"}});
+  map.box(10, 0, 10.4, 0.9, {{"building:part", "yes"}, {"height", "2"}});
+  const City city = build(map);
+  EXPECT_NEAR(record_of(city, "way/1").footprint_m2, 0.81, 0.05);
+  EXPECT_NEAR(record_of(city, "way/3").footprint_m2, 0.45, 0.05);
 }
 
 TEST_F(CityTest, APieceOfARingMaySayWhatItBounds) {
@@ -651,6 +747,42 @@ TEST_F(CityTest, WhatStandsInIsAboveAllGroundUnderIt) {
   EXPECT_GE(highest_over(tall, -299, 19), highest_over(ground, -299, 19) + 15);
   EXPECT_GE(highest_over(tall, -261, 19), highest_over(ground, -261, 19) + 15);
   EXPECT_NEAR(record_of(city, "way/4").top_m, z + 9, 0.1) << "a building's height counts from the lowest";
+}
+
+TEST_F(CityTest, WallsFollowTheGround) {
+  MapText map;
+  map.box(-2, -150, 2, 150, {{"barrier", "city_wall"}, {"area", "yes"}, {"height", "6"}});
+  map.line({{20, -50}, {20, 50}}, {{"barrier", "fence"}, {"height", "1.5"}});
+  CityOptions options;
+  options.terrain = slope(0.3);
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 400;
+  const City city = build(map, options);
+  const Mesh ground = object_mesh(city.scene, "ground");
+  const Mesh wall = object_mesh(city.scene, "way/1"), fence = object_mesh(city.scene, "way/2");
+  for (double north = -149.3; north < 149.5; north += 1.7) {
+    const double above = highest_over(wall, 0.3, north) - highest_over(ground, 0.3, north);
+    EXPECT_GE(above, 6 - 1e-3) << north;
+    EXPECT_LE(above, 12.1) << north;
+  }
+  for (double north = -49.3; north < 49.5; north += 0.73) {
+    const double above = highest_over(fence, 20.01, north) - highest_over(ground, 20.01, north);
+    EXPECT_GE(above, 1.5 - 1e-3) << north;
+    EXPECT_LE(above, 1.5 + 3.1) << north;
+  }
+  EXPECT_TRUE(city.scene.ledger.empty());
+}
+
+TEST_F(CityTest, NoNeedleOfAWoodIsCutOff) {
+  MapText map;
+  const double tip = 31;
+  map.area({{-40, 0}, {tip, 0}, {0, 0.03}, {0, 60}, {-40, 60}}, {{"natural", "wood"}, {"height", "5"}});
+  CityOptions options;
+  options.terrain = slope(0.5);
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 400;
+  const Box box = bounding_box(object_mesh(build(map, options).scene, "way/1"));
+  EXPECT_NEAR(box.max.x(), tip, 0.02);
 }
 
 }  // namespace

@@ -111,7 +111,20 @@ TEST(CityForm, WhatIsNoPlainNumberIsTakenForTheMostThatItMayMean) {
                                                                {"5\u5c42", 15},
                                                                {"30..50", 50},
                                                                {"30\u00b12", 32},
-                                                               {"10 m plus 5 m", 15}};
+                                                               {"10 m plus 5 m", 15},
+                                                               {"2x15", 30},
+                                                               {"2 \u00d7 15 m", 30},
+                                                               {"2*15 ft", 9.144},
+                                                               {"3 dam", 30},
+                                                               {"1/50 mi", 32.18688},
+                                                               {".1 NM", 185.2},
+                                                               {"30/40", 40},
+                                                               {"10 andares", 30},
+                                                               {"10 etasjer", 30},
+                                                               {"10 kat", 30},
+                                                               {"10 v\u00e5ningar", 30},
+                                                               {"10 V\u00c5NINGAR", 30},
+                                                               {"10 emelet", 30}};
   for (const auto& [text, metres] : lengths) {
     const std::optional<double> length = any_length_m(text, 3);
     ASSERT_TRUE(length) << text;
@@ -223,7 +236,10 @@ TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
   EXPECT_EQ(read({{"building", "yes"}, {"height", "0"}, {"est_height", "7"}}).form.top_m, 7);
   const Reading large = read({{"building", "yes"}, {"height", "99999"}, {"building:levels", "2"}});
   EXPECT_TRUE(large.has(TagFault::too_large, "height"));
-  EXPECT_TRUE(large.remarks[0].unsure) << "it may be higher than two storeys";
+  EXPECT_TRUE(large.remarks[0].unsure);
+  EXPECT_EQ(large.form.top_m, 1500) << "however few its storeys";
+  EXPECT_EQ(read({{"building", "yes"}, {"est_height", "2 km"}}).form.top_m, 1500);
+  EXPECT_EQ(read({{"building:part", "yes"}, {"height", "1600-1700"}, {"min_height", "20"}}).form.bottom_m, 20);
   EXPECT_TRUE(read({{"building", "yes"}, {"building:levels", "0"}}).has(TagFault::zero, "building:levels"));
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}}).form.top_m, 9);
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}, {"roof:height", "4"}}).form.top_m, 4);
@@ -345,6 +361,23 @@ TEST(CityForm, RoofsOnPosts) {
   const Reading open = read({{"building", "yes"}, {"wall", "no"}});
   EXPECT_EQ(open.form.top_m, 3);
   EXPECT_EQ(open.form.deck_m, 0.5);
+}
+
+TEST(CityForm, JoinedFormsHoldBoth) {
+  const auto form = [](std::initializer_list<std::pair<std::string, std::string>> tags) { return read(tags).form; };
+  const BuildingForm high = form({{"height", "20"}}), raised = form({{"height", "12"}, {"min_height", "3"}});
+  EXPECT_EQ(joined(high, raised), high);
+  EXPECT_EQ(joined(form({{"height", "20"}, {"min_height", "5"}}), raised).bottom_m, 3);
+  EXPECT_EQ(joined(form({{"building", "roof"}, {"height", "5"}}), form({{"building", "roof"}, {"height", "6"}})).deck_m,
+            0);
+  const BuildingForm tent = form({{"height", "20"}, {"roof:shape", "gabled"}, {"roof:height", "5"}});
+  EXPECT_EQ(joined(tent, form({{"height", "15"}})), tent);
+  EXPECT_TRUE(joined(tent, form({{"height", "16"}})).is_box);
+  const BuildingForm pitched = form({{"building:levels", "6"}, {"roof:shape", "gabled"}});
+  const BuildingForm both = joined(high, pitched);
+  EXPECT_EQ(both.top_m, 20);
+  EXPECT_TRUE(both.is_box && both.pitch && both.pitch->on_top) << "its roof may rise above both";
+  EXPECT_EQ(joined(pitched, form({{"building:levels", "5"}, {"roof:shape", "gabled"}})), pitched);
 }
 
 TEST(CityForm, RandomTagsAlwaysMakeAForm) {

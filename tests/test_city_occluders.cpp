@@ -170,6 +170,13 @@ TEST(CityOccluders, BridgesCanBeLookedUnder) {
   EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary_link"}}, kStraight).volume(), 100, 0.05);
 }
 
+TEST(CityOccluders, BuildingHeightIsAHeightOfAnything) {
+  const std::pair<std::string, std::string> height = {"building:height", "48"};
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary"}, height}, kStraight).box().max.z(), 48, 1e-9);
+  EXPECT_NEAR(line({{"barrier", "wall"}, height}, kStraight).box().max.z(), 48, 1e-9);
+  EXPECT_NEAR(point({{"natural", "tree"}, height}).box().max.z(), 48, 1e-9);
+}
+
 TEST(CityOccluders, BridgesAreHeldWhereverTheyMayBe) {
   const auto bridge = [](std::initializer_list<std::pair<std::string, std::string>> more) {
     osm::Tags tags = tagged({{"bridge", "yes"}, {"highway", "primary"}});

@@ -285,7 +285,8 @@ class Comparison {
       const ExportedArea& area = map_.areas.at(part);
       if (is_underground(area) || area.is_mended) continue;  // what is guessed covers nothing
       const ExpectedHeights heights = expected_heights(area.tags, &tags), whole = expected_heights(tags, nullptr);
-      if (heights.top.least < whole.top.least && !says_height(area.tags)) continue;
+      const bool is_lower = heights.top.least < whole.top.least;  // and a guess, or of another building in this one
+      if (is_lower && (!says_height(area.tags) || parts_.outline_of(part) != building)) continue;
       // A lift house stands on what is built, and a roof on posts covers another one alone.
       const bool is_on_posts = heights.because.find("stands on posts") != std::string::npos;
       if (is_on_posts && whole.because.find("stands on posts") == std::string::npos) continue;

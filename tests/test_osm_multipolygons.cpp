@@ -135,9 +135,10 @@ std::string canonical_area(const Area& area) {
 
 using TagMap = std::map<std::string, std::string>;
 
-/// The ways of case 768, a relation that is INVALID, are each tagged area=yes and valid: areas of their own. The
-/// expected result leaves ways out that are members of any relation, and so does not list them.
-constexpr std::int64_t kWaysOfTheirOwn[] = {768800, 768801};
+/// The ways of case 768, a relation that is INVALID, are each tagged area=yes and valid: areas of their own. In cases
+/// 924 and 925 the pieces of a hole in a wood are tagged as water. The expected result leaves ways out that are members
+/// of any relation, and so does not list them.
+constexpr std::int64_t kWaysOfTheirOwn[] = {768800, 768801, 924801, 925801};
 
 /// Whether the extract's areas are those of the variant: objects, geometry, tags. What is INVALID must be a problem.
 bool matches(const Extract& extract, const nlohmann::json& variant) {

@@ -280,6 +280,58 @@ TEST(OsmMultipolygons, JoinPiecesOfRings) {
   expect_problem(repeated, way_id(11), Kind::repeated_outline, true, "it bounds relation/20, which stands for it");
 }
 
+TEST(OsmMultipolygons, JoinPiecesThatBoundSomethingElse) {
+  const std::string high = osm_tag("height", "40"), low = osm_tag("height", "10");
+  const auto read = [&](const std::string& one, const std::string& other) {
+    return extract_of(
+        kNodes + osm_way(11, osm_ring(1)) + osm_way(12, {5, 6, 7}, one) + osm_way(13, {7, 8, 5}, other) +
+        osm_relation(20, {"way 11 outer", "way 12 inner", "way 13 inner"}, kMultipolygon + kBuilding + low));
+  };
+  for (const std::string& other : {high, osm_tag("height", "30")}) {
+    const Extract extract = read(kBuilding + high, kBuilding + other);
+    ASSERT_EQ(extract.areas.size(), 2u) << testing::describe(extract);
+    EXPECT_EQ(extract.areas[0].id, way_id(12));
+    EXPECT_EQ(extract.areas[0].tags.get("height"), "40");
+    EXPECT_EQ(extract.areas[0].heights.size(), other == high ? 0u : 1u);
+    EXPECT_NEAR(doubled_area(extract.areas[0].polygons.at(0).outer), 5e-7, 1e-12);
+    EXPECT_EQ(extract.areas[1].polygons.at(0).holes.size(), 1u);
+    expect_problem(extract, way_id(13), Kind::repeated_outline, true, "it bounds way/12, which stands for it");
+  }
+  const Extract same = read(kBuilding + low, kBuilding + low);
+  EXPECT_EQ(same.areas.size(), 1u) << "tagged like what it is a hole in";
+  const Extract alone = read(kBuilding + high, "");
+  expect_problem(alone, way_id(12), Kind::open_outline, false, "a straight side");
+  const Extract hedges = read(osm_tag("barrier", "hedge"), osm_tag("barrier", "hedge"));
+  EXPECT_EQ(hedges.areas.size(), 1u);
+  EXPECT_EQ(hedges.lines.size(), 2u);
+  const Extract wall =
+      extract_of(kNodes + osm_way(11, {1, 2, 3}, kBuilding + high) + osm_way(12, {3, 4, 1}, kBuilding + high) +
+                 osm_relation(20, {"way 11 outer", "way 12 outer"}, kMultipolygon + osm_tag("barrier", "wall")));
+  EXPECT_NE(testing::find_object(wall.areas, way_id(11)), nullptr) << testing::describe(wall);
+}
+
+TEST(OsmMultipolygons, HeightsOfPiecesAreKeptBesideTheirOwn) {
+  const auto read = [&](const std::string& own, const std::string& piece) {
+    const Extract extract = extract_of(kNodes + osm_way(11, {1, 2, 3}, piece) + osm_way(12, {3, 4, 1}) +
+                                       osm_relation(20, {"way 11 outer", "way 12 outer"}, kMultipolygon + own));
+    const Area* const area = testing::find_object(extract.areas, relation_id(20));
+    return area == nullptr ? Area{} : *area;
+  };
+  const std::string high = osm_tag("height", "10"), levels = osm_tag("building:levels", "20");
+  const Area other = read(kBuilding + high, levels);
+  EXPECT_EQ(other.tags.get("building:levels"), "");
+  ASSERT_EQ(other.heights.size(), 1u);
+  const Tags with = with_heights(other.tags, other.heights[0]);
+  EXPECT_EQ(with.get("building:levels"), "20");
+  EXPECT_FALSE(with.has("height"));
+  EXPECT_TRUE(with.has("building"));
+  EXPECT_EQ(read(kBuilding + high, kBuilding + high).heights.size(), 0u);
+  EXPECT_EQ(read(kBuilding, high).tags.get("height"), "10") << "which it does not say itself";
+  const Area fence = read(kBuilding, osm_tag("barrier", "fence") + high);
+  EXPECT_FALSE(fence.tags.has("height"));
+  EXPECT_EQ(fence.heights.size(), 1u) << "which may be of the fence alone";
+}
+
 TEST(OsmMultipolygons, AreMadeOfThoseThatAreTheirMembers) {
   const std::string tags = kMultipolygon + kBuilding;
   const Extract extract = extract_of(kNodes + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5)) +
@@ -291,6 +343,16 @@ TEST(OsmMultipolygons, AreMadeOfThoseThatAreTheirMembers) {
   EXPECT_EQ(nested->polygons.at(0).holes.size(), 1u);
   EXPECT_EQ(testing::find_problem(extract, relation_id(21)), nullptr);
   expect_problem(extract, relation_id(22), Kind::missing_members, false, "1 of 2 ways is not in the file");
+  const Extract deep = extract_of(
+      kNodes + osm_way(11, osm_ring(1)) + osm_way(12, osm_ring(5)) + osm_relation(20, {"way 12 outer"}, kMultipolygon) +
+      osm_relation(21, {"relation 20 outer", "relation 22 outer"}, kMultipolygon) +
+      osm_relation(22, {"way 11 outer", "relation 21 outer"}, tags) +
+      osm_relation(23, {"way 11 outer", "relation 20 part"}, tags) + osm_relation(24, {"relation 20 outline"}, tags));
+  for (const long id : {22, 23}) {
+    expect_problem(deep, relation_id(id), Kind::missing_members, false, "relations in its relations are not read");
+    EXPECT_TRUE(testing::find_object(deep.areas, relation_id(id))->partial) << id;
+  }
+  EXPECT_NE(testing::find_object(deep.areas, relation_id(24)), nullptr);
 }
 
 TEST(OsmMultipolygons, AnInnerMemberOutsideIsBuiltAndTold) {

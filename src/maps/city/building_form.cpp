@@ -123,6 +123,11 @@ class FormReader {
   std::optional<double> first_height() {
     for (const std::string_view key : {"height", "building:height", "est_height"}) {
       const auto roughly = [&](std::string_view value) { return any_length_m(value, defaults_.level_m); };
+      if (roughly(tags_.get(key)).value_or(0) > kHighest) {
+        remark(TagFault::too_large, key, tags_.get(key), core::format("taken as {:.6g} m", kHighest));
+        remarks_.back().unsure = is_rough_ = true;
+        return kHighest;
+      }
       const std::optional<double> height = sized(key, parse_length_m, roughly, kHighest, " m");
       if (height && *height >= kThinnest) return height;
       if (height) remark(TagFault::zero, key, tags_.get(key), "taken as untagged");
@@ -262,7 +267,43 @@ class FormReader {
   BuildingForm form_;
 };
 
+/// The height up to which a form is whole, under any roof and over any outline.
+double eaves_m(const BuildingForm& form) {
+  if (form.roof == RoofShape::flat || (form.pitch && form.pitch->on_top)) return form.top_m;
+  return form.top_m - (form.pitch ? form.pitch->most_share * (form.top_m - form.bottom_m) : form.roof_m);
+}
+
+bool rises_above_top(const BuildingForm& form) {
+  return form.roof != RoofShape::flat && form.pitch && form.pitch->on_top;
+}
+
 }  // namespace
+
+BuildingForm joined(const BuildingForm& a, const BuildingForm& b) {
+  const BuildingForm &high = b.top_m > a.top_m ? b : a, &low = b.top_m > a.top_m ? a : b;
+  BuildingForm result = high;
+  result.bottom_m = std::min(a.bottom_m, b.bottom_m);
+  if (low.deck_m != high.deck_m || low.top_m != high.top_m) result.deck_m = 0;
+  BuildingForm raised = low;
+  raised.top_m = high.top_m;
+  raised.bottom_m = high.bottom_m;
+  raised.deck_m = high.deck_m;
+  raised.is_guessed = high.is_guessed;
+  if (raised == high || (!rises_above_top(low) && low.top_m <= eaves_m(high))) return result;
+  if (rises_above_top(low)) {
+    // A skillion rises most, over all of the width.
+    const bool both = rises_above_top(high);
+    result.roof = both ? RoofShape::skillion : low.roof;
+    result.roof_m = 0;
+    result.roof_direction_deg = low.roof_direction_deg;
+    result.roof_across = low.roof_across || (both && high.roof_across);
+    result.pitch = low.pitch;
+    if (both) result.pitch->angle_deg = std::max(low.pitch->angle_deg, high.pitch->angle_deg);
+    if (both) result.pitch->most_share = std::max(low.pitch->most_share, high.pitch->most_share);
+  }
+  result.is_box = true;
+  return result;
+}
 
 BuildingForm read_form(const osm::Tags& tags, const osm::Tags* outline, const BuildingDefaults& defaults,
                        std::vector<TagRemark>& remarks) {

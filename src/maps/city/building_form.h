@@ -47,12 +47,19 @@ struct BuildingForm {
     double angle_deg = 0;
     bool on_top = false;    ///< the roof comes on top of `top_m`; else `top_m` stays, and the walls give way
     double most_share = 1;  ///< of the height above the bottom that the roof may take
+
+    bool operator==(const Pitch&) const = default;
   };
   std::optional<Pitch> pitch;
   bool is_guessed = false;  ///< no tag says how high it is, or how many levels it has: the default of its kind
   /// > 0: stands on posts. The bottom is this far below the eaves, `bottom_m` only a lower limit (`settled`).
   double deck_m = 0;
+
+  bool operator==(const BuildingForm&) const = default;
 };
+
+/// What holds both: as high as the higher one, and a box where its roof does not hold the other.
+BuildingForm joined(const BuildingForm& a, const BuildingForm& b);
 
 /// What is wrong with a tag.
 enum class TagFault {

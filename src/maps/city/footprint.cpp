@@ -35,12 +35,14 @@ Operands operands(const std::vector<Footprint>& subject, const std::vector<Footp
   return result;
 }
 
-std::vector<Footprint> clipped(const Operands& operands, ClipOperation operation) {
+std::vector<Footprint> clipped(const Operands& operands, ClipOperation operation, std::size_t* slivers = nullptr) {
   Clipping clipping;
   clipping.add(operands.subject);
   clipping.add_clip(operands.other);
   std::vector<GridPolygon> result = settled(clipping.run(operation, FillRule::non_zero));
+  const std::size_t before = result.size();
   drop_slivers(result);
+  if (slivers != nullptr) *slivers += before - result.size();
   return to_footprints(result, operands.grid);
 }
 
@@ -136,10 +138,11 @@ std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::v
   return clipped(both, ClipOperation::subtract);
 }
 
-std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b) {
+std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b,
+                                 std::size_t* slivers) {
   const Operands both = operands(a, b);
   if (both.other.empty()) return {};
-  return clipped(both, ClipOperation::intersect);
+  return clipped(both, ClipOperation::intersect, slivers);
 }
 
 /// A footprint for each side of a line.

@@ -40,9 +40,10 @@ struct Repairs {
 std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repairs);
 
 /// Set operations on the footprints of an object; those of others that lie elsewhere cost nothing. Slivers are left out
-/// as in `clean`.
+/// as in `clean`; `slivers` gets how many more there were.
 std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::vector<Footprint>& what);
-std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b);
+std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b,
+                                 std::size_t* slivers = nullptr);
 
 /// A wall of this width along a line: joints mitred (very sharp ones cut off), ends cut straight. `closed`: a ring.
 /// Empty for a line without a length. Where the line crosses itself or runs close to itself, what is shut in is a hole;

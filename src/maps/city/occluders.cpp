@@ -47,6 +47,10 @@ std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list
   return std::nullopt;
 }
 
+std::optional<double> tagged_height(const osm::Tags& tags, double most, std::vector<TagRemark>& remarks) {
+  return tagged_length(tags, {"height", "est_height", "building:height"}, most, remarks);
+}
+
 /// `min_height`, of several the lowest, so that nothing hides less than it may.
 std::optional<double> tagged_bottom(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
   const std::string_view value = tags.get("min_height");
@@ -106,7 +110,7 @@ OccluderDefaults::Size wall_size(const osm::Tags& tags, const OccluderDefaults& 
                                 : tags.get("historic") == "citywalls" ? "city_wall"
                                                                       : barrier;
   OccluderDefaults::Size size = size_of(defaults.walls, {tags.get("wall"), kind, "wall"});
-  size.height_m = tagged_length(tags, {"height", "est_height"}, kMostHeight, remarks).value_or(size.height_m);
+  size.height_m = tagged_height(tags, kMostHeight, remarks).value_or(size.height_m);
   size.width_m = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks).value_or(size.width_m);
   return size;
 }
@@ -148,15 +152,7 @@ BuildingForm tower_form(const osm::Tags& tags, const OccluderDefaults& defaults,
   BuildingDefaults building;
   building.levels = tower_size(tags, defaults).height_m / building.level_m;
   building.levels_of.clear();
-  BuildingForm form = read_form(tags, nullptr, building, remarks);
-  static constexpr std::array<std::string_view, 3> heights = {"height", "building:height", "est_height"};
-  for (TagRemark& remark : remarks) {
-    if (remark.fault != TagFault::too_large || std::find(heights.begin(), heights.end(), remark.key) == heights.end())
-      continue;
-    form.top_m = kMostHeight;
-    remark.outcome = core::format("taken as {:.6g} m", kMostHeight);
-  }
-  return form;
+  return read_form(tags, nullptr, building, remarks);
 }
 
 /// A regular prism's outline, its corners on the circle.
@@ -194,12 +190,12 @@ BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, 
     form.bottom_m = std::min(highest, parse_lowest_length_m(clear).value_or(0));
   }
   form.top_m = highest + defaults.deck_m;
-  const auto height = tagged_length(tags, {"height", "est_height"}, kMostHeight, remarks);
+  const auto height = tagged_height(tags, kMostHeight, remarks);
   if (height && (*height > form.top_m || *height - defaults.deck_m < form.bottom_m)) {
     form.top_m = std::max(form.top_m, *height);
     form.bottom_m = std::min(form.bottom_m, *height - defaults.deck_m);
-    remarks.push_back({TagFault::rough, "height", std::string(tags.get(tags.has("height") ? "height" : "est_height")),
-                       "held from the deck up to it", true});
+    const char* const key = tags.has("height") ? "height" : tags.has("est_height") ? "est_height" : "building:height";
+    remarks.push_back({TagFault::rough, "height", std::string(tags.get(key)), "held from the deck up to it", true});
   }
   form.bottom_m = std::max(form.bottom_m, 0.0);
   return form;
@@ -223,7 +219,7 @@ double deck_width(const osm::Tags& tags, const OccluderDefaults& defaults, std::
 
 Tree tree_of(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   Tree tree;
-  const double height = tagged_length(tags, {"height", "est_height"}, kMostTree, remarks).value_or(defaults.tree_m);
+  const double height = tagged_height(tags, kMostTree, remarks).value_or(defaults.tree_m);
   const BuildingForm form = upright(tags, height, remarks);
   tree.bottom_m = form.bottom_m;
   tree.top_m = form.top_m;
@@ -245,7 +241,7 @@ constexpr double kThinLine = 1;   // metres: width of a line that says none
 constexpr double kMostPipe = 20;  // metres: diameter=* beyond that is in millimetres
 
 BuildingForm stand_in_form(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
-  double height = tagged_length(tags, {"height", "est_height", "building:height"}, kMostHeight, remarks).value_or(0);
+  double height = tagged_height(tags, kMostHeight, remarks).value_or(0);
   // A hub says how high the axis is; the rotor goes on above it.
   const auto hub = tagged_length(tags, {"height:hub"}, kMostHeight, remarks);
   const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostRotor, remarks);

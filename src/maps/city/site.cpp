@@ -172,6 +172,7 @@ class BuildingSorter {
                  const std::vector<osm::Problem>& problems)
       : site_(site), structures_(std::move(structures)), defaults_(defaults) {
     for (const osm::Problem& problem : problems) at_fault_.insert(problem.object);
+    for (const Structure& structure : structures_) forms_.push_back(read(structure));
   }
 
   void sort(const osm::RegionFilter& region, const geo::LocalFrame& frame) {
@@ -234,13 +235,15 @@ class BuildingSorter {
   }
 
   /// Whether a part takes the place of what it lies in. One that is guessed from a faulty outline may be too large, one
-  /// below the ground and a roof on posts are no walls, and one whose height is a guess may be too low.
+  /// below the ground and a roof on posts are no walls, and one whose height is a guess, or that belongs to another
+  /// building, may be too low.
   bool covers(const Structure& part, const Structure& building) const {
     if (part.repairs.any() || at_fault_.contains(part.source->id)) return false;
     if (parse_levels(part.source->tags.get("layer")).value_or(0) < 0) return false;
-    const BuildingForm form = form_of(part), replaced = form_of(building);
+    const BuildingForm &form = form_of(part), &replaced = form_of(building);
     if (form.deck_m > 0 && replaced.deck_m == 0) return false;
-    return !form.is_guessed || form.top_m >= replaced.top_m;
+    const bool is_of_it = part.outline && &structures_[*part.outline] == &building;
+    return (is_of_it && !form.is_guessed) || form.top_m >= replaced.top_m;
   }
 
   /// What parts leave open.
@@ -265,17 +268,25 @@ class BuildingSorter {
     add(building, std::move(record), std::move(rest));
   }
 
-  BuildingForm form_of(const Structure& structure, std::vector<TagRemark>* remarks = nullptr) const {
+  const BuildingForm& form_of(const Structure& structure) const { return forms_[&structure - structures_.data()]; }
+
+  BuildingForm read(const Structure& structure, std::vector<TagRemark>* remarks = nullptr) const {
+    const osm::Area& area = *structure.source;
     const osm::Tags* const outline = structure.outline ? &structures_[*structure.outline].source->tags : nullptr;
     std::vector<TagRemark> unheard;
-    return read_form(structure.source->tags, outline, defaults_, remarks ? *remarks : unheard);
+    std::vector<TagRemark>& heard = remarks ? *remarks : unheard;
+    BuildingForm form = read_form(area.tags, outline, defaults_, heard);
+    for (const osm::Tags& heights : area.heights) {
+      form = joined(form, read_form(osm::with_heights(area.tags, heights), outline, defaults_, heard));
+    }
+    return form;
   }
 
   void add(const Structure& structure, CityRecord record, std::vector<Footprint> footprints) {
     const Structure* const outline = structure.outline ? &structures_[*structure.outline] : nullptr;
     std::vector<TagRemark> remarks;
     Item item;
-    const BuildingForm form = form_of(structure, &remarks);
+    const BuildingForm form = read(structure, &remarks);
     note_remarks(record, remarks);
     item.entry = entry_of(record, structure.source->tags, ObjectKind::building);
     add_faults(item.faults, structure.repairs);
@@ -289,6 +300,7 @@ class BuildingSorter {
 
   Site& site_;
   std::vector<Structure> structures_;
+  std::vector<BuildingForm> forms_;  // of the structures
   const BuildingDefaults& defaults_;
   std::set<osm::ObjectId> at_fault_;  ///< not read as they are drawn
 };
@@ -413,6 +425,13 @@ class OccluderSorter {
     const std::size_t before = site_.items.size();
     add(area.id, area.tags, kind, area, drawn, repairs, [&](auto& remarks) {
       std::vector<Shape> shapes = shapes_of_area(area.tags, footprints, defaults_, remarks);
+      for (const osm::Tags& heights : area.heights) {
+        const osm::Tags tags = osm::with_heights(area.tags, heights);
+        const std::vector<Shape> higher = shapes_of_area(tags, std::vector<Footprint>(1), defaults_, remarks);
+        for (Shape& shape : shapes) {
+          if (!higher.empty()) shape.form = joined(shape.form, higher.front().form);
+        }
+      }
       if (!is_wide) return shapes;
       const std::vector<Shape> wide = shapes_of_line(area.tags, line, piece_m_, defaults_, remarks);
       shapes.insert(shapes.end(), wide.begin(), wide.end());
@@ -502,8 +521,7 @@ void pass_over_groups(Site& site, const osm::Extract& extract, const geo::LocalF
   for (const osm::BuildingRelation& relation : extract.building_relations) {
     const std::optional<ObjectKind> kind = kind_of(relation.tags, Geometry::area);
     const auto problem = problems.find(relation.id);
-    const bool is_building = kind == ObjectKind::building || kind == ObjectKind::building_part;
-    if (!is_building && problem == problems.end()) continue;
+    if (!kind && problem == problems.end()) continue;
     const auto has_member_in = [&](const std::set<std::string>& objects) {
       const auto is_in = [&](osm::ObjectId id) { return objects.contains(osm::text(id)); };
       return std::any_of(relation.outlines.begin(), relation.outlines.end(), is_in) ||

@@ -27,7 +27,7 @@ struct Item {
   std::vector<Shape> shapes;  ///< each becomes a closed piece
   enum class Stand {
     together,  ///< on the lowest ground under `standing`; what stands in goes on to above the highest
-    each,      ///< each shape on the lowest ground under it: walls and trees follow the ground
+    each,      ///< each shape on the ground under it: trees, and walls, which go on to above the highest of it
     above      ///< on the highest ground under `standing`: bridges
   } stand = Stand::together;
   std::vector<Footprint> standing;  ///< of a part its building's outline; empty: the shapes' footprints

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kGrain = 64;
 constexpr double kLeastRise = 10;     // metres of ground under a stand-in that it is not cut for
 constexpr double kLeastPiece = 30;    // metres across: no smaller stand-in is cut,
+constexpr double kLeastWall = 15;     // no smaller wall,
 constexpr double kMostPieces = 50;    // nor one that is so often smaller than the whole
 constexpr double kCutOverlap = 0.05;  // metres: what is too narrow to be a piece of its own is in the next one
 
@@ -60,35 +61,46 @@ void cut(const Footprint& footprint, const Ground& ground, double rise_m, double
     pieces.push_back(footprint);
     return;
   }
-  const double middle = (bounds.min[axis] + bounds.max[axis]) / 2;
-  PlanBounds lower = bounds, upper = bounds;
-  lower.max[axis] = middle + kCutOverlap;
-  upper.min[axis] = middle - kCutOverlap;
-  for (const auto& [min, max] : {lower, upper}) {
-    const Footprint half{{min, {max.x(), min.y()}, max, {min.x(), max.y()}}, {}};
-    for (const Footprint& part : intersect({footprint}, {half})) cut(part, ground, rise_m, least_m, pieces);
+  // Not where a needle would be cut off that is too narrow to be a piece of its own.
+  for (const double share : {0.5, 0.45, 0.55, 0.4, 0.6}) {
+    const double middle = bounds.min[axis] + share * across;
+    PlanBounds lower = bounds, upper = bounds;
+    lower.max[axis] = middle + kCutOverlap;
+    upper.min[axis] = middle - kCutOverlap;
+    std::vector<Footprint> parts;
+    std::size_t slivers = 0;
+    for (const auto& [min, max] : {lower, upper}) {
+      const Footprint half{{min, {max.x(), min.y()}, max, {min.x(), max.y()}}, {}};
+      const std::vector<Footprint> own = intersect({footprint}, {half}, &slivers);
+      parts.insert(parts.end(), own.begin(), own.end());
+    }
+    if (slivers > 0) continue;
+    for (const Footprint& part : parts) cut(part, ground, rise_m, least_m, pieces);
+    return;
   }
+  pieces.push_back(footprint);
 }
 
-/// What stands in hides all that may stand on any ground under it: from the lowest, or from `lowest` where that is
-/// lower, to its height above the highest.
-std::vector<Standing> standing_in(const Shape& shape, const Ground& ground, double lowest) {
+/// What stands in, or a wall, hides all that may stand on any ground under it: from the lowest, or from `lowest` where
+/// that is lower, to its height above the highest.
+std::vector<Standing> raised(const Shape& shape, const Ground& ground, double lowest, bool is_wall) {
   std::vector<Footprint> pieces;
   PlanBounds bounds;
   bounds.extend(shape.footprint);
-  const double least = std::max(kLeastPiece, (bounds.max - bounds.min).maxCoeff() / kMostPieces);
+  const double least = std::max(is_wall ? kLeastWall : kLeastPiece, (bounds.max - bounds.min).maxCoeff() / kMostPieces);
   const bool is_flat = shape.form.roof == RoofShape::flat;
-  const double rise = is_flat ? std::max(kLeastRise, shape.form.top_m) : std::numeric_limits<double>::infinity();
+  const double rise =
+      is_flat ? std::max(is_wall ? 0 : kLeastRise, shape.form.top_m) : std::numeric_limits<double>::infinity();
   cut(shape.footprint, ground, rise, least, pieces);
   std::vector<Standing> all;
   for (Footprint& piece : pieces) {
     const auto range = ground.range({piece});
     Standing& one = all.emplace_back(Standing{shape, std::min(range.lowest, lowest)});
-    const double raised = range.highest - one.ground_m;
+    const double rises = range.highest - one.ground_m;
     one.shape.footprint = std::move(piece);
-    one.shape.form.top_m += raised;
-    one.shape.form.is_box |= !is_flat && raised > 0;
-    if (shape.form.deck_m > 0) one.shape.form.deck_m += raised;
+    one.shape.form.top_m += rises;
+    one.shape.form.is_box |= !is_flat && rises > 0;
+    if (shape.form.deck_m > 0) one.shape.form.deck_m += rises;
   }
   return all;
 }
@@ -104,19 +116,20 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   item.record.ground_m = ground_under(item, item.shapes.front(), ground, together);
   item.record.footprint_m2 = area_m2(footprints);
   std::vector<Standing> all;
+  const bool is_wall = item.record.object.kind == ObjectKind::wall;
   for (const Shape& shape : item.shapes) {
-    if (item.record.object.kind != ObjectKind::stand_in) {
+    if (!is_wall && item.record.object.kind != ObjectKind::stand_in) {
       all.push_back({shape, ground_under(item, shape, ground, together)});
       continue;
     }
     const double lowest = item.standing.empty() ? std::numeric_limits<double>::infinity() : together;
-    const std::vector<Standing> pieces = standing_in(shape, ground, lowest);
+    const std::vector<Standing> pieces = raised(shape, ground, lowest, is_wall);
     all.insert(all.end(), pieces.begin(), pieces.end());
   }
   std::vector<Mesh> pieces;
   bool is_raised = false;
   for (const Standing& one : all) {
-    is_raised |= one.shape.form.top_m > item.shapes.front().form.top_m;
+    is_raised |= !is_wall && one.shape.form.top_m > item.shapes.front().form.top_m;
     CitySolid solid = make_solid(one.shape, one.ground_m);
     const bool is_told = !item.faults.empty() && item.faults.back().reason == solid.repair;  // of the piece before
     if (!solid.repair.empty() && !is_told) item.faults.push_back({solid.repair, "a flat roof as high as its top"});

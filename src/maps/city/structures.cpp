@@ -115,15 +115,25 @@ void assign_by_relations(std::vector<Structure>& structures, const std::vector<o
     return entry == index.end() ? std::nullopt : std::optional(entry->second);
   };
   for (const osm::BuildingRelation& relation : relations) {
-    std::optional<std::size_t> outline;
+    std::vector<std::size_t> outlines;
     for (const osm::ObjectId id : relation.outlines) {
       const auto candidate = find(id);
-      if (candidate && !structures[*candidate].is_part) outline = candidate;
+      if (candidate && !structures[*candidate].is_part) outlines.push_back(*candidate);
     }
-    if (!outline) continue;
+    if (outlines.empty()) continue;
     for (const osm::ObjectId id : relation.parts) {
       const auto part = find(id);
-      if (part && structures[*part].is_part && !structures[*part].outline) join(structures, *part, *outline);
+      if (!part || !structures[*part].is_part || structures[*part].outline) continue;
+      std::size_t outline = outlines.back();
+      double most = 0;
+      for (const std::size_t one : outlines) {
+        if (outlines.size() == 1 || !boxes_touch(structures[*part], structures[one])) continue;
+        const double common = area_m2(intersect(structures[*part].footprints, structures[one].footprints));
+        if (common <= most) continue;
+        most = common;
+        outline = one;
+      }
+      join(structures, *part, outline);
     }
   }
 }
@@ -195,13 +205,14 @@ void assign_parts(std::vector<Structure>& structures, const std::vector<osm::Bui
 
 std::vector<Footprint> uncovered(const Structure& building, const std::vector<Structure>& structures,
                                  const std::vector<std::size_t>& parts) {
-  constexpr double kLeast = 1.0;  // m2: less than that, all together, comes of how the parts were drawn
+  constexpr double kLeast = 1.0;       // m2: less than that, all together, comes of how the parts were drawn,
+  constexpr double kLeastShare = 0.1;  // unless it is so much of the building
   std::vector<Footprint> covered;
   for (const std::size_t part : parts) {
     covered.insert(covered.end(), structures[part].footprints.begin(), structures[part].footprints.end());
   }
   std::vector<Footprint> rest = subtract(building.footprints, covered);
-  return area_m2(rest) < kLeast ? std::vector<Footprint>() : rest;
+  return area_m2(rest) < std::min(kLeast, kLeastShare * building.area_m2) ? std::vector<Footprint>() : rest;
 }
 
 }  // namespace vantage::internal::city

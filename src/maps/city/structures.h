@@ -32,13 +32,14 @@ std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const 
 /// are tangled (Repairs::enclosed). Empty only where it is beyond all bounds.
 std::vector<Footprint> footprints_of(const osm::Area& area, const geo::LocalFrame& frame, Repairs& repairs);
 
-/// Fills `outline` and `parts`. A part replaces every building that holds at least half of it, and the one that a
+/// Fills `outline` and `parts`. A part may replace every building that holds at least half of it, and the one that a
 /// type=building relation names for it: outlines lie on one another where a block, a station or a mall is drawn as well
-/// as the buildings in it. Its own outline is the one of the relation, or else the smallest.
+/// as the buildings in it. Its own outline is the one of the relation (of several the one that holds most of it), or
+/// else the smallest.
 void assign_parts(std::vector<Structure>& structures, const std::vector<osm::BuildingRelation>& relations);
 
-/// What of a building none of these structures covers, seen from above. Less than 1 m2 in all comes of careless drawing
-/// and is left out.
+/// What of a building none of these structures covers, seen from above. Less than 1 m2 in all, and than a tenth of the
+/// building, comes of careless drawing and is left out.
 std::vector<Footprint> uncovered(const Structure& building, const std::vector<Structure>& structures,
                                  const std::vector<std::size_t>& parts);
 

@@ -74,11 +74,13 @@ constexpr double kFoot = 0.3048, kInch = 0.0254;
 
 /// Metres in a unit.
 std::optional<double> unit_m(std::string_view unit) {
-  static constexpr std::array<std::pair<std::string_view, double>, 24> units = {
-      {{"", 1},           {"m", 1},         {"m.", 1},          {"meter", 1},        {"meters", 1},   {"metre", 1},
-       {"metres", 1},     {"mi", 1609.344}, {"mile", 1609.344}, {"miles", 1609.344}, {"yd", 0.9144},  {"yard", 0.9144},
-       {"yards", 0.9144}, {"mm", 0.001},    {"cm", 0.01},       {"km", 1000},        {"ft", kFoot},   {"ft.", kFoot},
-       {"feet", kFoot},   {"foot", kFoot},  {"'", kFoot},       {"in", kInch},       {"inch", kInch}, {"\"", kInch}}};
+  static constexpr std::array<std::pair<std::string_view, double>, 29> units = {
+      {{"", 1},        {"m", 1},         {"m.", 1},         {"meter", 1},       {"meters", 1},
+       {"metre", 1},   {"metres", 1},    {"mi", 1609.344},  {"mile", 1609.344}, {"miles", 1609.344},
+       {"yd", 0.9144}, {"yard", 0.9144}, {"yards", 0.9144}, {"mm", 0.001},      {"cm", 0.01},
+       {"km", 1000},   {"ft", kFoot},    {"ft.", kFoot},    {"feet", kFoot},    {"foot", kFoot},
+       {"'", kFoot},   {"in", kInch},    {"inch", kInch},   {"\"", kInch},      {"dam", 10},
+       {"hm", 100},    {"nm", 1852},     {"nmi", 1852},     {"nautical", 1852}}};
   const auto found = std::find_if(units.begin(), units.end(), [&](const auto& known) { return known.first == unit; });
   if (found == units.end()) return std::nullopt;
   return found->second;
@@ -174,6 +176,7 @@ struct Term {
   double number = 0;
   std::string_view unit;
   bool is_last = false;  ///< nothing follows the word
+  char sign = ' ';       ///< that joins it to the next one: '/', '*' (also a cross)
 };
 
 /// The numbers of a text, exponents too: also "10-storey", "10 (storeys)". What may be thousands ("1,250", "1'000",
@@ -231,14 +234,16 @@ std::vector<Term> terms_of(const std::string& text) {
     if (unit == end || !(is_letter(*unit) || is_mark(*unit))) unit = next;
     at = std::find_if_not(unit, end, [&](char c) { return is_letter(c) || is_mark(c); });
     const std::string_view word(unit, static_cast<std::size_t>(at - unit));
-    const bool is_last = std::find_if_not(at, end, is_space) == end;
+    const char* const follows = std::find_if_not(at, end, is_space);
+    const bool is_last = follows == end, is_times = word == "x" || word == "\u00d7" || (!is_last && *follows == '*');
+    const char sign = is_times ? '*' : !is_last && *follows == '/' ? '/' : ' ';
     // A point is one of thousands where it would be absurd else: "1.250 ft".
     const bool is_odd = count == 2 && between[0] == '.' && unit_m(word).value_or(1) >= 1;
     for (const std::string& reading : readings) {
       double value = 0;
       if (is_odd && &reading != &readings.back()) continue;
       const auto parsed = std::from_chars(reading.data(), reading.data() + reading.size(), value);
-      if (parsed.ec == std::errc()) terms.push_back({value, word, is_last});
+      if (parsed.ec == std::errc()) terms.push_back({value, word, is_last, sign});
     }
   }
   return terms;
@@ -277,7 +282,7 @@ std::optional<double> largest_up_to(double most, const std::vector<double>& valu
 }
 
 bool counts_levels(std::string_view unit) {
-  static constexpr std::array<std::string_view, 23> words = {"stor",
+  static constexpr std::array<std::string_view, 35> words = {"stor",
                                                              "level",
                                                              "lvl",
                                                              "floor",
@@ -299,7 +304,19 @@ bool counts_levels(std::string_view unit) {
                                                              "\u5c42",
                                                              "\u5c64",
                                                              "\u968e",
-                                                             "\uce35"};
+                                                             "\uce35",
+                                                             "andar",
+                                                             "etasj",
+                                                             "etaj",
+                                                             "eta\u017e",
+                                                             "emelet",
+                                                             "kat",
+                                                             "v\u00e5n",
+                                                             "v\u00c5n",
+                                                             "patro",
+                                                             "poschod",
+                                                             "sprat",
+                                                             "lantai"};
   return unit == "f" ||
          std::any_of(words.begin(), words.end(), [&](std::string_view w) { return unit.starts_with(w); });
 }
@@ -324,14 +341,20 @@ std::optional<double> any_length_m(std::string_view text, double level_m) {
   const double floors = floors_in_words(plain);
   bool has_feet = false, has_inches = false;
   std::vector<double> lengths;
-  for (const auto& [number, unit, is_last] : terms_of(plain)) {
+  const Term* before = nullptr;  // what joins itself to it: "2x15", "1/50 mi"
+  const std::vector<Term> terms = terms_of(plain);
+  for (const Term& term : terms) {
+    const std::string_view unit = term.unit;
     const bool is_kilometres = unit.starts_with("km") || unit.starts_with("kilo");
-    const bool is_word = unit == "in" && !is_last;  // "12 in height"
+    const bool is_word = unit == "in" && !term.is_last;  // "12 in height"
     has_feet |= unit == "'" || unit.starts_with("f");
     has_inches |= unit == "\"" || unit.starts_with("in");
-    lengths.push_back(floors > 0 || counts_levels(unit) ? number * level_m
-                      : is_kilometres                   ? 1000 * number
-                                                        : number * (is_word ? 1 : unit_m(unit).value_or(1)));
+    const double unit_length = is_kilometres ? 1000 : is_word ? 1 : unit_m(unit).value_or(1);
+    const double metres = floors > 0 || counts_levels(unit) ? level_m : unit_length;
+    lengths.push_back(term.number * metres);
+    if (before)
+      lengths.push_back(metres * (before->sign == '*' ? before->number * term.number : before->number / term.number));
+    before = term.sign == ' ' ? nullptr : &term;
   }
   const auto says = [&](std::string_view word) { return plain.find(word) != std::string::npos; };
   const bool adds = says("+") || says("\u00b1") || says("plus") || (has_feet && has_inches);

@@ -75,14 +75,26 @@ class ExtractBuilder {
                      [](const Problem& a, const Problem& b) { return a.object < b.object; });
   }
 
-  /// A building relation may say how high its outline is.
+  /// A building relation may say how high its outline is, or without one how high those of its parts are that do not.
   void raise_outlines() {
     for (const BuildingRelation& relation : extract_.building_relations) {
-      for (const ObjectId id : relation.outlines) {
+      bool has_outline = false;
+      const auto raise = [&](ObjectId id, bool is_part) {
         const auto area = std::lower_bound(extract_.areas.begin(), extract_.areas.end(), id,
                                            [](const Area& one, ObjectId wanted) { return one.id < wanted; });
-        if (area != extract_.areas.end() && area->id == id) add_heights(area->tags, relation.tags);
-      }
+        if (area == extract_.areas.end() || area->id != id || (is_part && says_height(area->tags))) return;
+        add_heights(*area, relation.tags, true);
+        has_outline = has_outline || id != relation.id;
+      };
+      for (const ObjectId id : relation.outlines) raise(id, false);
+      if (has_outline) continue;
+      for (const ObjectId id : relation.parts) raise(id, true);
+    }
+    for (Area& area : extract_.areas) {  // a relation may have 100,000 pieces
+      std::vector<Tags>& said = area.heights;
+      std::sort(said.begin(), said.end(), [](const Tags& a, const Tags& b) { return a.all < b.all; });
+      said.erase(std::unique(said.begin(), said.end(), [](const Tags& a, const Tags& b) { return a.all == b.all; }),
+                 said.end());
     }
   }
 

@@ -49,12 +49,14 @@ struct Polygon {
 };
 
 /// A closed way or a multipolygon relation, assembled. The tags of a multipolygon are the relation's without its type,
-/// or of an old-style one those that all its outer ways have in common; heights of pieces of its rings are added.
+/// or of an old-style one those that all its outer ways have in common.
 struct Area {
   ObjectId id;
   Tags tags;
   std::vector<Polygon> polygons;
   bool partial = false;  ///< members are not in the file: there may be more of it
+  /// What pieces of its rings and its building relation say of its height besides: the highest counts (with_heights).
+  std::vector<Tags> heights = {};
 };
 
 struct Line {

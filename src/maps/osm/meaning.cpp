@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace vantage::internal::osm {
 namespace {
@@ -44,6 +45,12 @@ bool is_areal(std::string_view key, std::string_view value) {
 // Those that libosmium leaves out of account in old-style multipolygons; the last two are of its own test data.
 constexpr std::array<std::string_view, 6> kSilentKeys = {"type", "created_by", "source",
                                                          "note", "test:id",    "test:section"};
+
+constexpr std::array<std::string_view, 5> kHeightKeys = {"height", "building:height", "est_height", "building:levels",
+                                                         "building:part:levels"};
+constexpr std::array<std::string_view, 7> kRoofKeys = {
+    "roof:height",          "roof:levels",          "roof:angle",         "roof:shape",
+    "building:roof:height", "building:roof:levels", "building:roof:shape"};
 
 bool is_silent(const Tag& tag) { return contains(kSilentKeys, tag.first); }
 
@@ -108,20 +115,36 @@ Tags common_tags(const std::vector<Tags>& all) {
   return common;
 }
 
-void add_heights(Tags& tags, const Tags& other) {
-  static constexpr std::array<std::string_view, 5> keys = {"height", "building:height", "est_height", "building:levels",
-                                                           "building:part:levels"};
-  constexpr std::size_t kShort = 1000;  // characters that are searched: a relation may have 100,000 pieces
-  for (const Tag& said : other.all) {
-    if (!contains(keys, said.first)) continue;
-    const auto own =
-        std::find_if(tags.all.begin(), tags.all.end(), [&said](const Tag& tag) { return tag.first == said.first; });
-    if (own == tags.all.end()) {
-      tags.all.push_back(said);
-    } else if (own->second.size() > kShort ||
-               (";" + own->second + ";").find(";" + said.second + ";") == std::string::npos) {
-      own->second += ";" + said.second;
-    }
+bool says_height(const Tags& tags) {
+  return std::any_of(tags.all.begin(), tags.all.end(), [](const Tag& tag) { return contains(kHeightKeys, tag.first); });
+}
+
+bool is_of_another(const Tags& piece, const Tags& area) {
+  if (means_building(piece) && means_building(area)) return false;
+  return (means_area(piece) || is_linear(piece)) &&
+         std::none_of(piece.all.begin(), piece.all.end(),
+                      [&area](const Tag& tag) { return !is_silent(tag) && has_tag(area, tag); });
+}
+
+Tags with_heights(const Tags& tags, const Tags& heights) {
+  Tags all = heights;
+  const bool is_said = says_height(heights);
+  for (const Tag& tag : tags.all) {
+    if (!heights.has(tag.first) && !(is_said && contains(kHeightKeys, tag.first))) all.all.push_back(tag);
+  }
+  return all;
+}
+
+void add_heights(Area& area, const Tags& others, bool of_it) {
+  Tags heights;
+  std::copy_if(others.all.begin(), others.all.end(), std::back_inserter(heights.all),
+               [](const Tag& tag) { return contains(kHeightKeys, tag.first) || contains(kRoofKeys, tag.first); });
+  const auto is_known = [&area](const Tag& tag) { return has_tag(area.tags, tag); };
+  if (std::all_of(heights.all.begin(), heights.all.end(), is_known)) return;
+  if (of_it && !says_height(area.tags) && says_height(heights)) {
+    area.tags = with_heights(area.tags, heights);
+  } else {
+    area.heights.push_back(std::move(heights));
   }
 }
 

@@ -30,7 +30,16 @@ bool says_the_same(const Tags& a, const Tags& b);
 /// The tags that all of them have. Of none: none.
 Tags common_tags(const std::vector<Tags>& all);
 
-/// What `other` says of a height besides, as one more value of a list ("9;12"), of which the largest counts.
-void add_heights(Tags& tags, const Tags& other);
+/// How high it is, or how many levels it has.
+bool says_height(const Tags& tags);
+
+/// What a piece of a ring of `area` says is of something else: a fence, a park.
+bool is_of_another(const Tags& piece, const Tags& area);
+
+/// These tags with the heights and the roof of others in place of their own.
+Tags with_heights(const Tags& tags, const Tags& heights);
+
+/// What others say of an area's height besides. What is `of_it` counts as its own where it says none itself.
+void add_heights(Area& area, const Tags& others, bool of_it);
 
 }  // namespace vantage::internal::osm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -24,6 +25,8 @@ void add_sideless(std::vector<Polygon>& polygons, const std::vector<MemberWay>& 
     if (line.size() == 1 || is_back) polygons.push_back({std::move(line), {}, true});
   }
 }
+
+bool bounds_hole(const MemberWay& member) { return member.inner && !member.outer && !member.stray; }
 
 }  // namespace
 
@@ -65,18 +68,28 @@ std::optional<Multipolygons::Absorbed> Multipolygons::absorbed(std::int64_t way)
 Multipolygons::Members Multipolygons::members_of(const osmium::Relation& relation) const {
   Members members;
   for (const osmium::RelationMember& member : relation.members()) {
-    const std::string_view role = member.role();
     if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
-    if (member.type() != osmium::item_type::relation || (!role.empty() && role != "outer" && role != "inner")) continue;
-    if (member.ref() == relation.id()) continue;
-    const osmium::Relation* const nested = objects_.find_relation(member.ref());
-    if (nested == nullptr) ++members.ways;
-    if (nested == nullptr) continue;
-    for (const osmium::RelationMember& of_nested : nested->members()) {
-      if (of_nested.type() == osmium::item_type::way) add_member(members, of_nested.ref(), of_nested.role());
-    }
+    if (member.type() == osmium::item_type::relation) add_nested(members, member, relation.id());
   }
   return members;
+}
+
+void Multipolygons::add_nested(Members& members, const osmium::RelationMember& nested, std::int64_t within) const {
+  if (nested.ref() == within) return;
+  const osmium::Relation* const relation = objects_.find_relation(nested.ref());
+  const std::string_view role = nested.role();
+  const bool is_read = role.empty() || role == "outer" || role == "inner" || role == "outline";
+  if (relation == nullptr || !is_read) {
+    ++members.ways;
+    members.unread += relation == nullptr ? 0 : 1;
+    return;
+  }
+  for (const osmium::RelationMember& member : relation->members()) {
+    if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
+    if (member.type() != osmium::item_type::relation || member.ref() == within) continue;
+    ++members.ways;
+    ++members.unread;
+  }
 }
 
 void Multipolygons::add_member(Members& members, std::int64_t way, const char* role) const {
@@ -121,8 +134,9 @@ void Multipolygons::add_pieces(const osmium::Relation& relation) {
 
 void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem) {
   const bool old_style = says_nothing(tags);
-  problem.add_share(Kind::missing_members, members.ways - members.there.size(), members.ways, "ways",
+  problem.add_share(Kind::missing_members, members.ways - members.there.size() - members.unread, members.ways, "ways",
                     "not in the file");
+  if (members.unread > 0) problem.add(Kind::missing_members, "relations in its relations are not read");
   problem.add_share(Kind::missing_nodes, members.missing_nodes, members.nodes, "nodes", "not in the file");
   problem.add_share(Kind::missing_nodes, members.off_earth, members.nodes, "nodes", "nowhere on the earth");
   if (relation.tags().get_value_by_key("type") == nullptr) {
@@ -163,13 +177,16 @@ void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Memb
       if (!wanted_(tags)) return;  // its ways mean different things: each on its own
     }
   }
+  Area area{id_of(relation), std::move(tags), std::move(assembly.polygons), members.there.size() < members.ways};
   for (const MemberWay& member : members.there) {
-    if (member.outer && !objects_.find_way(member.way->id())->closed) add_heights(tags, to_tags(member.way->tags()));
+    if (!member.outer || objects_.find_way(member.way->id())->closed) continue;
+    const Tags piece = to_tags(member.way->tags());
+    add_heights(area, piece, !is_of_another(piece, area.tags));
   }
-  absorb(relation, tags, old_style, members.there);
-  if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), tags, false));
-  const bool partial = members.there.size() < members.ways;
-  extract_.areas.push_back({id_of(relation), std::move(tags), std::move(assembly.polygons), partial});
+  absorb(relation, area.tags, old_style, members.there);
+  add_rings_of_others(relation, area.tags, members.there);
+  if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), area.tags, false));
+  extract_.areas.push_back(std::move(area));
 }
 
 void Multipolygons::absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,
@@ -178,11 +195,59 @@ void Multipolygons::absorb(const osmium::Relation& relation, const Tags& area_ta
     const KeptWay* const kept = objects_.find_way(member.way->id());
     if (!kept->wanted || (!member.outer && !member.inner)) continue;
     const Tags tags = to_tags(member.way->tags());
-    const bool hole = member.inner && !member.outer && !member.stray;
+    const bool hole = bounds_hole(member);
     if (kept->closed && hole && means_building(tags)) continue;  // a house in the courtyard
     // A piece of a ring bounds nothing by itself. A hole that is tagged like what it is a hole in is a hole.
-    const bool absorbed = !kept->closed || (hole ? says_the_same(tags, area_tags) : repeats(tags, area_tags));
+    const bool absorbed = hole ? says_the_same(tags, area_tags) : !kept->closed || repeats(tags, area_tags);
     if (absorbed) absorbed_[member.way->id()] = {id_of(relation), !old_style || hole, hole};
+  }
+}
+
+void Multipolygons::add_rings_of_others(const osmium::Relation& relation, const Tags& area_tags,
+                                        const std::vector<MemberWay>& members) {
+  std::vector<MemberWay> pieces;
+  std::vector<std::size_t> next;  // of each piece one before it that it meets, or itself
+  const auto first_of = [&next](std::size_t piece) {
+    while (next[piece] != piece) piece = next[piece] = next[next[piece]];
+    return piece;
+  };
+  std::map<std::pair<bool, osmium::Location>, std::size_t> at;
+  for (const MemberWay& member : members) {
+    const KeptWay& kept = *objects_.find_way(member.way->id());
+    const bool is_piece = !kept.closed && kept.missing + kept.off_earth == 0 && !member.way->nodes().empty();
+    const bool hole = bounds_hole(member);
+    if (!is_piece || (!hole && !member.outer)) continue;
+    const std::size_t piece = pieces.size();
+    pieces.push_back(member);
+    next.push_back(piece);
+    for (const osmium::NodeRef& end : {member.way->nodes().front(), member.way->nodes().back()}) {
+      const std::size_t other = first_of(at.emplace(std::pair(hole, end.location()), piece).first->second);
+      const std::size_t own = first_of(piece);
+      next[std::max(own, other)] = std::min(own, other);
+    }
+  }
+  std::map<std::size_t, std::vector<MemberWay>> rings;
+  for (std::size_t i = 0; i < pieces.size(); ++i) rings[first_of(i)].push_back(pieces[i]);
+  for (auto& [first, ring] : rings) {
+    std::vector<Tags> said;
+    bool all_wanted = true, all_same = true, all_other = true;
+    for (const MemberWay& piece : ring) {
+      said.push_back(to_tags(piece.way->tags()));
+      all_wanted = all_wanted && objects_.find_way(piece.way->id())->wanted;
+      all_same = all_same && says_the_same(said.back(), area_tags);
+      all_other = all_other && is_of_another(said.back(), area_tags);
+    }
+    if (!all_wanted || (bounds_hole(ring.front()) ? all_same : !all_other)) continue;
+    Area area{{ObjectType::way, ring.front().way->id()}, common_tags(said), {}};
+    for (const Tags& tags : said) add_heights(area, tags, true);
+    const bool is_wanted = wanted_ == nullptr || wanted_(area.tags);
+    if (!is_wanted || !means_area(area.tags)) continue;  // each on its own
+    area.polygons = assemble(relation, ring).polygons;
+    if (area.polygons.empty()) continue;
+    for (const MemberWay& piece : ring) {
+      absorbed_[piece.way->id()] = {area.id, piece.way->id() != area.id.id, false};
+    }
+    extract_.areas.push_back(std::move(area));
   }
 }
 
@@ -224,22 +289,37 @@ bool Multipolygons::is_part(const osmium::RelationMember& member) const {
   return tags.has("building:part") && tags.get("building:part") != "no";
 }
 
+bool Multipolygons::is_built(const osmium::Relation& outline) const {
+  const Tags tags = to_tags(outline.tags());
+  if (!says_nothing(tags)) return means_building(tags);
+  const osmium::RelationMemberList& members = outline.members();
+  return std::any_of(members.begin(), members.end(), [this](const osmium::RelationMember& member) {
+    const bool is_outer = member.type() == osmium::item_type::way && std::strcmp(member.role(), "inner") != 0;
+    const KeptWay* const kept = is_outer ? objects_.find_way(member.ref()) : nullptr;
+    return kept != nullptr && kept->wanted;
+  });
+}
+
 bool Multipolygons::add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building,
                                 const ProblemBuilder& problem) {
   Members members;
   for (const ObjectId id : building.outlines.empty() ? building.parts : building.outlines) {
     if (id.type == ObjectType::way) {
-      add_member(members, id.id, "outer");
+      const KeptWay& kept = *objects_.find_way(id.id);
+      if (!kept.closed || !means_building(to_tags(kept.way->tags()))) add_member(members, id.id, "outer");
       continue;
     }
     const osmium::Relation& outline = *objects_.find_relation(id.id);
-    if (!says_nothing(to_tags(outline.tags()))) return false;  // it is built itself
+    if (is_built(outline)) continue;
     for (const osmium::RelationMember& member : outline.members()) {
       if (member.type() == osmium::item_type::way) add_member(members, member.ref(), member.role());
+      if (member.type() != osmium::item_type::relation) continue;
+      ++members.ways;
+      ++members.unread;
     }
   }
-  if (members.there.empty() || members.any_wanted) return false;
-  building.outlines.push_back(building.id);
+  if (members.there.empty()) return false;
+  building.outlines.insert(building.outlines.begin(), building.id);
   Tags own = tags;
   std::erase_if(own.all, [](const auto& tag) { return tag.first == "type"; });
   add_area(relation, std::move(own), std::move(members), problem);

@@ -40,7 +40,8 @@ class Multipolygons {
  private:
   struct Members {
     std::vector<MemberWay> there;
-    std::size_t ways = 0;                                     ///< as many as the relation names
+    std::size_t ways = 0;                                     ///< as many as the relation names, and others not read
+    std::size_t unread = 0;                                   ///< of these relations that are in the file
     std::size_t nodes = 0, missing_nodes = 0, off_earth = 0;  ///< of those that are there
     bool any_wanted = false;
   };
@@ -48,18 +49,24 @@ class Multipolygons {
   void add_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem = {});
   void build_area(const osmium::Relation& relation, Tags tags, Members members, ProblemBuilder problem);
   void add_building(const osmium::Relation& relation, const Tags& tags);
-  /// Of a building relation that alone says that its outline, or else its parts, are a building. Returns whether it is
-  /// one, with its problem told.
+  /// Of a building relation that alone says that one of its outlines, or else of its parts, is a building: these, but
+  /// for those that are built themselves. Returns whether there are any, with its problem told.
   bool add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building,
                    const ProblemBuilder& problem);
   bool is_part(const osmium::RelationMember& member) const;
-  /// Ways, and those of members that are multipolygons themselves.
+  bool is_built(const osmium::Relation& outline) const;  ///< as an area of its own
+  /// Ways, and those of members that are multipolygons themselves. All other relations count as missing.
   Members members_of(const osmium::Relation& relation) const;
   /// With the places of members that are known.
   void add_problem(Problem problem, const Members& members);
   void add_member(Members& members, std::int64_t way, const char* role) const;
+  void add_nested(Members& members, const osmium::RelationMember& nested, std::int64_t within) const;
   void absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,
               const std::vector<MemberWay>& members);
+  /// Rings of open ways that all say what they bound, and not what the area says: of an outer ring something else, in a
+  /// hole a house in the courtyard.
+  void add_rings_of_others(const osmium::Relation& relation, const Tags& area_tags,
+                           const std::vector<MemberWay>& members);
 
   const MapObjects& objects_;
   const Wanted& wanted_;
