@@ -221,7 +221,7 @@ class VANTAGE_API LegViews {
   /// Cost: what of the scene's hierarchy meets the convex hull of the leg, as far as it is in range, and the target.
   /// Throws Error(input) for a leg that is not finite or farther than 1e9 m from the origin of the scene frame, and for
   /// a radius that is negative or not finite.
-  LegView look(const Leg& leg, double radius_m = 0) const;
+  LegView look(const Leg& leg, double radius_m = 0, const Progress& progress = {}) const;
 
   /// The same for many legs, in their order. Uses the threads of the caller's arena. Error(cancelled) when told to
   /// stop.
@@ -304,7 +304,7 @@ VANTAGE_API std::vector<LegInterval> kept_parts(std::span<const LegBreak> broken
 /// - "frame" and "gimbal" of a camera that turns: the leg is halved until one orientation does for all of a part, or
 ///   none for any of it, or it is at most 1 mm long, and 1e-5 of the leg: then it counts as broken, as does what is
 ///   left after 20,000 pieces, of a leg along the picture's border. Each position of a tube may have its own
-///   orientation; cubes in the tube are divided down to an eighth of its radius, and the leg as finely. A cube, and a
+///   orientation; cubes in the tube are divided down to a 32nd of its radius, and the leg as finely. A cube, and a
 ///   part of the leg, for which no single orientation is found counts as broken.
 ///
 /// A tube breaks "keep_in" where no single one of these zones holds all of it, also where two that touch do so
@@ -330,7 +330,7 @@ class VANTAGE_API LegLimits {
   /// What is broken, in the order of PointAnswer::outside_of. Throws Error(input) as LegViews::look. Cost: linear in
   /// the corners of zones whose boxes are near, and in the triangles near the leg; a camera that turns some
   /// milliseconds.
-  std::vector<LegBreak> broken(const Leg& leg, double radius_m = 0) const;
+  std::vector<LegBreak> broken(const Leg& leg, double radius_m = 0, const Progress& progress = {}) const;
 
   /// The same for many legs, in their order. Uses the threads of the caller's arena. Error(cancelled) when told to
   /// stop.

@@ -107,11 +107,11 @@ class JudgedTarget {
   const Vec3& centre() const { return centre_; }
   const std::vector<std::vector<Vec3>>& parts() const { return parts_; }
 
-  TargetOnLeg look(const Leg& leg, double radius_m) const {
+  TargetOnLeg look(const Leg& leg, double radius_m, const Progress& asked) const {
     if (volume_) return look_inside(*volume_, leg, radius_m);
     TargetOnLeg result{whole(), {}};
     for (const std::vector<One>& list : lists_) {
-      const TargetOnLeg any = look_at_any(list, leg, radius_m);
+      const TargetOnLeg any = look_at_any(list, leg, radius_m, asked);
       result.seen = common(result.seen, any.seen);
       for (const auto& [reason, intervals] : any.reasons) {
         result.reasons[reason] = joined(std::move(result.reasons[reason]), intervals);
@@ -136,11 +136,12 @@ class JudgedTarget {
   }
 
   /// What hides any of them is told; out of range, behind and limits only where that holds for all.
-  static TargetOnLeg look_at_any(const std::vector<One>& list, const Leg& leg, double radius_m) {
+  static TargetOnLeg look_at_any(const std::vector<One>& list, const Leg& leg, double radius_m,
+                                 const Progress& asked) {
     TargetOnLeg result;
     bool is_first = true;
     for (const One& one : list) {
-      TargetOnLeg seen = look_at(one, leg, radius_m);
+      TargetOnLeg seen = look_at(one, leg, radius_m, asked);
       result.seen = joined(std::move(result.seen), seen.seen);
       for (auto& [reason, intervals] : result.reasons) {
         if (reason.first == NotSeen::Kind::hidden) continue;
@@ -157,15 +158,15 @@ class JudgedTarget {
     return result;
   }
 
-  static TargetOnLeg look_at(const One& one, const Leg& leg, double radius_m) {
-    LegView view = one.views.look(leg, radius_m);
+  static TargetOnLeg look_at(const One& one, const Leg& leg, double radius_m, const Progress& asked) {
+    LegView view = one.views.look(leg, radius_m, asked);
     TargetOnLeg result{std::move(view.seen), {}};
     for (LegBlocker& blocker : view.hidden_by) {
       result.reasons[{NotSeen::Kind::hidden, std::move(blocker.name)}] = std::move(blocker.intervals);
     }
     if (!view.out_of_range.empty()) result.reasons[{NotSeen::Kind::out_of_range, ""}] = std::move(view.out_of_range);
     if (!view.behind_target.empty()) result.reasons[{NotSeen::Kind::behind, ""}] = std::move(view.behind_target);
-    for (LegBreak& limit : one.limits.broken(leg, radius_m)) {
+    for (LegBreak& limit : one.limits.broken(leg, radius_m, asked)) {
       result.seen = flight::without(result.seen, limit.intervals);
       result.reasons[{NotSeen::Kind::limit, std::move(limit.limit)}] = std::move(limit.intervals);
     }
@@ -224,12 +225,16 @@ std::vector<OnLeg> judge_legs(const Flight& flight, const std::vector<Leg>& legs
                               double radius_m, const internal::core::ProgressReporter& reporter) {
   std::vector<OnLeg> found(legs.size());
   std::atomic<std::size_t> done = 0;
+  const Progress asked = [&](const char*, double) {
+    reporter.check();
+    return true;
+  };
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       reporter.report(done.load(), legs.size());
       const bool is_other_way = i < flight.leg_count() && flight.points[i + 1].is_other_way;
       for (const JudgedTarget& target : judges.targets) {
-        found[i].targets.push_back(is_other_way ? TargetOnLeg() : target.look(legs[i], radius_m));
+        found[i].targets.push_back(is_other_way ? TargetOnLeg() : target.look(legs[i], radius_m, asked));
       }
       for (const flight::JudgedLink& link : judges.links) found[i].links.push_back(link.look(legs[i], radius_m));
       found[i].broken = judges.limits.broken(legs[i], radius_m);

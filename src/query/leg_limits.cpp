@@ -109,9 +109,9 @@ LegLimits::~LegLimits() = default;
 LegLimits::LegLimits(LegLimits&&) noexcept = default;
 LegLimits& LegLimits::operator=(LegLimits&&) noexcept = default;
 
-std::vector<LegBreak> LegLimits::broken(const Leg& leg, double radius_m) const {
+std::vector<LegBreak> LegLimits::broken(const Leg& leg, double radius_m, const Progress& progress) const {
   query::check_leg(leg, radius_m);
-  return data_->broken({leg, radius_m});
+  return data_->broken({leg, radius_m, internal::core::ProgressReporter(progress, "leg")});
 }
 
 std::vector<std::vector<LegBreak>> LegLimits::broken(std::span<const Leg> legs, double radius_m,
@@ -123,7 +123,7 @@ std::vector<std::vector<LegBreak>> LegLimits::broken(std::span<const Leg> legs, 
   std::vector<std::vector<LegBreak>> result(legs.size());
   internal::parallel::for_ranges(legs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      result[i] = data_->broken({legs[i], radius_m});
+      result[i] = data_->broken({legs[i], radius_m, reporter});
       done.add();
     }
   });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/bvh.h"
+#include "core/progress_reporter.h"
 #include "core/triangle_tree.h"
 #include "query/leg_intervals.h"
 #include "vantage/navigation.h"
@@ -21,11 +22,12 @@ namespace vantage::internal::query {
 struct Tube {
   Leg leg;
   double radius = 0;
+  core::ProgressReporter progress = {};  ///< asked within a leg that takes long
 
   Vec3 at(double share) const { return leg.from + share * (leg.to - leg.from); }
   double length() const { return (leg.to - leg.from).norm(); }
   Box box() const;  ///< holds the tube
-  Tube moved(const Vec3& by) const { return {{leg.from + by, leg.to + by}, radius}; }
+  Tube moved(const Vec3& by) const { return {{leg.from + by, leg.to + by}, radius, progress}; }
 };
 
 /// By how much a place of the leg breaks a limit; negative where it keeps it.

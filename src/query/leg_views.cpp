@@ -242,9 +242,9 @@ LegViews::~LegViews() = default;
 LegViews::LegViews(LegViews&&) noexcept = default;
 LegViews& LegViews::operator=(LegViews&&) noexcept = default;
 
-LegView LegViews::look(const Leg& leg, double radius_m) const {
+LegView LegViews::look(const Leg& leg, double radius_m, const Progress& progress) const {
   query::check_leg(leg, radius_m);
-  return data_->look(leg, radius_m, {});
+  return data_->look(leg, radius_m, ProgressReporter(progress, "leg"));
 }
 
 std::vector<LegView> LegViews::look(std::span<const Leg> legs, double radius_m, const Progress& progress) const {

@@ -90,6 +90,7 @@ class AimLook {
   /// Whether the piece is to be halved.
   bool look(const LegInterval& piece, bool is_last) {
     const double shortest = std::min(1e-3, 1e-5 * local_.length());  // metres
+    local_.progress.check();
     const double middle = 0.5 * (piece.begin + piece.end), half = 0.5 * (piece.end - piece.begin) * local_.length();
     const double radius = local_.radius;
     const Vec3 place = local_.at(middle);
@@ -111,6 +112,7 @@ class AimLook {
     const double corner = std::sqrt(3.0) * side, distance = aside.norm();
     if (distance - corner > local_.radius) return true;  // beside the ball
     if (++cubes_ > kMostCubes) return false;
+    local_.progress.check();
     // What of the ball is near the cube's centre is as near to the place of the ball next to that.
     const Vec3 next = place + (distance > local_.radius ? local_.radius / distance : 1.0) * aside;
     const double inside = corner + half;
