@@ -1165,6 +1165,11 @@ TEST(ReadFlightPlan, IsNotHurtByDepthAndNumber) {
   for (std::size_t i = 0; i < kMostPlanItems / 10; ++i) positions += "1,2 ";
   for (int i = 0; i < 11; ++i) lines += kml_line(positions);
   expect_code([&] { parsed_plan(kml(lines)); }, ErrorCode::value_out_of_range);
+  // A placemark takes as long however many are before it: else this would take minutes.
+  constexpr std::size_t kPlacemarks = 100'000;
+  std::string placemarks;
+  for (std::size_t i = 0; i < kPlacemarks; ++i) placemarks += kml_line("1,2,3");
+  EXPECT_EQ(parsed_plan(kml(placemarks)).items.size(), kPlacemarks);
 }
 
 }  // namespace
