@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "io/write_zip.h"
 #include "support/plan_texts.h"
 #include "support/shared_data.h"
 #include "support/wording.h"
@@ -166,6 +167,27 @@ TEST(ReadFlightPlan, TakesPatternsOfLanding) {
   EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
 }
 
+// Flags may be numbers. Without a radius the vehicle has its own; below 0 it circles the other way round.
+TEST(ReadFlightPlan, TakesCirclesOfLandingsAsTheyAreStated) {
+  const auto approach = [](const std::string& members) {
+    return parsed_plan(plan({waypoint(48, 11, 40),
+                             "{\"type\": \"ComplexItem\", \"complexItemType\": \"vtolLandingPattern\", "
+                             "\"landCoordinate\": [48.01, 11, 0], \"landingApproachCoordinate\": [48.02, 11, 30]" +
+                                 members + "}"},
+                            20))
+        .items.at(1);
+  };
+  EXPECT_EQ(approach("").kind, PlanItemKind::loiter);
+  EXPECT_EQ(approach("").loiter_radius_m, 0);
+  EXPECT_EQ(approach(", \"loiterRadius\": -80").loiter_radius_m, -80);
+  EXPECT_EQ(approach(", \"loiterRadius\": -80, \"loiterClockwise\": 0").loiter_radius_m, 80);
+  EXPECT_EQ(approach(", \"loiterRadius\": 80, \"useLoiterToAlt\": 0").kind, PlanItemKind::waypoint);
+  EXPECT_EQ(approach(", \"loiterRadius\": 80, \"useLoiterToAlt\": 1").kind, PlanItemKind::loiter);
+  EXPECT_EQ(approach(", \"altitudesAreRelative\": 0").position.datum, HeightDatum::sea_level);
+  EXPECT_EQ(approach(", \"loiterAltitudeRelative\": false").position.datum, HeightDatum::sea_level) << "version 1";
+  expect_code([&] { approach(", \"altitudesAreRelative\": \"no\""); }, ErrorCode::plan_syntax, "item 2");
+}
+
 TEST(ReadFlightPlan, CountsWhatItDoesNotKnow) {
   const FlightPlan read = parsed_plan(
       plan({waypoint(48, 11, 10), simple(31010, 2, "[0, 0, 0, 0, 0, 0, 0]"), simple(40, 3, "[0, 0, 0, 0, 48, 11, 5]"),
@@ -185,8 +207,8 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
     return parsed_plan(plan({waypoint(48, 11, 10, 3, 1), item, waypoint(48.001, 11, 10)})).not_judged;
   };
   const std::string nowhere = "[2, 0, 0, 0, 0, 0, 0]", somewhere = "[0, 0, 0, null, 48.002, 11, 30]";
-  for (const int command :
-       {25, 30, 32, 35, 37, 83, 91, 92, 94, 113, 176, 185, 186, 192, 208, 218, 224, 601, 3000, 4001, 42703, 43001}) {
+  for (const int command : {25,  30,  32,  35,  37,  83,  91,  92,  94,   113,  176,   185,  186,
+                            192, 208, 218, 224, 246, 420, 601, 611, 3000, 4001, 42703, 43001}) {
     const std::vector<std::string> told = not_judged(simple(command, 3, nowhere));
     ASSERT_EQ(told.size(), 1u) << command;
     EXPECT_NE(told[0].find("item 2"), std::string::npos) << told[0];
@@ -202,6 +224,10 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
     EXPECT_TRUE(not_judged(simple(command, 3, somewhere)).empty()) << command;
   }
   EXPECT_EQ(not_judged(simple(179, 3, somewhere)).size(), 1u) << "another home in flight";
+  const std::string disarms = simple(400, 2, "[0, 0, 0, 0, 0, 0, 0]"), lands = simple(21, 3, somewhere) + ", ";
+  EXPECT_EQ(not_judged(disarms).size(), 1u);
+  EXPECT_TRUE(not_judged(lands + disarms).empty());
+  EXPECT_TRUE(not_judged(simple(400, 2, "[1, 0, 0, 0, 0, 0, 0]")).empty()) << "it arms";
   // Each item once, however often it is come to; and of very many the first.
   EXPECT_EQ(not_judged(simple(94, 3, somewhere) + ", " + simple(177, 2, "[1, 3, 0, 0, 0, 0, 0]")).size(), 1u);
   std::string many = simple(94, 3, somewhere);
@@ -281,6 +307,30 @@ TEST(ReadFlightPlan, TellsOfSettingsTimesOfTheDayAndLandingsInsteadOfReturns) {
   const std::vector<std::string> lands = read(simple(189, 3, "[0, 0, 0, 0, 48.001, 11, 5]")).not_judged;
   ASSERT_EQ(lands.size(), 1u);
   expect_wording(lands);
+}
+
+// Also behind the return.
+TEST(ReadFlightPlan, NamesLandingsThatItMayReturnTo) {
+  const auto read = [](const std::string& item, int autopilot = 12) {
+    std::string text = plan({waypoint(48, 11, 10), simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]"), item}, 1);
+    const std::string key = "\"firmwareType\": ";
+    return parsed_plan(text.replace(text.find(key) + key.size(), 2, std::to_string(autopilot))).not_judged;
+  };
+  const std::string pattern =
+      "{\"type\": \"ComplexItem\", \"complexItemType\": \"fwLandingPattern\", \"landCoordinate\": [48.01, 11, 0], "
+      "\"landingApproachCoordinate\": [48.02, 11, 30], \"loiterRadius\": 80}";
+  const std::string place = "[0, 0, 0, 0, 48.001, 11, 5]";
+  std::vector<std::string> told;
+  for (const std::string& item : {pattern, simple(188, 3, place), simple(21, 3, place)}) {
+    const std::vector<std::string> texts = read(item);
+    ASSERT_EQ(texts.size(), 1u) << item;
+    told.push_back(texts[0]);
+  }
+  expect_wording(told);
+  constexpr int kArduPilot = 3;
+  EXPECT_EQ(read(pattern, kArduPilot).size(), 1u);
+  EXPECT_EQ(read(simple(188, 3, place), kArduPilot).size(), 1u);
+  EXPECT_TRUE(read(simple(21, 3, place), kArduPilot).empty());
 }
 
 // One with a circle before it lands somewhere on that.
@@ -692,6 +742,24 @@ TEST(ReadFlightPlan, TakesWaylinesOfDji) {
       WarningCode::plan_joined));
 }
 
+TEST(ReadFlightPlan, RefusesArchivesOfSeveralPlans) {
+  const std::string line = kml(kml_line("11,48,1 11,48.001,2")), dji = waylines(wayline(wayline_point(11, 48, 40)));
+  const auto read = [&](const std::vector<internal::io::ZippedFile>& files) {
+    return parsed_plan(internal::io::zipped(files));
+  };
+  EXPECT_EQ(read({{"any.kml", line}, {"__MACOSX/any.kml", "notes"}}).format, PlanFormat::kml);
+  EXPECT_EQ(read({{"wpmz/template.kml", line}, {"wpmz/waylines.wpml", dji}}).format, PlanFormat::wpml);
+  EXPECT_EQ(read({{"flight.wpml", dji}}).format, PlanFormat::wpml);
+  expect_error([&] { read({{"doc.kml", line}, {"b.kml", line}}); }, ErrorCode::value_unsupported, "flight.plan");
+  const auto refuse = [&](const std::vector<internal::io::ZippedFile>& files) {
+    expect_code([&] { read(files); }, ErrorCode::value_unsupported, "flight.plan");
+  };
+  refuse({{"doc.kml", line}, {"doc.kml", line}});
+  refuse({{"wpmz/waylines.wpml", dji}, {"wpmz/waylines2.wpml", dji}, {"wpmz/template.kml", line}});
+  refuse({{"wpmz/waylines.wpml", dji}, {"doc.kml", line}});
+  refuse({{"wpmz/waylines.wpml", dji}, {"wpmz/template.kml", line}, {"template.kml", line}});
+}
+
 TEST(ReadFlightPlan, RefusesWaypointsInAnotherOrder) {
   const auto read = [](const std::string& first, const std::string& second) {
     const auto index = [](const std::string& number) { return "<wpml:index>" + number + "</wpml:index>"; };
@@ -760,6 +828,11 @@ TEST(ReadFlightPlan, NamesWhatOfDjiIsNotKnown) {
   EXPECT_TRUE(read(mode("coordinateTurn", "<wpml:waypointTurnDampingDist>9</wpml:waypointTurnDampingDist>")).empty());
   expect_told(read("", "<wpml:finishAction>goFishing</wpml:finishAction>"), 1);
   EXPECT_TRUE(read("", "<wpml:finishAction>noAction</wpml:finishAction>").empty());
+  const std::string home =
+      "<wpml:takeOffSecurityHeight>25</wpml:takeOffSecurityHeight><wpml:takeOffRefPoint>48,11,560"
+      "</wpml:takeOffRefPoint><wpml:flyToWaylineMode>";
+  expect_told(read("", home + "inCircles</wpml:flyToWaylineMode>"), 1);
+  EXPECT_TRUE(read("", home + "pointToPoint</wpml:flyToWaylineMode>").empty());
   expect_told(read("", "", "<wpml:waylineType>poi</wpml:waylineType>"), 1);
   const auto action = [](const std::string& name) {
     return "<wpml:startActionGroup><wpml:action><wpml:actionActuatorFunc>" + name +
@@ -1020,7 +1093,39 @@ TEST(ReadFlightPlan, NamesCommandsOfTables) {
   EXPECT_EQ(told("Loiter Radius (m)", "50", "").size(), 1u);
   EXPECT_EQ(told("turns", "0", "16").size(), 1u);
   EXPECT_TRUE(told("cmd", "16", "").empty());
-  EXPECT_TRUE(told("turn_type", "straight", "spline").empty());
+  EXPECT_EQ(told("turn_type", "straight", "spline").size(), 1u);
+  for (const std::string title :
+       {"type", "action", "wpType", "cmd_name", "command id", "nav_cmd", "task", "anything"}) {
+    EXPECT_EQ(told(title, "waypoint", "LOITER_TIME").size(), 1u) << title;
+    EXPECT_EQ(told(title, "", "RTL").size(), 1u) << title;
+    EXPECT_EQ(told(title, "0", "MAV_CMD_NAV_LAND").size(), 1u) << title;
+    EXPECT_EQ(told(title, "16", "18").size(), title == "anything" ? 0u : 1u) << title;
+  }
+  for (const std::string title : {"rtl", "spline", "land", "is_takeoff"}) {
+    EXPECT_EQ(told(title, "0", "1").size(), 1u) << title;
+    EXPECT_EQ(told(title, "no", "yes").size(), 1u) << title;
+  }
+  // What is for people, of cameras, or of a place.
+  for (const std::string title : {"name", "notes", "wp_name", "description"}) {
+    EXPECT_TRUE(told(title, "RTL", "land").empty()) << title;
+  }
+  EXPECT_TRUE(told("surface", "land", "circle").empty());
+  EXPECT_TRUE(told("actiontype1,actionparam1,rotationdir,gimbalmode", "4,20,1,2", "5,-90,0,0").empty()) << "Litchi";
+}
+
+TEST(ReadFlightPlan, TellsFieldsThatMayBeCommands) {
+  const auto read = [](const std::string& title, const std::string& field) {
+    return parsed_plan("lat,lon,agl," + title + "\n48,11,50,0\n48,11.1,50," + field + "\n48,11.2,50," + field + "\n");
+  };
+  for (const auto& [title, field] :
+       {std::pair("action", "photo"), {"radius", "50"}, {"type", "3"}, {"land", "grass"}}) {
+    const FlightPlan plan = read(title, field);
+    EXPECT_TRUE(plan.not_judged.empty()) << title;
+    ASSERT_EQ(plan.notes.size(), 1u) << title;
+    EXPECT_EQ(plan.notes[0].code, WarningCode::plan_left_out);
+    if (field == std::string("photo")) expect_wording(plan.notes[0].text);
+  }
+  EXPECT_TRUE(read("camera_type", "RGB").notes.empty());
 }
 
 TEST(ReadFlightPlan, RefusesAZBesideAnotherHeight) {
@@ -1103,6 +1208,11 @@ TEST(ReadFlightPlan, IsNotHurtByDepthAndNumber) {
   for (std::size_t i = 0; i < kMostPlanItems / 10; ++i) positions += "1,2 ";
   for (int i = 0; i < 11; ++i) lines += kml_line(positions);
   expect_code([&] { parsed_plan(kml(lines)); }, ErrorCode::value_out_of_range);
+  // A placemark takes as long however many are before it: else this would take minutes.
+  constexpr std::size_t kPlacemarks = 100'000;
+  std::string placemarks;
+  for (std::size_t i = 0; i < kPlacemarks; ++i) placemarks += kml_line("1,2,3");
+  EXPECT_EQ(parsed_plan(kml(placemarks)).items.size(), kPlacemarks);
 }
 
 }  // namespace

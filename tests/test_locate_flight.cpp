@@ -920,6 +920,38 @@ TEST(LocateFlight, ReturnsAtTheHeightOfThePlan) {
   EXPECT_EQ(highest("<wpml:globalRTHHeight>20</wpml:globalRTHHeight>"), 550);
 }
 
+// "Safely": level at the higher one of the heights. "Point to point": straight, and down some aircraft fly level first.
+TEST(LocateFlight, FliesToTheFirstWaypointAsDjiDoes) {
+  const Ground ground{470, nullptr};
+  LocateOptions options = in_munich();
+  options.home_z_m = 500;
+  options.ground = &ground;
+  const auto flight = [&](const std::string& how, double height, const std::string& mode) {
+    const std::string config = "<wpml:flyToWaylineMode>" + how +
+                               "</wpml:flyToWaylineMode><wpml:takeOffSecurityHeight>100</wpml:takeOffSecurityHeight>"
+                               "<wpml:takeOffRefPoint>48,11,560</wpml:takeOffRefPoint>";
+    return locate_flight(parsed_plan(waylines(wayline(wayline_point(11.001, 48, height), mode), config)), options)
+        .flight;
+  };
+  const std::string home = "relativeToStartPoint", ground_level = "aboveGroundLevel";
+  for (const std::string how : {"safely", "pointToPoint"}) {
+    for (const auto& [height, mode] :
+         {std::pair(20.0, home), {50.0, ground_level}, {160.0, home}, {190.0, ground_level}}) {
+      const Flight way = flight(how, height, mode);
+      const double z = height + (mode == home ? 500 : 470);
+      const Vec3 begin(0, 0, 600);
+      Vec3 first = way.points.back().position;
+      EXPECT_NEAR(first.z(), z, 1e-9);
+      const Vec3 above(first.x(), first.y(), std::max(z, 600.0)), climbed(0, 0, std::max(z, 600.0));
+      const bool is_safe = how == "safely", is_down = z < 600;
+      EXPECT_LT(distance_to_flight(way, is_safe ? climbed : begin), 1e-6);
+      EXPECT_EQ(distance_to_flight(way, (climbed + above) / 2) < 1e-3, is_safe || is_down) << how << z;
+      EXPECT_EQ(distance_to_flight(way, (begin + first) / 2) < 1e-3, !is_safe) << how << z;
+      EXPECT_EQ(distance_to_flight(way, (above + first) / 2) < 1e-3, true) << how << z;
+    }
+  }
+}
+
 TEST(LocateFlight, HasBounds) {
   FlightPlan circles = parsed_plan(plan({simple(18, 3, "[10000, 0, 90000, 0, 48, 11, 50]")}));
   LocateOptions options = in_munich();

@@ -98,6 +98,13 @@ enum class PlanItemKind {
   return_home,  ///< the position is missing: the home; its height, if there is one, is the least on the way, above it
 };
 
+/// How the vehicle comes to a waypoint; behind a takeoff also in other ways than straight.
+enum class PlanWay {
+  straight,
+  level,   ///< at the higher one of the two heights: it takes off to that, or comes down above the waypoint
+  either,  ///< straight; where the waypoint is the lower one some vehicles come level, and then down
+};
+
 /// A step of a plan, jumps followed.
 struct PlanItem {
   PlanItemKind kind = PlanItemKind::waypoint;
@@ -127,6 +134,7 @@ struct PlanItem {
   /// So far before the position the vehicle leaves the leg, and so far behind it it is on the next one, on an arc that
   /// touches both. 0: it goes to the position.
   double cut_m = 0;
+  PlanWay way = PlanWay::straight;
   std::string place;  ///< "survey.plan: item 3"; for messages
 };
 

@@ -1,8 +1,10 @@
 // Tables with a header: longitude, latitude and a height whose name says what it is measured from, or x, y and z of the
 // scene. Also those of Litchi, whose heights are above the home or, with altitudemode 1, above ground.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 
 #include "common/input.h"
 #include "common/table_columns.h"
+#include "flight/plans/mission_items.h"
 #include "flight/plans/plan_source.h"
 #include "flight/plans/text_lines.h"
 
@@ -42,6 +45,122 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
   }
   for (std::string& field : fields) field = without_blanks(field);
   return fields;
+}
+
+/// Of its letters and digits, in lower case.
+std::string plain(std::string_view text) {
+  std::string letters;
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c))) {
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  return letters;
+}
+
+/// In lower case: "wpType" and "WP type" are "wp" and "type".
+std::vector<std::string> words_of(std::string_view title) {
+  std::vector<std::string> words(1);
+  for (std::size_t i = 0; i < title.size(); ++i) {
+    const auto is = [&](std::size_t at, int (*kind)(int)) { return kind(static_cast<unsigned char>(title[at])) != 0; };
+    const bool begins = !is(i, std::isalnum) || (i > 0 && is(i, std::isupper) && is(i - 1, std::islower));
+    if (begins && !words.back().empty()) words.emplace_back();
+    words.back() += plain(title.substr(i, 1));
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+template <std::size_t N>
+bool begins_with_one(std::string_view word, const std::array<std::string_view, N>& starts) {
+  return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) { return word.starts_with(start); });
+}
+
+template <std::size_t N>
+bool is_in(std::string_view word, const std::array<std::string_view, N>& list) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+/// The name of a command that moves the vehicle in another way than straight to the position. `name` is plain.
+bool is_movement(std::string_view name) {
+  constexpr std::array<std::string_view, 18> kNames = {
+      "rtl",      "rth",     "gohome",      "return", "returnhome", "land",  "landing", "landstart", "autoland",
+      "vtolland", "takeoff", "vtoltakeoff", "spline", "arc",        "curve", "curved",  "jump",      "reposition"};
+  constexpr std::array<std::string_view, 6> kStarts = {"loiter", "orbit", "circle", "spline", "returnto", "follow"};
+  return is_in(name, kNames) || begins_with_one(name, kStarts);
+}
+
+/// What a column tells the vehicle, by its title.
+enum class Tells {
+  nothing,   ///< it is for people
+  circle,    ///< how it circles
+  movement,  ///< whether it moves so: "rtl"
+  command,   ///< by its name, or as MAV_CMD
+  manner,    ///< a command, or something else: "type"
+  radius,    ///< of a circle, or of acceptance
+  unknown,
+};
+
+Tells told_in(std::string_view title) {
+  title = title.substr(0, title.find_first_of("(["));
+  const std::string name = plain(title);
+  constexpr std::array<std::string_view, 4> kCircle = {"loiter", "orbit", "turns", "circle"};
+  if (begins_with_one(name, kCircle)) return Tells::circle;
+  if (is_movement(name) || (name.starts_with("is") && is_movement(name.substr(2)))) return Tells::movement;
+  constexpr std::array<std::string_view, 4> kCommand = {"command", "commands", "cmd", "mavcmd"};
+  constexpr std::array<std::string_view, 12> kManner = {"type",      "mode",     "action",    "actions",
+                                                        "task",      "tasks",    "nav",       "do",
+                                                        "manoeuvre", "maneuver", "behaviour", "behavior"};
+  constexpr std::array<std::string_view, 13> kBeside = {
+      "mav", "mavlink", "mission", "item", "wp", "waypoint", "point", "turn", "id", "name", "code", "number", "no"};
+  constexpr std::array<std::string_view, 1> kRadius = {"radius"};
+  constexpr std::array<std::string_view, 17> kForPeople = {
+      "name",        "names", "note",  "notes", "comment", "comments", "remark", "remarks", "label",
+      "description", "desc",  "title", "text",  "id",      "message",  "state",  "status"};
+  const std::vector<std::string> words = words_of(title);
+  const auto any = [&](const auto& list) {
+    return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return is_in(word, list); });
+  };
+  const bool is_of_commands = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+    return is_in(word, kCommand) || is_in(word, kManner) || is_in(word, kBeside) || is_in(word, kRadius);
+  });
+  if (is_of_commands && any(kCommand)) return Tells::command;
+  if (is_of_commands && any(kRadius)) return Tells::radius;
+  if (is_of_commands && any(kManner)) return Tells::manner;
+  return any(kForPeople) ? Tells::nothing : Tells::unknown;
+}
+
+enum class Told { nothing, movement, unclear };
+
+Told told_by(Tells tells, std::string_view field) {
+  std::string name = plain(field);
+  const ParsedNumber number = parse_number(field);
+  const bool is_number = number.fault == NumberFault::none;
+  constexpr std::array<std::string_view, 8> kNone = {"", "none", "no", "false", "off", "na", "nan", "null"};
+  if (is_in(name, kNone) || (is_number && number.value == 0)) return Told::nothing;
+  if (tells == Tells::circle) return Told::movement;
+  if (tells == Tells::radius) return Told::unclear;
+  const bool is_of_mavlink = name.starts_with("mavcmd");
+  for (const std::string_view start : {"mavcmd", "nav", "do"}) {
+    if (name.starts_with(start) && name.size() > start.size()) name.erase(0, start.size());
+  }
+  if (tells == Tells::movement) {
+    constexpr std::array<std::string_view, 5> kYes = {"yes", "true", "on", "y", "x"};
+    return is_number || is_in(name, kYes) || is_movement(name) ? Told::movement : Told::unclear;
+  }
+  constexpr std::array<std::string_view, 4> kStraight = {"waypoint", "wp", "straight", "flyto"};
+  if (is_in(name, kStraight) || (tells != Tells::unknown && is_number && number.value == double{kNavWaypoint})) {
+    return Told::nothing;
+  }
+  if (tells == Tells::command) return Told::movement;
+  if (tells == Tells::manner) {
+    const bool is_command = is_number && number.value == std::floor(number.value) && std::abs(number.value) < 1e6 &&
+                            is_of_movement(static_cast<int>(number.value));
+    return is_command || is_movement(name) ? Told::movement : Told::unclear;
+  }
+  // Of any other column what can mean nothing else.
+  const bool is_sure = name == "rtl" || name == "rth" || name.starts_with("loiter") || name.starts_with("returnto");
+  return is_sure || is_of_mavlink ? Told::movement : Told::nothing;
 }
 
 class PlanTable {
@@ -76,6 +195,7 @@ class PlanTable {
       name_commands(fields, where, not_judged);
       check_count(plan.items.size(), source_);
     }
+    note_unclear(plan);
     check_plan(plan, source_);
     return plan;
   }
@@ -97,7 +217,8 @@ class PlanTable {
       bool has_unknown_unit = false;
       const std::optional<KnownColumn> known = known_column(titles[i], &has_unknown_unit);
       if (known) uses_.push_back({i, *known});
-      take_command(titles[i], i);
+      const Tells tells = known ? Tells::nothing : told_in(titles[i]);
+      if (tells != Tells::nothing) commands_.push_back({i, tells});
       if (has_unknown_unit) {
         plan.notes.push_back({WarningCode::plan_left_out, source_.name + ": the column " + in_quotes(titles[i]) +
                                                               " is left out: its unit is not known"});
@@ -147,34 +268,26 @@ class PlanTable {
   /// A column that may tell the vehicle to do something else than to fly to the position.
   struct Command {
     std::size_t index;
-    bool is_circle;  ///< how it circles there, or else a command, by its name or as MAV_CMD
+    Tells tells;
   };
 
-  void take_command(std::string_view title, std::size_t index) {
-    std::string name;
-    for (const char c : title.substr(0, title.find('('))) {
-      if (std::isalnum(static_cast<unsigned char>(c))) {
-        name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  void name_commands(const std::vector<std::string>& fields, const std::string& where, NotJudged& not_judged) {
+    for (const auto& [index, tells] : commands_) {
+      const Told told = told_by(tells, fields[index]);
+      if (told == Told::nothing) continue;
+      const std::string says = "column " + std::to_string(index + 1) + " says " + in_quotes(fields[index]);
+      if (told == Told::movement) {
+        not_judged.name(where, "its " + says + ", which is not followed: of a table the positions are flown to");
+      } else {
+        unclear_.emplace(index, where + ": its " + says);
       }
     }
-    for (const std::string_view start : {"loiter", "orbit", "turns"}) {
-      if (name.substr(0, start.size()) == start) commands_.push_back({index, true});
-    }
-    if (name == "command" || name == "cmd" || name == "mavcmd") commands_.push_back({index, false});
   }
 
-  void name_commands(const std::vector<std::string>& fields, const std::string& where, NotJudged& not_judged) const {
-    for (const auto& [index, is_circle] : commands_) {
-      std::string name = fields[index];
-      std::transform(name.begin(), name.end(), name.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      const ParsedNumber number = parse_number(name);
-      const bool is_none = name.empty() || (number.fault == NumberFault::none && number.value == 0);
-      const bool is_waypoint = !is_circle && (name == "16" || name == "waypoint" || name == "nav_waypoint" ||
-                                              name == "mav_cmd_nav_waypoint");
-      if (is_none || is_waypoint) continue;
-      not_judged.name(where, "its column " + std::to_string(index + 1) + " says " + in_quotes(fields[index]) +
-                                 ", which is not followed: of a table the positions are flown to");
+  void note_unclear(FlightPlan& plan) const {
+    for (const auto& [index, first] : unclear_) {
+      plan.notes.push_back({WarningCode::plan_left_out,
+                            first + ": what that tells the vehicle is not known here, and is left out of all rows"});
     }
   }
 
@@ -258,6 +371,7 @@ class PlanTable {
   std::size_t columns_ = 0;
   std::vector<UsedColumn> uses_;
   std::vector<Command> commands_;
+  std::map<std::size_t, std::string> unclear_;  ///< by their column, what the first of its fields says
   std::optional<UsedColumn> height_;
   bool is_in_scene_frame_ = false;
 };

@@ -85,6 +85,7 @@ class Locator {
   Corner corner_of(std::size_t item);
   void add(Corner corner, bool is_other_way = false);
   void add_waypoint(std::size_t index);
+  void add_level_way(const Corner& to, PlanWay way);
   void add_arc(std::size_t index);
   void add_spline(std::size_t index);
   Vec3 spline_begin(std::size_t index, const Corner& to, bool above_ground);
@@ -367,8 +368,27 @@ void Locator::add(Corner corner, bool is_other_way) {
 
 void Locator::add_waypoint(std::size_t index) {
   const PlanItem& item = plan_.items[index];
+  if (!corners_.empty() && item.way != PlanWay::straight) add_level_way(corner_of(index), item.way);
   if (corners_.empty() || (item.arc_deg == 0 && !item.is_spline)) return add(corner_of(index));
   return item.is_spline ? add_spline(index) : add_arc(index);
+}
+
+/// The level part of the way from a takeoff, and back where others fly straight.
+void Locator::add_level_way(const Corner& to, PlanWay way) {
+  const Corner from = corners_.back();
+  if (to.position.z() >= from.position.z()) {
+    if (way == PlanWay::level) corners_.back().position.z() = to.position.z();
+    return;
+  }
+  Corner down = to;
+  down.hold_s = down.cut_m = 0;
+  Corner above = down;
+  above.above_ground_m.reset();
+  above.position.z() = from.position.z();
+  add(above);
+  if (way == PlanWay::level) return;
+  add(down);
+  add_back_to(from, down);
 }
 
 /// With the corner's height above the ground, or in the map, as third coordinate.

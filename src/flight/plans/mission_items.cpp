@@ -22,11 +22,11 @@ bool moves_nothing(const MissionItem& item) {
   constexpr int kGuidedEnable = 92, kParachute = 208;
   if (item.command == kGuidedEnable && item.parameters[0] == 0) return true;                         // off
   if (item.command == kParachute && item.parameters[0] >= 0 && item.parameters[0] < 2) return true;  // no release
-  constexpr std::array kCommands = {112,  114,  181,   182,   183,   184,   187,   188,   194,  196,  198,  200,  202,
-                                    203,  204,  206,   207,   209,   211,   212,   214,   215,  220,  221,  222,  223,
-                                    240,  241,  247,   530,   531,   532,   533,   534,   600,  2000, 2001, 2003, 2500,
-                                    2501, 2502, 2503,  2510,  2511,  2520,  4000,  4501,  5000, 5001, 5002, 5003, 5004,
-                                    5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
+  constexpr std::array kCommands = {112,  114,  181,  182,  183,  184,   187,   194,   196,   198,   200,   202,
+                                    203,  204,  206,  207,  209,  211,   212,   214,   215,   220,   221,   222,
+                                    223,  240,  241,  247,  530,  531,   532,   533,   534,   600,   2000,  2001,
+                                    2003, 2500, 2501, 2502, 2503, 2510,  2511,  2520,  4000,  4501,  5000,  5001,
+                                    5002, 5003, 5004, 5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
   return std::find(kCommands.begin(), kCommands.end(), item.command) != kCommands.end();
 }
 
@@ -60,15 +60,28 @@ constexpr Mover kMovers[] = {{23, "NAV_LAND_LOCAL"},
                              {213, "NAV_SET_YAW_SPEED"},
                              {218, "DO_AUX_FUNCTION"},
                              {224, "DO_SET_MISSION_CURRENT"},
+                             {246, "PREFLIGHT_REBOOT_SHUTDOWN"},
                              {252, "OVERRIDE_GOTO"},
                              {262, "DO_SET_STANDARD_MODE"},
+                             {300, "MISSION_START"},
+                             {420, "INJECT_FAILURE"},
                              {601, "DO_JUMP_TAG"},
+                             {611, "DO_SET_GLOBAL_ORIGIN"},
                              {3000, "DO_VTOL_TRANSITION"},
                              {4001, "GUIDED_SUBMODE_CIRCLE"},
+                             {5300, "DO_SET_SAFETY_SWITCH_STATE"},
                              {42702, "NAV_SCRIPT_TIME"},
                              {43001, "GUIDED_CHANGE_ALTITUDE"},
                              {43002, "GUIDED_CHANGE_HEADING"},
                              {42703, "NAV_ATTITUDE_TIME"}};
+
+const Mover* mover_of(int command) {
+  const auto* const mover =
+      std::find_if(std::begin(kMovers), std::end(kMovers), [&](const Mover& one) { return one.command == command; });
+  return mover == std::end(kMovers) ? nullptr : mover;
+}
+
+constexpr int kLastOfNavigation = 95;  // MAV_CMD_NAV_LAST
 
 bool is_given(double latitude, double longitude) {
   if (std::isnan(latitude) || std::isnan(longitude)) return false;
@@ -159,16 +172,22 @@ void Runner::run() {
   add_notes();
 }
 
-/// Wherever they are: also behind the return.
+/// Wherever they are: also behind the return. PX4 takes any landing for one to return to, ArduPilot does not.
 void Runner::look_for_fences_and_returns() {
   const auto count = [this](int first, int last) {
     return std::count_if(mission_.begin(), mission_.end(),
                          [&](const MissionItem& item) { return first <= item.command && item.command <= last; });
   };
+  const auto has = [&](int command) { return count(command, command) > 0; };
   name_rally_points(static_cast<std::size_t>(count(kRallyPoint, kRallyPoint)), plan_);
   if (count(kFencePolygonIn, kFenceCircleOut) > 0) note_fence(plan_);
-  if (count(kDoLandStart, kDoLandStart) > 0) {
-    name_returns("the plan has a landing (DO_LAND_START), and the vehicle may fly to it instead of the home", plan_);
+  const bool is_ardupilot = zero_height_ == ZeroHeight::keeps || zero_height_ == ZeroHeight::keeps_here;
+  const bool lands = !is_ardupilot && (has(kNavLand) || has(kNavVtolLand));
+  const char* const way = has(kDoLandStart)         ? "a landing (DO_LAND_START)"
+                          : has(kDoReturnPathStart) ? "a way back (DO_RETURN_PATH_START)"
+                                                    : "a landing";
+  if (has(kDoLandStart) || has(kDoReturnPathStart) || lands) {
+    name_returns(std::string("the plan has ") + way + ", and the vehicle may fly to it instead of the home", plan_);
   }
 }
 
@@ -356,11 +375,9 @@ bool Runner::come_on_arc(const MissionItem& item) {
 
 /// What is not known: it may move the vehicle if it is one of navigation or has a position.
 void Runner::leave_out(const MissionItem& item) {
-  const auto* const mover = std::find_if(std::begin(kMovers), std::end(kMovers),
-                                         [&](const Mover& one) { return one.command == item.command; });
+  const Mover* const mover = mover_of(item.command);
   const std::string number = "command " + std::to_string(item.command);
-  constexpr int kLastOfNavigation = 95;  // MAV_CMD_NAV_LAST
-  if (mover != std::end(kMovers)) {
+  if (mover) {
     not_judged(item, number + ", " + mover->name + ", moves the vehicle in a way that is not followed here");
   } else if (item.command <= kLastOfNavigation || is_given(item.parameters[4], item.parameters[5])) {
     not_judged(item, number + " is not known here, and may move the vehicle");
@@ -396,7 +413,13 @@ bool Runner::set(const MissionItem& item) {
     case kDoSetParameter:
       ++settings_;
       return true;
-    case kDoLandStart:  // look_for_fences_and_returns
+    case kDoReturnPathStart:  // look_for_fences_and_returns
+    case kDoLandStart:
+      return true;
+    case kArmDisarm:  // 1: arms
+      if (p[0] != 1 && !plan_.items.empty() && plan_.items.back().kind != PlanItemKind::land) {
+        not_judged(item, "it disarms the vehicle in flight (COMPONENT_ARM_DISARM)");
+      }
       return true;
     case kConditionYaw:
       if (p[3] == 0 && !std::isnan(p[0])) yaw_deg_ = p[0];
@@ -494,6 +517,10 @@ void Runner::add_notes() {
 }
 
 }  // namespace
+
+bool is_of_movement(int command) {
+  return (command > kNavWaypoint && command <= kLastOfNavigation) || mover_of(command);
+}
 
 PlanPosition position_of(const MissionItem& item) {
   const double latitude = item.parameters[4], longitude = item.parameters[5];

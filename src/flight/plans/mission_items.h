@@ -33,11 +33,13 @@ enum MissionCommand : int {
   kDoChangeSpeed = 178,
   kDoSetHome = 179,
   kDoSetParameter = 180,
+  kDoReturnPathStart = 188,
   kDoLandStart = 189,
   kDoSetRoiLocation = 195,
   kDoSetRoiNone = 197,
   kDoSetRoi = 201,
   kDoMountControl = 205,
+  kArmDisarm = 400,
   kDoGimbalPitchYaw = 1000,
   kImageStart = 2000,
   kVideoStart = 2500,
@@ -91,6 +93,9 @@ void name_rally_points(std::size_t count, FlightPlan& plan);
 
 /// That the plan has a fence: a flight is judged by the zones of its mission alone.
 void note_fence(FlightPlan& plan);
+
+/// Whether the command does something else than to fly straight to a waypoint, as those of navigation do.
+bool is_of_movement(int command);
 
 /// Where an item is, if its frame is one of the earth. Throws Error(input) for one that is not.
 PlanPosition position_of(const MissionItem& item);

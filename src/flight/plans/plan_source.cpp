@@ -125,20 +125,17 @@ void join_at_antimeridian(std::vector<PlanTrack>& tracks, std::size_t first) {
     const bool is_level = std::isnan(a.height_m) ? std::isnan(b.height_m) : std::abs(a.height_m - b.height_m) <= kSameM;
     return is_cut && is_level;
   };
-  std::vector<PlanTrack> joined(std::make_move_iterator(tracks.begin()),
-                                std::make_move_iterator(tracks.begin() + static_cast<std::ptrdiff_t>(first)));
-  for (std::size_t i = first; i < tracks.size(); ++i) {
-    std::vector<PlanItem>& items = tracks[i].items;
-    const bool goes_on =
-        joined.size() > first && !items.empty() && meets(joined.back().items.back().position, items.front().position);
-    if (goes_on) {
-      joined.back().items.insert(joined.back().items.end(), std::make_move_iterator(items.begin() + 1),
-                                 std::make_move_iterator(items.end()));
-    } else {
-      joined.push_back(std::move(tracks[i]));
+  if (first >= tracks.size()) return;
+  std::size_t last = first;  // of those that are joined
+  for (std::size_t i = first + 1; i < tracks.size(); ++i) {
+    std::vector<PlanItem>&items = tracks[i].items, &before = tracks[last].items;
+    if (!items.empty() && !before.empty() && meets(before.back().position, items.front().position)) {
+      before.insert(before.end(), std::make_move_iterator(items.begin() + 1), std::make_move_iterator(items.end()));
+    } else if (++last != i) {
+      tracks[last] = std::move(tracks[i]);
     }
   }
-  tracks = std::move(joined);
+  tracks.resize(last + 1);
 }
 
 PlanItem& new_item(PlanTrack& track, std::size_t& total, const std::string& place, const PlanSource& source) {

@@ -44,9 +44,13 @@ long long id_of(const json& item, const std::string& where) {
   return id >= 0 && id < 1e15 ? std::llround(id) : -1;
 }
 
-bool is_true(const json& object, const char* key) {
+/// Numbers are flags, too: 0 is false.
+bool flag(const json& object, const char* key, bool otherwise, const std::string& where) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_boolean() && found->get<bool>();
+  if (found == object.end() || found->is_null()) return otherwise;
+  if (found->is_boolean()) return found->get<bool>();
+  if (found->is_number()) return found->get<double>() != 0;
+  PlanSource::fail_at(ErrorCode::plan_syntax, where, in_quotes(key) + " is neither true nor false", "correct it");
 }
 
 class GroundStationPlan {
@@ -261,9 +265,9 @@ class GroundStationPlan {
     if (camera == style.end() || !camera->is_object()) return false;
     const double height = member_or_nan(*camera, "DistanceToSurface", where);
     const double mode = member_or_nan(*camera, "DistanceMode", where);  // 1: above home, 2: above sea level
-    const bool is_relative = is_true(*camera, "DistanceToSurfaceRelative") || mode == 1;
+    const bool is_relative = flag(*camera, "DistanceToSurfaceRelative", false, where) || mode == 1;
     const bool is_known = is_relative || mode == 2 || camera->contains("DistanceToSurfaceRelative");
-    if (is_true(style, "FollowTerrain") || std::isnan(height) || !is_known || mode > 2) return false;
+    if (flag(style, "FollowTerrain", false, where) || std::isnan(height) || !is_known || mode > 2) return false;
     for (std::size_t i = 0; i < points->size(); ++i) {
       MissionItem& added = new_mission_item();
       added.place = where + ", point " + std::to_string(i + 1);
@@ -276,10 +280,16 @@ class GroundStationPlan {
     return true;
   }
 
-  /// A circle down to the height of the approach, and a slope to the place of landing.
+  /// DO_LAND_START, as the ground station sends it, a circle down to the height of the approach, and a slope to the
+  /// place of landing.
   void add_landing(const json& item, const std::string& where) {
-    const bool is_relative = item.value("altitudesAreRelative", json(true)) != json(false);
-    const auto add_at = [&](std::initializer_list<const char*> keys, int command, double radius) {
+    MissionItem& start = new_mission_item();
+    start.place = where;
+    start.command = kDoLandStart;
+    start.id = id_of(item, where);
+    const bool is_relative = flag(item, "altitudesAreRelative", true, where);
+    // `relative`: in version 1 each of the two heights has a flag of its own.
+    const auto add_at = [&](std::initializer_list<const char*> keys, const char* relative, int command, double radius) {
       for (const char* key : keys) {
         const auto found = item.find(key);
         if (found == item.end()) continue;
@@ -287,8 +297,7 @@ class GroundStationPlan {
         MissionItem& added = new_mission_item();
         added.place = where;
         added.command = command;
-        added.frame = is_relative ? kGlobalRelative : kGlobal;
-        added.id = command == kNavLand ? -1 : id_of(item, where);
+        added.frame = flag(item, relative, is_relative, where) ? kGlobalRelative : kGlobal;
         added.parameters = {
             0, radius, 0, kNoNumber, position.horizontal.y(), position.horizontal.x(), position.height_m};
         return;
@@ -296,12 +305,13 @@ class GroundStationPlan {
       PlanSource::fail_at(ErrorCode::plan_syntax, where, std::string("it has no ") + in_quotes(*keys.begin()),
                           "save the plan anew with the ground station");
     };
-    const double radius = member_or_nan(item, "loiterRadius", where);
-    const bool clockwise = item.value("loiterClockwise", json(true)) != json(false);
-    const bool circles = item.value("useLoiterToAlt", json(true)) != json(false) && radius > 0;
-    add_at({"landingApproachCoordinate", "finalApproachCoordinate", "loiterCoordinate"},
+    const double stated = member_or_nan(item, "loiterRadius", where);
+    const double radius = std::isnan(stated) ? 0 : stated;  // 0: that of the vehicle
+    const bool clockwise = flag(item, "loiterClockwise", true, where);
+    const bool circles = flag(item, "useLoiterToAlt", true, where);
+    add_at({"landingApproachCoordinate", "finalApproachCoordinate", "loiterCoordinate"}, "loiterAltitudeRelative",
            circles ? kNavLoiterToAltitude : kNavWaypoint, circles ? (clockwise ? radius : -radius) : 0);
-    add_at({"landCoordinate"}, kNavLand, 0);
+    add_at({"landCoordinate"}, "landAltitudeRelative", kNavLand, 0);
   }
 
   const PlanSource& source_;

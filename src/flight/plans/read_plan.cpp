@@ -26,7 +26,8 @@ using internal::io::ZipProblem;
 constexpr const char* kPlanAdvice =
     "give a .plan of QGroundControl, a table of waypoints, KML, KMZ, GPX, GeoJSON, or a CSV table with a header";
 
-/// What is in a KMZ archive: DJI's waylines, or else "doc.kml" or the first KML.
+/// What is in a KMZ archive: the one KML or WPML. DJI's waylines have the template that they were made from beside
+/// them.
 std::string unpacked(const plans::PlanSource& source) {
   const auto fail = [&](const ZipProblem& problem) {
     const bool is_too_large = problem.kind == ZipProblem::Kind::too_large;
@@ -35,13 +36,29 @@ std::string unpacked(const plans::PlanSource& source) {
                 "give a KMZ file, or the .kml or .wpml that is in it");
   };
   try {
-    return internal::io::unzipped(source.text, "wpmz/waylines.wpml", ".wpml", kMostPlanBytes);
-  } catch (const ZipProblem& problem) {
-    // One that is damaged is not replaced by the other one, which may be another flight.
-    if (problem.kind != ZipProblem::Kind::missing) fail(problem);
-  }
-  try {
-    return internal::io::unzipped(source.text, "doc.kml", ".kml", kMostPlanBytes);
+    std::vector<std::string> names = internal::io::names_in_zip(source.text, ".wpml");
+    std::vector<std::string> drawn = internal::io::names_in_zip(source.text, ".kml");
+    const char* const kind = names.empty() ? ".kml" : ".wpml";
+    const auto is_template = [](const std::string& name) {
+      return name == "template.kml" || name.ends_with("/template.kml");
+    };
+    const auto made_from = names.empty() ? drawn.end() : std::find_if(drawn.begin(), drawn.end(), is_template);
+    if (made_from != drawn.end()) drawn.erase(made_from);
+    names.insert(names.end(), drawn.begin(), drawn.end());
+    if (names.size() > 1) {
+      constexpr std::size_t kMostNamed = 5;
+      std::string list;
+      for (std::size_t i = 0; i < names.size() && i < kMostNamed; ++i) {
+        list += (list.empty() ? "" : ", ") + in_quotes(names[i]);
+      }
+      source.fail(ErrorCode::value_unsupported, "",
+                  "the archive holds " + std::to_string(names.size()) +
+                      " files of plans, and which of them is flown is "
+                      "not said: " +
+                      list + (names.size() > kMostNamed ? ", ..." : ""),
+                  "unpack it, and give the one that is to be flown");
+    }
+    return internal::io::unzipped(source.text, names.empty() ? "" : names.front(), kind, kMostPlanBytes);
   } catch (const ZipProblem& problem) {
     fail(problem);
   }

@@ -290,11 +290,14 @@ class Waylines {
     PlanItem takeoff;
     takeoff.kind = PlanItemKind::takeoff;
     takeoff.place = source_.place("takeOffRefPoint");
-    const PlanPosition& first = plan_.items.front().position;
-    // "Safely": it climbs to the height of the first waypoint before it goes there, if that is higher.
-    const bool climbs = xml_.child_text(config, "flyToWaylineMode") == "safely" && first.datum == HeightDatum::home;
-    takeoff.position = {plan_.home->horizontal, climbs ? std::fmax(security, first.height_m) : security,
-                        HeightDatum::home};
+    takeoff.position = {plan_.home->horizontal, security, HeightDatum::home};
+    const std::string_view mode = xml_.child_text(config, "flyToWaylineMode");
+    if (mode != "safely" && mode != "pointToPoint") {
+      not_judged_.name(source_.place("flyToWaylineMode"),
+                       "how the aircraft flies to the first waypoint is not known here: " + in_quotes(mode));
+    }
+    plan_.items.front().way = mode == "safely" ? PlanWay::level : PlanWay::either;
+    plan_.items.front().cut_m = 0;  // it is not turned before the first waypoint
     plan_.items.insert(plan_.items.begin(), takeoff);
   }
 
