@@ -385,9 +385,9 @@ void Locator::add_level_way(const Corner& to, PlanWay way) {
   Corner above = down;
   above.above_ground_m.reset();
   above.position.z() = from.position.z();
-  add(above);
-  if (way == PlanWay::level) return;
-  add(down);
+  if (way == PlanWay::level) return add(above);
+  add(above, true);
+  add(down, true);
   add_back_to(from, down);
 }
 
