@@ -1,11 +1,18 @@
 #include "maps/city/clipping.h"
 
 #include <algorithm>
+#include <chrono>
 #include <clipper.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <future>
+#include <memory>
+#include <optional>
+#include <thread>
 #include <utility>
+
+#include "maps/city/interruption.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -47,23 +54,48 @@ ClipperLib::ClipType clipper_type(ClipOperation operation) {
   return ClipperLib::ctIntersection;
 }
 
+/// Clipper cannot be stopped: what may take long is done by a thread of its own, which is left to itself when this one
+/// is told to stop. Nothing where Clipper fails, which it should not.
+std::optional<Paths> execute(const std::shared_ptr<ClipperLib::Clipper>& clipper, ClipOperation operation,
+                             FillRule rule, std::size_t corners) {
+  constexpr std::size_t kMany = 500;
+  constexpr std::chrono::milliseconds kPause{10};
+  const ClipperLib::ClipType type = clipper_type(operation);
+  const ClipperLib::PolyFillType fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
+  std::packaged_task<std::optional<Paths>()> task([clipper, type, fill]() -> std::optional<Paths> {
+    Paths paths;
+    return clipper->Execute(type, paths, fill, fill) ? std::optional(std::move(paths)) : std::nullopt;
+  });
+  std::future<std::optional<Paths>> paths = task.get_future();
+  if (corners < kMany || !Interruption::is_followed()) {
+    task();
+  } else {
+    std::thread(std::move(task)).detach();
+    while (paths.wait_for(kPause) != std::future_status::ready) Interruption::check();
+  }
+  return paths.get();
+}
+
 /// Runs Clipper, and makes polygons of what comes out.
 std::vector<GridPolygon> run_clipper(const std::vector<const GridRing*>& subject,
                                      const std::vector<const GridRing*>& clip, ClipOperation operation, FillRule rule,
                                      std::int64_t scale) {
-  ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
-  for (const GridRing* ring : subject) clipper.AddPath(to_path(*ring, scale), ClipperLib::ptSubject, true);
-  for (const GridRing* ring : clip) clipper.AddPath(to_path(*ring, scale), ClipperLib::ptClip, true);
-  const ClipperLib::PolyFillType fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
-  Paths paths;
-  if (!clipper.Execute(clipper_type(operation), paths, fill, fill)) {  // it should not fail; this holds all of it
-    GridRing all;
-    for (const GridRing* ring : subject) all.insert(all.end(), ring->begin(), ring->end());
-    paths = {to_path(hull_of(std::move(all)), scale)};
+  const auto clipper = std::make_shared<ClipperLib::Clipper>();
+  clipper->StrictlySimple(true);
+  GridRing all;  // of the subject
+  std::size_t corners = 0;
+  for (const GridRing* ring : subject) {
+    clipper->AddPath(to_path(*ring, scale), ClipperLib::ptSubject, true);
+    all.insert(all.end(), ring->begin(), ring->end());
   }
+  for (const GridRing* ring : clip) {
+    clipper->AddPath(to_path(*ring, scale), ClipperLib::ptClip, true);
+    corners += ring->size();
+  }
+  const auto paths = execute(clipper, operation, rule, corners + all.size());
+  if (!paths) return {{hull_of(std::move(all)), {}}};
   std::vector<GridRing> rings;
-  for (const Path& path : paths) {
+  for (const Path& path : *paths) {
     GridRing ring = tidied(to_ring(path, scale), Straight::exact);
     if (!ring.empty()) rings.push_back(std::move(ring));
   }

@@ -17,6 +17,11 @@ class Interruption {
   static void tick() {
     if (const core::ProgressReporter* const progress = current()) progress->tick();
   }
+  /// The same for those that wait themselves.
+  static void check() {
+    if (const core::ProgressReporter* const progress = current()) progress->check();
+  }
+  static bool is_followed() { return current() != nullptr && current()->is_followed(); }
 
  private:
   static const core::ProgressReporter*& current() {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "maps/city/clipping.h"
@@ -46,19 +47,26 @@ std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>
                                                      Crossing crossing) {
   struct Side {
     GridPoint from, to;
-    std::int64_t left = 0, right = 0;
+    std::int64_t low = 0, high = 0;  // along the axis on which sides are the shorter
     std::size_t begin = 0, end = 0;
   };
   std::vector<Side> sides;
   std::size_t corners = 0;
+  double x = 0, y = 0;
   for (const GridRing& ring : rings) {
     for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
       const GridPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      sides.push_back({a, b, std::min(a.x, b.x), std::max(a.x, b.x), corners + i, corners + (i + 1) % ring.size()});
+      sides.push_back({a, b, 0, 0, corners + i, corners + (i + 1) % ring.size()});
+      x += static_cast<double>(std::abs(a.x - b.x));
+      y += static_cast<double>(std::abs(a.y - b.y));
     }
     corners += ring.size();
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.left < b.left; });
+  for (Side& side : sides) {
+    std::tie(side.low, side.high) =
+        x <= y ? std::minmax({side.from.x, side.to.x}) : std::minmax({side.from.y, side.to.y});
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.low < b.low; });
   const auto parts = [](const Side& side, const GridPoint& a, const GridPoint& b) {
     const std::int64_t p = turn(side.from, side.to, a), q = turn(side.from, side.to, b);
     return (p < 0 && q > 0) || (p > 0 && q < 0);
@@ -74,7 +82,7 @@ std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>
   for (std::size_t i = 0; i < sides.size(); ++i) {
     Interruption::tick();
     const Side& a = sides[i];
-    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right + near; ++j) {
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].low <= a.high + near; ++j) {
       const Side& b = sides[j];
       const bool through = parts(a, b.from, b.to) && parts(b, a.from, a.to);
       if (!through && (crossing == Crossing::through || !touch(a, b))) continue;
