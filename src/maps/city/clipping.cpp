@@ -1,15 +1,12 @@
 #include "maps/city/clipping.h"
 
 #include <algorithm>
-#include <chrono>
 #include <clipper.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <future>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "maps/city/interruption.h"
@@ -54,26 +51,17 @@ ClipperLib::ClipType clipper_type(ClipOperation operation) {
   return ClipperLib::ctIntersection;
 }
 
-/// Clipper cannot be stopped: what may take long is done by a thread of its own, which is left to itself when this one
-/// is told to stop. Nothing where Clipper fails, which it should not.
+/// Nothing where Clipper fails, which it should not.
 std::optional<Paths> execute(const std::shared_ptr<ClipperLib::Clipper>& clipper, ClipOperation operation,
                              FillRule rule, std::size_t corners) {
   constexpr std::size_t kMany = 500;
-  constexpr std::chrono::milliseconds kPause{10};
   const ClipperLib::ClipType type = clipper_type(operation);
   const ClipperLib::PolyFillType fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
-  std::packaged_task<std::optional<Paths>()> task([clipper, type, fill]() -> std::optional<Paths> {
+  const auto run = [clipper, type, fill]() -> std::optional<Paths> {
     Paths paths;
     return clipper->Execute(type, paths, fill, fill) ? std::optional(std::move(paths)) : std::nullopt;
-  });
-  std::future<std::optional<Paths>> paths = task.get_future();
-  if (corners < kMany || !Interruption::is_followed()) {
-    task();
-  } else {
-    std::thread(std::move(task)).detach();
-    while (paths.wait_for(kPause) != std::future_status::ready) Interruption::check();
-  }
-  return paths.get();
+  };
+  return corners < kMany ? run() : Interruption::run_apart(run);
 }
 
 /// Runs Clipper, and makes polygons of what comes out.

@@ -192,8 +192,8 @@ Chains::Chains(std::vector<NodeLocations> lines)
   }
 }
 
-// A tree of all lines that hang together, and a ring for each line that is not in it. Every ring of these lines is a sum
-// of such rings: it cannot go round a place that none of them does.
+// A tree of all lines that hang together, and a ring for each line that is not in it. Every ring of these lines is a
+// sum of such rings: it cannot go round a place that none of them does.
 void Chains::join_from(std::size_t first) {
   constexpr std::size_t kMostPlaces = 1'000'000;  // in rings: more than drawing explains, and nobody knows which
   Tree tree;
