@@ -137,7 +137,7 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   tin.add_middles(middles(grid, samples, tin.add_candidates(samples.inner)));
   // Half of the error on either side, and then up by as much: all of it lies above the posts.
   grow(tin, max_error_m / 2, progress);
-  tin.fold_up(max_error_m / 2);
+  tin.fold_up(max_error_m / 2, progress);
   const std::vector<bool> all(tin.facets().size(), true);
   Triangulation result{
       raised_over(TriangulatedTerrain(mesh_of(tin, all), progress), {samples.border, samples.posts}, progress), 0,
