@@ -178,6 +178,44 @@ TEST(Cancelling, BuildingsOfManyCorners) {
   }
 }
 
+double deafness_of_city_s(const std::string& objects) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "map.osm", osm_xml(objects));
+  return longest_deafness_s(
+      [&](const Progress& progress) { build_city(directory / "map.osm", CityOptions(), progress); });
+}
+
+// Clipper, which joins them, takes seconds and asks nobody.
+TEST(Cancelling, ARelationOfSquaresAcrossEachOther) {
+  constexpr int kSquares = 2000;
+  std::string nodes, ways;
+  std::vector<std::string> members;
+  for (int i = 0; i < kSquares; ++i) {
+    nodes += osm_square(4 * i + 1, 11 + 4e-7 * i, 48 + 4e-7 * (i * 7919 % kSquares), 6e-4);
+    ways += osm_way(i + 1, osm_ring(4 * i + 1));
+    members.push_back("way " + std::to_string(i + 1) + " outer");
+  }
+  const std::string building = osm_tag("type", "multipolygon") + osm_tag("building", "yes");
+  EXPECT_LT(deafness_of_city_s(nodes + ways + osm_relation(1, members, building)), kPromised);
+}
+
+// One hole crosses the outline, so that all are looked at.
+TEST(Cancelling, HolesInAnOutlineOfManyCorners) {
+  constexpr int kCorners = 10000, kHoles = 1000;
+  const Positions ring = star(kCorners, 0.9999);
+  std::string nodes = nodes_of(ring), ways = osm_way(1, closed_ring(kCorners));
+  std::vector<std::string> members = {"way 1 outer"};
+  for (int i = 0; i < kHoles; ++i) {
+    const long first = kCorners + 4 * i + 1;
+    const double west = i == 0 ? 11.0014 : 11 + 2e-5 * (i % 40 - 20), south = 48 + 2e-5 * (i / 40 - 12);
+    nodes += osm_square(first, west, south, i == 0 ? 3e-4 : 1e-5);
+    ways += osm_way(i + 2, osm_ring(first));
+    members.push_back("way " + std::to_string(i + 2) + " inner");
+  }
+  const std::string building = osm_tag("type", "multipolygon") + osm_tag("building", "yes");
+  EXPECT_LT(deafness_of_city_s(nodes + ways + osm_relation(1, members, building)), kPromised);
+}
+
 TEST(Cancelling, TemplatesOfCityJson) {
   constexpr int kTriangles = 20000, kInstances = 400;
   std::string vertices, triangles, objects;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -14,6 +15,7 @@
 #include "geo/local_frame.h"
 #include "support/internals.h"
 #include "support/map_text.h"
+#include "support/osm_maps.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -365,6 +367,61 @@ TEST_F(CityTest, MendsAnOutlineThatCrossesItself) {
   const City city = build(map);
   EXPECT_NE(reason_of(city, "way/1"), "");
   EXPECT_NEAR(object_volume(city.scene, "way/1"), 400 * 10, 10) << "two corners may have been swapped";
+}
+
+/// Positions in 1e-7 degrees, two of each; ways of their numbers from 1 on.
+std::string exact_map(const std::vector<std::array<int, 2>>& positions, const std::vector<std::vector<long>>& ways,
+                      const std::function<std::string(long way)>& tags) {
+  std::string nodes, all;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    nodes += testing::osm_node(static_cast<long>(i) + 1, positions[i][0] * 1e-7, positions[i][1] * 1e-7);
+  }
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const long way = static_cast<long>(i) + 1;
+    all += testing::osm_way(way, ways[i], tags(way));
+  }
+  return nodes + all;
+}
+
+CityOptions round_place(double latitude, double longitude, double radius_m) {
+  CityOptions options;
+  options.region.center_deg = {latitude, longitude};
+  options.region.radius_m = radius_m;
+  return options;
+}
+
+// Rounding to the grid moves a corner that lies on a side of another piece to and fro across it.
+TEST_F(CityTest, PiecesThatGoOnCrossingByLessThanAUnitAreBuilt) {
+  const std::string ways = exact_map(
+      {{669000, 930000}, {689000, 925000}, {674000, 925000}, {689000, 920000}, {694000, 920000}, {699000, 920000},
+       {699000, 925000}, {699000, 930000}, {699000, 935000}, {694000, 935000}, {689000, 935000}, {689000, 930000}},
+      {{1, 2, 3, 1}, {4, 5, 6, 7, 8, 9, 10, 11, 12, 2, 4}}, [](long) { return std::string(); });
+  write_bytes(folder_ / "city.osm",
+              testing::osm_xml(ways + testing::osm_relation(1, {"way 1 outer", "way 2 outer"},
+                                                            testing::osm_tag("type", "multipolygon") +
+                                                                testing::osm_tag("building", "yes"))));
+  const City city = build_city(folder_ / "city.osm", round_place(0.12965, 0.12965, 20000));
+  EXPECT_NEAR(record_of(city, "relation/1").footprint_m2, (0.5 * 15 * 5 + 10 * 15) * 123.09, 200);
+}
+
+// Its parts cut two holes into it that touch each other and its side.
+TEST_F(CityTest, TheHullOfWhatCannotBeDrawnApartStandsIn) {
+  const std::string ways = exact_map(
+      {{575600, 550400}, {575167, 549985}, {575582, 549552}, {576015, 549967}, {575311, 550123}, {575239, 550054},
+       {575308, 549982}, {575380, 550051}, {575383, 550193}, {575519, 549907}, {575591, 549976}},
+      {{1, 2, 3, 4, 1}, {5, 6, 7, 8, 5}, {9, 5, 10, 11, 9}}, [](long way) {
+        return way == 1 ? testing::osm_tag("building", "yes") + testing::osm_tag("height", "30")
+                        : testing::osm_tag("building:part", "yes") + testing::osm_tag("height", way == 2 ? "20" : "30");
+      });
+  write_bytes(folder_ / "city.osm", testing::osm_xml(ways));
+  const City city = build_city(folder_ / "city.osm", round_place(0.0528976, 0.0539891, 5000));
+  ASSERT_EQ(city.scene.ledger.size(), 1u);
+  const LedgerEntry& entry = city.scene.ledger[0];
+  EXPECT_TRUE(entry.stand_in);
+  ASSERT_TRUE(entry.box);
+  EXPECT_EQ(entry.box->max.z(), 30);
+  testing::expect_wording(entry.reason + "; stands in: " + entry.instead);
+  EXPECT_GT(object_volume(city.scene, "way/1"), 0.9 * 600 * 600 * 1e-4 * 123.09 * 0.3);
 }
 
 TEST_F(CityTest, SaysWhatItMadeUp) {

@@ -20,10 +20,14 @@
 #include "support/osm_maps.h"
 #include "support/random.h"
 #include "support/shared_data.h"
+#include "support/wording.h"
 
 namespace vantage::internal::osm {
 namespace {
 
+using testing::osm_node;
+using testing::osm_relation;
+using testing::osm_way;
 using testing::read_bytes;
 
 /// Rings as text from their smallest corner on, rings and polygons in a fixed order. Every ring is turned
@@ -334,8 +338,94 @@ TEST(Chains, CloseARingWhereTheyComeBack) {
   ASSERT_EQ(two.rings().size(), 2u);
   EXPECT_EQ(two.rings()[0].size() + two.rings()[1].size(), 6u);
   EXPECT_TRUE(two.loose().empty());
-  EXPECT_EQ(Chains({a, a, b, b}).rings().size(), 2u);
+  EXPECT_FALSE(two.fault());
   EXPECT_EQ(Chains({a, b, c}).loose().size(), 3u);
+  EXPECT_EQ(Chains({a, a, b, b}).rings().size(), 1u);
+  EXPECT_TRUE(Chains({a, a, b, b}).fault()) << "twice is no hole";
+}
+
+// A side of two rings that both draw, in pieces.
+TEST(Chains, ASideOfTwoRingsIsNoFault) {
+  const NodeLocations left = {{4, 0}, {0, 0}, {0, 4}, {4, 4}}, right = {{4, 0}, {8, 0}, {8, 4}, {4, 4}};
+  const NodeLocations side = {{4, 0}, {4, 4}};
+  const Chains both({side, left, right, side});
+  EXPECT_EQ(both.rings().size(), 2u);
+  EXPECT_FALSE(both.fault());
+  EXPECT_TRUE(both.loose().empty());
+}
+
+/// `pieces`: of outer rings; nodes by their numbers, (x, y) is 10 x + y + 1. Small squares elsewhere are sound.
+Extract pieces_extract(const std::vector<std::vector<long>>& pieces) {
+  std::string nodes, ways = osm_way(1, testing::osm_ring(1001));
+  std::vector<std::string> members = {"way 1 outer"};
+  for (long x = 0; x < 10; ++x) {
+    for (long y = 0; y < 10; ++y) {
+      nodes += osm_node(10 * x + y + 1, 11 + 1e-4 * static_cast<double>(x), 48 + 1e-4 * static_cast<double>(y));
+    }
+  }
+  nodes += testing::osm_square(1001, 11.01, 48, 1e-4);
+  for (const std::vector<long>& piece : pieces) {
+    const long way = static_cast<long>(members.size()) + 1;
+    ways += osm_way(way, piece);
+    members.push_back("way " + std::to_string(way) + " outer");
+  }
+  return testing::extract_of(
+      nodes + ways +
+      osm_relation(1, members, testing::osm_tag("type", "multipolygon") + testing::osm_tag("building", "yes")));
+}
+
+bool holds(const Area& area, double x, double y) {
+  return std::any_of(area.polygons.begin(), area.polygons.end(), [&](const Polygon& polygon) {
+    bool inside = false;
+    for (std::size_t i = 0; i < polygon.outer.size(); ++i) {
+      const LonLat a = polygon.outer[i], b = polygon.outer[(i + 1) % polygon.outer.size()];
+      const double east = 11 + 1e-4 * x, north = 48 + 1e-4 * y;
+      if ((a.latitude_deg > north) == (b.latitude_deg > north)) continue;
+      const double part = (north - a.latitude_deg) / (b.latitude_deg - a.latitude_deg);
+      if (east < a.longitude_deg + part * (b.longitude_deg - a.longitude_deg)) inside = !inside;
+    }
+    return inside;
+  });
+}
+
+// Two squares that overlap, in pieces from one crossing to the other: which of them join is not said.
+TEST(OuterPieces, HoldWhatAnyRingOfThemGoesRoundInWhicheverOrder) {
+  const std::vector<std::vector<long>> pieces = {{43, 41, 1, 5, 25}, {43, 45, 25}, {43, 23, 25}, {43, 63, 67, 27, 25}};
+  std::vector<std::size_t> order = {0, 1, 2, 3};
+  do {
+    std::vector<std::vector<long>> ordered;
+    for (const std::size_t i : order) ordered.push_back(pieces[i]);
+    const Extract extract = pieces_extract(ordered);
+    ASSERT_EQ(extract.areas.size(), 1u);
+    EXPECT_NE(testing::find_problem(extract, testing::relation_id(1)), nullptr);
+    for (const auto& [x, y] : {std::pair{1.0, 1.0}, {3.0, 3.5}, {3.5, 2.5}, {5.0, 5.0}}) {
+      EXPECT_TRUE(holds(extract.areas[0], x, y)) << x << " " << y << " first " << order[0];
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(OuterPieces, OfARingThatIsThereTwiceCutElsewhereHoldIt) {
+  const Extract extract = pieces_extract({{1, 41}, {45, 41, 1}, {1, 5, 45}, {45, 41}, {1, 5, 45}});
+  ASSERT_EQ(extract.areas.size(), 1u);
+  EXPECT_TRUE(holds(extract.areas[0], 2, 2));
+  const Problem* const problem = testing::find_problem(extract, testing::relation_id(1));
+  ASSERT_NE(problem, nullptr);
+  testing::expect_wording(problem->what);
+}
+
+// The assembler takes sides that are there twice away before it looks for crossings.
+TEST(DoubledSides, HideNoCrossing) {
+  const auto extract_of_way = [](const std::vector<long>& nodes) {
+    return testing::extract_of(osm_node(1, 11, 48) + osm_node(2, 11.0002, 48) + osm_node(3, 11, 48.0001) +
+                               osm_node(4, 11.0001, 48.0002) + osm_way(1, nodes, testing::osm_tag("building", "yes")));
+  };
+  const Extract crossing = extract_of_way({3, 4, 1, 2, 3, 4, 1, 3});
+  ASSERT_EQ(crossing.areas.size(), 1u);
+  EXPECT_EQ(crossing.areas[0].polygons[0].outer.size(), 7u) << "as it is drawn";
+  const Problem* const problem = testing::find_problem(crossing, testing::way_id(1));
+  ASSERT_NE(problem, nullptr);
+  testing::expect_wording(problem->what);
+  EXPECT_EQ(testing::find_problem(extract_of_way({1, 2, 4, 2, 3, 1}), testing::way_id(1)), nullptr) << "a spur";
 }
 
 }  // namespace

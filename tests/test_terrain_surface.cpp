@@ -95,6 +95,17 @@ bool inside_ring(const std::vector<Vec2>& ring, const Vec2& at) {
   return std::abs(turn) > 3;
 }
 
+TEST(TriangulatedTerrain, StopsWhereItIsToldTo) {
+  testing::Random random(5);
+  const Mesh mesh = random_surface(random, 100).mesh();
+  const core::ProgressReporter::AskAlways always;
+  int asked = 0;
+  const Progress progress = [&](std::string_view, double) { return ++asked < 50; };
+  const core::ProgressReporter reporter(progress);
+  EXPECT_THROW(TriangulatedTerrain(mesh, reporter), Error);
+  EXPECT_EQ(asked, 50);
+}
+
 TEST(TriangulatedTerrain, RangeOverAPolygonIsExact) {
   testing::Random random(22);
   for (int run = 0; run < 60; ++run) {

@@ -59,7 +59,7 @@ bool is_inside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& 
 
 }  // namespace
 
-TriangulatedTerrain::TriangulatedTerrain(Mesh mesh) : mesh_(std::move(mesh)) {
+TriangulatedTerrain::TriangulatedTerrain(Mesh mesh, const core::ProgressReporter& progress) : mesh_(std::move(mesh)) {
   if (mesh_.empty()) throw Error(ErrorCode::internal_defect, "a surface without triangles", "terrain", "");
   const Box box = bounding_box(mesh_);
   min_ = flat(box.min);
@@ -70,8 +70,8 @@ TriangulatedTerrain::TriangulatedTerrain(Mesh mesh) : mesh_(std::move(mesh)) {
   columns_ = std::clamp(static_cast<int>(std::min(size.x() / cell_m, 1e6)), 1, kMaxCells);
   rows_ = std::clamp(static_cast<int>(std::min(size.y() / cell_m, 1e6)), 1, kMaxCells);
   cells_per_m_ = {columns_ / size.x(), rows_ / size.y()};
-  index_triangles();
-  index_vertices();
+  index_triangles(progress);
+  index_vertices(progress);
 }
 
 int TriangulatedTerrain::cell_column(double x) const {
@@ -87,20 +87,24 @@ std::uint32_t TriangulatedTerrain::cell(int column, int row) const {
 /// Lists each item in the cells that `cells_of(item, add)` adds: counted first, then placed.
 template <typename CellsOf>
 static void fill_cells(std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& items, std::size_t cells,
-                       std::size_t count, const CellsOf& cells_of) {
+                       std::size_t count, const CellsOf& cells_of, const core::ProgressReporter& progress) {
   first.assign(cells + 1, 0);
-  for (std::uint32_t item = 0; item < count; ++item) cells_of(item, [&](std::uint32_t cell) { ++first[cell + 1]; });
+  for (std::uint32_t item = 0; item < count; ++item) {
+    progress.tick();
+    cells_of(item, [&](std::uint32_t cell) { ++first[cell + 1]; });
+  }
   for (std::size_t c = 0; c < cells; ++c) first[c + 1] += first[c];
   items.resize(first.back());
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t item = 0; item < count; ++item) {
+    progress.tick();
     cells_of(item, [&](std::uint32_t cell) { items[next[cell]++] = item; });
   }
 }
 
 /// Into the cells that each triangle meets, row by row of cells: the part of it in a row lies between the ends of its
 /// sides' parts there.
-void TriangulatedTerrain::index_triangles() {
+void TriangulatedTerrain::index_triangles(const core::ProgressReporter& progress) {
   const auto cells_of = [&](std::uint32_t t, const auto& add) {
     std::array<Eigen::Vector2d, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = flat(mesh_.vertices[mesh_.triangles[t][i]]);
@@ -128,14 +132,16 @@ void TriangulatedTerrain::index_triangles() {
     }
   };
   fill_cells(triangles_.first, triangles_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
-             mesh_.triangles.size(), cells_of);
+             mesh_.triangles.size(), cells_of, progress);
 }
 
-void TriangulatedTerrain::index_vertices() {
+void TriangulatedTerrain::index_vertices(const core::ProgressReporter& progress) {
   fill_cells(vertices_.first, vertices_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
-             mesh_.vertices.size(), [&](std::uint32_t v, const auto& add) {
+             mesh_.vertices.size(),
+             [&](std::uint32_t v, const auto& add) {
                add(cell(cell_column(mesh_.vertices[v].x()), cell_row(mesh_.vertices[v].y())));
-             });
+             },
+             progress);
 }
 
 std::optional<TriangulatedTerrain::Found> TriangulatedTerrain::find(const Eigen::Vector2d& at) const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 
@@ -23,8 +24,8 @@ struct Incline {
 class TriangulatedTerrain {
  public:
   /// Triangles that span the rectangle [min, max] of their vertices; none overlap, all counter-clockwise seen from
-  /// above. Made by terrain::triangulate.
-  VANTAGE_INTERNAL_API explicit TriangulatedTerrain(Mesh mesh);
+  /// above. Made by terrain::triangulate. Error(cancelled) when told to stop.
+  VANTAGE_INTERNAL_API explicit TriangulatedTerrain(Mesh mesh, const core::ProgressReporter& progress = {});
 
   const Mesh& mesh() const { return mesh_; }
   /// A triangle over a place, and its height there.
@@ -60,8 +61,8 @@ class TriangulatedTerrain {
   int cell_column(double x) const;
   int cell_row(double y) const;
   std::uint32_t cell(int column, int row) const;
-  void index_triangles();
-  void index_vertices();
+  void index_triangles(const core::ProgressReporter& progress);
+  void index_vertices(const core::ProgressReporter& progress);
   void widen(Range& range, const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Incline& above) const;
 
   Mesh mesh_;

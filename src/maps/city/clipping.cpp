@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 #include <utility>
 
-#include "vantage/error.h"
+#include "maps/city/interruption.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -49,22 +51,39 @@ ClipperLib::ClipType clipper_type(ClipOperation operation) {
   return ClipperLib::ctIntersection;
 }
 
+/// Nothing where Clipper fails, which it should not.
+std::optional<Paths> execute(const std::shared_ptr<ClipperLib::Clipper>& clipper, ClipOperation operation,
+                             FillRule rule, std::size_t corners) {
+  constexpr std::size_t kMany = 500;
+  const ClipperLib::ClipType type = clipper_type(operation);
+  const ClipperLib::PolyFillType fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
+  const auto run = [clipper, type, fill]() -> std::optional<Paths> {
+    Paths paths;
+    return clipper->Execute(type, paths, fill, fill) ? std::optional(std::move(paths)) : std::nullopt;
+  };
+  return corners < kMany ? run() : Interruption::run_apart(run);
+}
+
 /// Runs Clipper, and makes polygons of what comes out.
 std::vector<GridPolygon> run_clipper(const std::vector<const GridRing*>& subject,
                                      const std::vector<const GridRing*>& clip, ClipOperation operation, FillRule rule,
                                      std::int64_t scale) {
-  ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
-  for (const GridRing* ring : subject) clipper.AddPath(to_path(*ring, scale), ClipperLib::ptSubject, true);
-  for (const GridRing* ring : clip) clipper.AddPath(to_path(*ring, scale), ClipperLib::ptClip, true);
-  const ClipperLib::PolyFillType fill = rule == FillRule::even_odd ? ClipperLib::pftEvenOdd : ClipperLib::pftNonZero;
-  Paths paths;
-  if (!clipper.Execute(clipper_type(operation), paths, fill, fill)) {
-    throw Error(ErrorCode::internal_defect, "outlines could not be clipped", "outline",
-                "please report this with the map");
+  const auto clipper = std::make_shared<ClipperLib::Clipper>();
+  clipper->StrictlySimple(true);
+  GridRing all;  // of the subject
+  std::size_t corners = 0;
+  for (const GridRing* ring : subject) {
+    clipper->AddPath(to_path(*ring, scale), ClipperLib::ptSubject, true);
+    all.insert(all.end(), ring->begin(), ring->end());
   }
+  for (const GridRing* ring : clip) {
+    clipper->AddPath(to_path(*ring, scale), ClipperLib::ptClip, true);
+    corners += ring->size();
+  }
+  const auto paths = execute(clipper, operation, rule, corners + all.size());
+  if (!paths) return {{hull_of(std::move(all)), {}}};
   std::vector<GridRing> rings;
-  for (const Path& path : paths) {
+  for (const Path& path : *paths) {
     GridRing ring = tidied(to_ring(path, scale), Straight::exact);
     if (!ring.empty()) rings.push_back(std::move(ring));
   }
@@ -106,8 +125,11 @@ std::vector<GridPolygon> settled(std::vector<GridPolygon> polygons) {
     for (const GridRing& ring : rings) clipping.add(ring);
     polygons = clipping.run_fine(ClipOperation::unite, FillRule::even_odd);
   }
-  throw Error(ErrorCode::internal_defect, "an outline goes on crossing itself", "outline",
-              "please report this with the map");
+  // Where pieces touch they may go on crossing by less than a unit: each for itself is simple, or its hull is.
+  for (GridPolygon& polygon : polygons) {
+    if (meeting_of(rings_of({polygon})).crossing) polygon = {hull_of(polygon.outer), {}};
+  }
+  return polygons;
 }
 
 std::vector<GridRing> widened(const GridRing& line, bool closed, double width) {

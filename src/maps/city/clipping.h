@@ -30,7 +30,8 @@ class Clipping {
   Rings subject_, clip_;
 };
 
-/// Clips until no side crosses another, and tidies. Inside is what lies in an odd number of the rings.
+/// Clips until no side crosses another, and tidies. Inside is what lies in an odd number of the rings. Where rounding
+/// goes on and on, polygons that touch stay as they are, and may overlap by a unit.
 std::vector<GridPolygon> settled(std::vector<GridPolygon> polygons);
 
 /// The outlines of a line of that width, in units of the grid: see widen().

@@ -35,7 +35,23 @@ Operands operands(const std::vector<Footprint>& subject, const std::vector<Footp
   return result;
 }
 
-std::vector<Footprint> clipped(const Operands& operands, ClipOperation operation, std::size_t* slivers = nullptr) {
+/// What of polygons may matter where others are. Not tidy elsewhere.
+std::vector<GridPolygon> near_others(const std::vector<GridPolygon>& polygons, const std::vector<GridPolygon>& others) {
+  GridBox box;
+  for (const GridPolygon& other : others) box.extend(box_of(other.outer));
+  std::vector<GridPolygon> result;
+  for (const GridPolygon& polygon : polygons) {
+    result.push_back({near_box(polygon.outer, box), {}});
+    for (const GridRing& hole : polygon.holes) {
+      if (box.intersects(box_of(hole))) result.back().holes.push_back(near_box(hole, box));
+    }
+  }
+  return result;
+}
+
+std::vector<Footprint> clipped(Operands operands, ClipOperation operation, std::size_t* slivers = nullptr) {
+  operands.other = near_others(operands.other, operands.subject);
+  if (operation == ClipOperation::intersect) operands.subject = near_others(operands.subject, operands.other);
   Clipping clipping;
   clipping.add(operands.subject);
   clipping.add_clip(operands.other);
@@ -133,16 +149,16 @@ std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repai
 }
 
 std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::vector<Footprint>& what) {
-  const Operands both = operands(from, what);
+  Operands both = operands(from, what);
   if (both.other.empty()) return from;
-  return clipped(both, ClipOperation::subtract);
+  return clipped(std::move(both), ClipOperation::subtract);
 }
 
 std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b,
                                  std::size_t* slivers) {
-  const Operands both = operands(a, b);
+  Operands both = operands(a, b);
   if (both.other.empty()) return {};
-  return clipped(both, ClipOperation::intersect, slivers);
+  return clipped(std::move(both), ClipOperation::intersect, slivers);
 }
 
 /// A footprint for each side of a line.

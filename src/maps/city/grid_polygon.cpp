@@ -118,11 +118,8 @@ std::vector<GridPolygon> tidied(const std::vector<GridPolygon>& polygons) {
 std::vector<GridPolygon> nested(const std::vector<GridRing>& rings) {
   std::vector<GridPolygon> result;
   if (rings.size() == 1) return {{turned(rings[0], true), {}}};
-  using Corner = Eigen::Matrix<std::int64_t, 2, 1>;
-  std::vector<Eigen::AlignedBox<std::int64_t, 2>> boxes(rings.size());
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    for (const GridPoint& p : rings[i]) boxes[i].extend(Corner(p.x, p.y));
-  }
+  std::vector<GridBox> boxes;
+  for (const GridRing& ring : rings) boxes.push_back(box_of(ring));
   std::vector<std::vector<std::size_t>> around(rings.size());
   for (std::size_t i = 0; i < rings.size(); ++i) {
     Interruption::tick();
@@ -147,6 +144,7 @@ std::vector<GridPolygon> nested(const std::vector<GridRing>& rings) {
 
 bool is_nested(const GridPolygon& polygon) {
   for (const GridRing& hole : polygon.holes) {
+    Interruption::tick();
     if (!is_inside(hole, polygon.outer)) return false;
     for (const GridRing& other : polygon.holes) {
       if (&other != &hole && is_inside(hole, other)) return false;

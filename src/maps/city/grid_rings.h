@@ -1,8 +1,11 @@
 // Rings on the grid of footprints, where whether three points turn left is decided exactly.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "maps/city/footprint.h"
@@ -59,12 +62,25 @@ PointLocation locate(const GridPoint& point, const GridRing& ring);  ///< by the
 
 double signed_area(const GridRing& ring);  ///< in units of the grid, squared
 
+using GridBox = Eigen::AlignedBox<std::int64_t, 2>;
+GridBox box_of(const GridRing& ring);
+
+/// A ring that goes round every place in the box as often: of corners in a row that lie beyond the same side of it, the
+/// first and the last are kept.
+GridRing near_box(const GridRing& ring, const GridBox& box);
+
+/// Convex; A. M. Andrew's monotone chain (1979). Fewer than 3 corners where all lie on one line.
+GridRing hull_of(GridRing points);
+
 /// How the sides of some rings meet each other, other than in the corners between neighbours.
 struct Meeting {
   bool crossing = false;  ///< sides pass through each other, or lie on one another over a length
   bool touching = false;  ///< a corner lies on a side or on another corner
 };
+/// Called with the numbers of two rings, or twice the same, for each pair of their sides that meet.
+using MeetingVisit = std::function<void(std::size_t a, std::size_t b, bool crossing)>;
 /// Cost: O(n log n) for outlines as they are drawn.
+void for_each_meeting(const std::vector<GridRing>& rings, const MeetingVisit& visit);
 Meeting meeting_of(const std::vector<GridRing>& rings);
 
 /// A corner that lies on a side of which it is not an end, or on another corner.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "maps/city/clipping.h"
@@ -45,19 +47,26 @@ std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>
                                                      Crossing crossing) {
   struct Side {
     GridPoint from, to;
-    std::int64_t left = 0, right = 0;
+    std::int64_t low = 0, high = 0;  // along the axis on which sides are the shorter
     std::size_t begin = 0, end = 0;
   };
   std::vector<Side> sides;
   std::size_t corners = 0;
+  double x = 0, y = 0;
   for (const GridRing& ring : rings) {
     for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
       const GridPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      sides.push_back({a, b, std::min(a.x, b.x), std::max(a.x, b.x), corners + i, corners + (i + 1) % ring.size()});
+      sides.push_back({a, b, 0, 0, corners + i, corners + (i + 1) % ring.size()});
+      x += static_cast<double>(std::abs(a.x - b.x));
+      y += static_cast<double>(std::abs(a.y - b.y));
     }
     corners += ring.size();
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.left < b.left; });
+  for (Side& side : sides) {
+    std::tie(side.low, side.high) =
+        x <= y ? std::minmax({side.from.x, side.to.x}) : std::minmax({side.from.y, side.to.y});
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.low < b.low; });
   const auto parts = [](const Side& side, const GridPoint& a, const GridPoint& b) {
     const std::int64_t p = turn(side.from, side.to, a), q = turn(side.from, side.to, b);
     return (p < 0 && q > 0) || (p > 0 && q < 0);
@@ -73,7 +82,7 @@ std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>
   for (std::size_t i = 0; i < sides.size(); ++i) {
     Interruption::tick();
     const Side& a = sides[i];
-    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right + near; ++j) {
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].low <= a.high + near; ++j) {
       const Side& b = sides[j];
       const bool through = parts(a, b.from, b.to) && parts(b, a.from, a.to);
       if (!through && (crossing == Crossing::through || !touch(a, b))) continue;
@@ -82,22 +91,6 @@ std::vector<std::array<std::size_t, 2>> crossings_of(const std::vector<GridRing>
     }
   }
   return found;
-}
-
-/// Convex; A. M. Andrew's monotone chain (1979). Fewer than 3 corners where all lie on one line.
-GridRing hull_of(GridRing points) {
-  std::sort(points.begin(), points.end());
-  GridRing hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t first = hull.size();
-    for (const GridPoint& p : points) {
-      while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
 }
 
 /// The area of the space that a ring goes round, by summing up slabs between the heights at which something happens.
@@ -209,40 +202,45 @@ bool is_empty(ClipOperation operation, const GridRing& a, const GridRing& b) {
   return clipping.run(operation, FillRule::non_zero).empty();
 }
 
-/// Whether two rings share no space, and no more of their borders than points.
-bool are_apart(const GridRing& a, const GridRing& b) {
-  const Meeting meeting = meeting_of({a, b});
-  if (meeting.crossing) return false;
-  if (meeting.touching) return is_empty(ClipOperation::intersect, a, b);
-  return locate(a[0], b) == PointLocation::outside && locate(b[0], a) == PointLocation::outside;
-}
-
-/// Whether a hole lies in the outer ring, and shares no more of its border than points.
-bool lies_within(const GridRing& hole, const GridRing& outer) {
-  const Meeting meeting = meeting_of({outer, hole});
-  if (meeting.crossing) return false;
-  if (meeting.touching) return is_empty(ClipOperation::subtract, hole, outer);
-  return locate(hole[0], outer) == PointLocation::inside;
-}
-
-/// The holes that are what they claim to be: simple, inside of the outer ring, and apart from all others. The others
-/// may be slips of the pen, and what they would open may hide.
+/// The holes that are what they claim to be: simple, inside of the outer ring, apart from all others, and sharing no
+/// more of their borders with these than points. The others may be slips of the pen, and what they would open may hide.
 std::vector<GridPolygon> sound_holes(const GridPolygon& rough) {
-  const std::size_t count = rough.holes.size();
-  std::vector<Eigen::AlignedBox<std::int64_t, 2>> boxes(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const GridPoint& p : rough.holes[i]) boxes[i].extend(Eigen::Matrix<std::int64_t, 2, 1>(p.x, p.y));
-  }
-  std::vector<GridPolygon> holes;
-  for (std::size_t i = 0; i < count; ++i) {
-    Interruption::tick();
-    // One that touches itself may go round an island.
-    const Meeting own = meeting_of({rough.holes[i]});
-    bool sound = !own.crossing && !own.touching && lies_within(rough.holes[i], rough.outer);
-    for (std::size_t j = 0; j < count && sound; ++j) {
-      if (j != i && boxes[i].intersects(boxes[j])) sound = are_apart(rough.holes[i], rough.holes[j]);
+  const std::vector<GridRing> rings = rings_of({rough});  // the outer one first
+  std::vector<GridBox> boxes;
+  for (const GridRing& ring : rings) boxes.push_back(box_of(ring));
+  std::vector<bool> sound(rings.size(), true);
+  bool outer_crosses = false;
+  std::set<std::pair<std::size_t, std::size_t>> touching;
+  for_each_meeting(rings, [&](std::size_t a, std::size_t b, bool crossing) {
+    if (a == 0 && b == 0) {
+      outer_crosses |= crossing;
+    } else if (crossing || a == b) {  // a hole that touches itself may go round an island
+      if (a != 0) sound[a] = false;
+      if (b != 0) sound[b] = false;
+    } else {
+      touching.emplace(std::min(a, b), std::max(a, b));
     }
-    if (sound) holes.push_back({turned(rough.holes[i], true), {}});
+  });
+  if (outer_crosses) return {};
+  const auto is_within = [&](std::size_t i) {
+    if (!touching.contains({0, i})) return locate(rings[i][0], rings[0]) == PointLocation::inside;
+    return is_empty(ClipOperation::subtract, rings[i], near_box(rings[0], boxes[i]));
+  };
+  const auto are_apart = [&](std::size_t i, std::size_t j) {
+    if (!boxes[i].intersects(boxes[j])) return true;
+    if (touching.contains({std::min(i, j), std::max(i, j)})) {
+      return is_empty(ClipOperation::intersect, rings[i], rings[j]);
+    }
+    return locate(rings[i][0], rings[j]) == PointLocation::outside &&
+           locate(rings[j][0], rings[i]) == PointLocation::outside;
+  };
+  std::vector<GridPolygon> holes;
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    Interruption::tick();
+    if (!sound[i] || !is_within(i)) continue;
+    bool apart = true;
+    for (std::size_t j = 1; j < rings.size() && apart; ++j) apart = j == i || are_apart(i, j);
+    if (apart) holes.push_back({turned(rings[i], true), {}});
   }
   return holes;
 }

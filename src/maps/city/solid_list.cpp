@@ -9,6 +9,7 @@
 #include "core/progress_reporter.h"
 #include "core/solid_check.h"
 #include "maps/city/building_solid.h"
+#include "maps/city/grid_rings.h"
 #include "maps/city/interruption.h"
 #include "vantage/error.h"
 
@@ -185,17 +186,37 @@ Mesh joined(const std::vector<Mesh>& pieces, CityRecord& record) {
   return mesh;
 }
 
-/// Nothing where it cannot be built: one object out of line must not cost all the others.
-Mesh solid_of(Item& item, const Ground& ground, const core::ProgressReporter& progress) {
-  try {
-    std::vector<Mesh> pieces = build(item, ground);
-    check(item, pieces, ground, progress);
-    return joined(pieces, item.record);
-  } catch (const Error& error) {
-    if (error.kind() == ErrorKind::cancelled) throw;
-    item.faults.push_back({error.problem(), ""});
-    return {};
+/// The hull of each outline, as high as its top.
+void take_hulls(std::vector<Shape>& shapes) {
+  for (Shape& shape : shapes) {
+    if (shape.footprint.outer.empty()) continue;
+    const Grid grid(shape.footprint);
+    shape.footprint = {grid.to_metres(hull_of(grid.to_grid(shape.footprint.outer))), {}};
+    shape.form.is_box |= shape.form.roof != RoofShape::flat;
   }
+}
+
+/// Hulls stand in for what cannot be built; nothing where they cannot either: one object out of line must not cost all
+/// the others.
+Mesh solid_of(Item& item, const Ground& ground, const core::ProgressReporter& progress) {
+  std::string wrong;
+  for (const bool as_hulls : {false, true}) {
+    try {
+      if (as_hulls) take_hulls(item.shapes);
+      std::vector<Mesh> pieces = build(item, ground);
+      check(item, pieces, ground, progress);
+      if (as_hulls) item.faults.push_back({wrong, "the hull of its outline"});
+      return joined(pieces, item.record);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cancelled) throw;
+      if (!as_hulls) wrong = error.problem();
+    }
+  }
+  item.faults.push_back({wrong, ""});
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const PlanBounds place = bounds_of(item.shapes);
+  item.entry.box = Box{{place.min.x(), place.min.y(), -kUnknown}, {place.max.x(), place.max.y(), kUnknown}};
+  return {};
 }
 
 }  // namespace

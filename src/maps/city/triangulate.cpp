@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "maps/city/interruption.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -43,10 +44,7 @@ std::vector<Triangle> triangles_of_convex(std::size_t count) {
   return result;
 }
 
-}  // namespace
-
-std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
-  if (rings.size() == 1 && is_strictly_convex(rings[0])) return triangles_of_convex(rings[0].size());
+std::vector<Triangle> triangles_of(const std::vector<GridRing>& rings) {
   std::vector<CDT::V2d<double>> points;
   std::vector<CDT::Edge> edges;
   for (const GridRing& ring : rings) {
@@ -77,6 +75,16 @@ std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
     throw Error(ErrorCode::internal_defect, std::string("an outline could not be triangulated: ").append(error.what()),
                 "outline", "please report this with the map");
   }
+}
+
+}  // namespace
+
+std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
+  constexpr std::size_t kMany = 500;
+  if (rings.size() == 1 && is_strictly_convex(rings[0])) return triangles_of_convex(rings[0].size());
+  std::size_t corners = 0;
+  for (const GridRing& ring : rings) corners += ring.size();
+  return corners < kMany ? triangles_of(rings) : Interruption::run_apart([rings] { return triangles_of(rings); });
 }
 
 }  // namespace vantage::internal::city

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <osmium/area/assembler.hpp>
+#include <osmium/area/detail/node_ref_segment.hpp>
 #include <osmium/area/problem_reporter.hpp>
 #include <osmium/builder/osm_object_builder.hpp>
 #include <osmium/osm/area.hpp>
@@ -106,6 +106,17 @@ using Segment = std::pair<osmium::Location, osmium::Location>;
 
 Segment segment(const osmium::NodeRef& a, const osmium::NodeRef& b) {
   return a.location() < b.location() ? Segment{a.location(), b.location()} : Segment{b.location(), a.location()};
+}
+
+/// Where two segments meet other than at an end of both, as the assembler has it; undefined where they do not.
+osmium::Location meeting(const Segment& a, const Segment& b) {
+  const auto low = [](const Segment& side) { return std::min(side.first.y(), side.second.y()); };
+  const auto high = [](const Segment& side) { return std::max(side.first.y(), side.second.y()); };
+  if (high(a) < low(b) || high(b) < low(a)) return osmium::Location();
+  const auto whole = [](const Segment& side) {
+    return osmium::area::detail::NodeRefSegment({0, side.first}, {0, side.second}, {}, nullptr);
+  };
+  return osmium::area::detail::calculate_intersection(whole(a), whole(b));
 }
 
 /// The sides of rings, to tell which way is part of them.
@@ -214,77 +225,6 @@ std::vector<NodeLocations> lines_of(const std::vector<MemberWay>& members, const
   return lines;
 }
 
-struct PlaneBox {
-  osmium::Location min, max;  ///< of the two coordinates apart
-
-  explicit PlaneBox(const NodeLocations& places) : min(places.front()), max(places.front()) {
-    for (const osmium::Location at : places) extend(at);
-  }
-  void extend(osmium::Location at) {
-    min = {std::min(min.x(), at.x()), std::min(min.y(), at.y())};
-    max = {std::max(max.x(), at.x()), std::max(max.y(), at.y())};
-  }
-  bool is_tall() const { return std::int64_t{max.y()} - min.y() > std::int64_t{max.x()} - min.x(); }
-  void turn() {
-    min = {min.y(), min.x()};
-    max = {max.y(), max.x()};
-  }
-};
-
-using RingPairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
-/// The pairs of a ring of `a` and one of `b` whose boxes meet, in their order. Sweeps along the longer side of all.
-/// None where they are more than drawing explains.
-RingPairs meeting_boxes(const std::vector<NodeLocations>& a, const std::vector<NodeLocations>& b,
-                        const core::ProgressReporter& progress) {
-  constexpr std::size_t kMostPairs = 1'000'000;
-  std::vector<PlaneBox> boxes;
-  for (const auto* const rings : {&a, &b}) {
-    for (const NodeLocations& ring : *rings) boxes.emplace_back(ring);
-  }
-  if (boxes.empty()) return {};
-  PlaneBox all = boxes.front();
-  for (const PlaneBox& box : boxes) {
-    all.extend(box.min);
-    all.extend(box.max);
-  }
-  if (all.is_tall()) {
-    for (PlaneBox& box : boxes) box.turn();
-  }
-  std::vector<std::size_t> order(boxes.size()), open_a, open_b;
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return boxes[i].min.x() < boxes[j].min.x(); });
-  RingPairs pairs;
-  for (const std::size_t i : order) {
-    progress.check();
-    const bool is_a = i < a.size();
-    std::vector<std::size_t>& others = is_a ? open_b : open_a;
-    std::erase_if(others, [&](std::size_t j) { return boxes[j].max.x() < boxes[i].min.x(); });
-    for (const std::size_t j : others) {
-      if (boxes[j].max.y() < boxes[i].min.y() || boxes[i].max.y() < boxes[j].min.y()) continue;
-      pairs.emplace_back(is_a ? i : j, (is_a ? j : i) - a.size());
-    }
-    if (pairs.size() > kMostPairs) return {};
-    (is_a ? open_a : open_b).push_back(i);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
-/// Without rings that another one repeats, from whichever place and whichever way round.
-std::vector<NodeLocations> each_once(const std::vector<NodeLocations>& rings) {
-  std::set<NodeLocations> seen;
-  std::vector<NodeLocations> result;
-  for (const NodeLocations& ring : rings) {
-    NodeLocations from_least = ring;
-    if (twice_signed_area(ring) < 0) std::reverse(from_least.begin(), from_least.end());
-    std::rotate(from_least.begin(), std::min_element(from_least.begin(), from_least.end()), from_least.end());
-    if (seen.insert(std::move(from_least)).second) result.push_back(ring);
-  }
-  return result;
-}
-
 /// Ways with their nodes where the plane has them: the ways themselves, or copies.
 class ProjectedWays {
  public:
@@ -339,6 +279,28 @@ class AssemblyWork {
     std::sort(sides_.begin(), sides_.end());
   }
 
+  /// Where a segment that is there more than once meets another one on its way: the assembler takes such segments away
+  /// before it looks for crossings. Nothing where none does.
+  std::string problem_of_doubled(const AssemblyPlane& plane) const {
+    std::vector<Segment> single, doubled;
+    for (const Segment& side : sides_) {
+      std::vector<Segment>& list = single.empty() || single.back() != side ? single : doubled;
+      if (list.empty() || list.back() != side) list.push_back(side);
+    }
+    double steps = 0;
+    for (const auto& [some, others] : {std::pair(&doubled, &single), std::pair(&single, &doubled)}) {
+      for (const Segment& one : *some) {
+        auto other = std::lower_bound(others->begin(), others->end(), one);
+        for (; other != others->end() && other->first.x() <= one.second.x(); ++other) {
+          if (++steps > kMostSteps) return kTooMany;
+          const osmium::Location at = meeting(one, *other);
+          if (at) return "a side that is drawn twice crosses another one at " + place_text(plane.from_plane(at));
+        }
+      }
+    }
+    return "";
+  }
+
   /// Segments that are there an even number of times, and all but one of others, are taken away, as the assembler does.
   void take_away_doubled(Complaints& complaints) {
     const std::size_t all = sides_.size();
@@ -384,6 +346,8 @@ class AssemblyWork {
   const std::vector<const osmium::Way*>& ways() const { return ways_; }
   /// Of each of these the number of the way that it is a piece of.
   std::size_t whole_of(std::size_t way) const { return pieces_.empty() ? way : pieces_[way].way; }
+
+  static constexpr const char* kTooMany = "too many of its sides lie above each other to look for crossings";
 
  private:
   static constexpr double kMostSteps = 1e8;
@@ -445,7 +409,8 @@ std::optional<RingFault> fault_of(const Chains& outer, const Chains& inner) {
     const NodeLocations& loose = chains->loose();
     if (!loose.empty()) return RingFault{"its rings do not close by their roles", loose.front()};
   }
-  return ring_fault(outer.rings(), inner.rings());
+  const auto fault = outer.fault();
+  return fault ? fault : ring_fault(outer.rings(), inner.rings());
 }
 
 /// A relation of these ways only: the assembler takes it that all are there. `role_of`: of each way's number.
@@ -469,8 +434,9 @@ std::string assemble_into(osmium::memory::Buffer& buffer, ObjectId subject, cons
                           const RoleOf& role_of, const AssemblyPlane& plane) {
   Complaints complaints(subject, plane);
   AssemblyWork work(ways);
+  if (std::string problem = work.problem_of_doubled(plane); !problem.empty()) return problem;
   work.take_away_doubled(complaints);
-  if (!work.is_little()) return "too many of its sides lie above each other to look for crossings";
+  if (!work.is_little()) return AssemblyWork::kTooMany;
   osmium::memory::Buffer relation_buffer(1 << 10, osmium::memory::Buffer::auto_grow::yes);
   const osmium::Relation& relation = relation_of(
       subject.id, work.ways(), [&](std::size_t i) { return role_of(work.whole_of(i)); }, relation_buffer);

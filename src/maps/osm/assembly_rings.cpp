@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "maps/osm/extract.h"
@@ -93,6 +92,23 @@ std::vector<NodeLocations> loops_of(const NodeLocations& ring) {
   return loops;
 }
 
+struct PlaneBox {
+  osmium::Location min, max;  ///< of the two coordinates apart
+
+  explicit PlaneBox(const NodeLocations& places) : min(places.front()), max(places.front()) {
+    for (const osmium::Location at : places) extend(at);
+  }
+  void extend(osmium::Location at) {
+    min = {std::min(min.x(), at.x()), std::min(min.y(), at.y())};
+    max = {std::max(max.x(), at.x()), std::max(max.y(), at.y())};
+  }
+  bool is_tall() const { return std::int64_t{max.y()} - min.y() > std::int64_t{max.x()} - min.x(); }
+  void turn() {
+    min = {min.y(), min.x()};
+    max = {max.y(), max.x()};
+  }
+};
+
 int turn_of(const NodeLocations& ring) { return twice_signed_area(ring) > 0 ? 1 : -1; }
 
 /// `left`: what lies to the left of the loop is wound round that much more often than what lies to its right.
@@ -154,74 +170,100 @@ bool has_corner(const NodeLocations& places) {
   return false;
 }
 
-Chains::Chains(std::vector<NodeLocations> lines) : lines_(std::move(lines)) {
-  std::map<NodeLocations, std::size_t> kinds;
+Chains::Chains(std::vector<NodeLocations> lines)
+    : lines_(std::move(lines)), is_joined_(lines_.size()), is_in_ring_(lines_.size()) {
+  std::set<NodeLocations> seen;
+  std::map<osmium::Location, std::size_t> ends;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    NodeLocations back(lines_[i].rbegin(), lines_[i].rend());
-    kinds_.push_back(kinds.emplace(std::min(lines_[i], back), i).first->second);
-    if (lines_[i].front() == lines_[i].back()) continue;
-    for (const osmium::Location end : {lines_[i].front(), lines_[i].back()}) ends_.emplace(end, kinds_[i], i);
+    const osmium::Location front = lines_[i].front(), back = lines_[i].back();
+    if (front == back) continue;
+    for (const osmium::Location end : {front, back}) is_ambiguous_ |= ++ends[end] > 2;
+    is_joined_[i] = !seen.insert(std::min(lines_[i], {lines_[i].rbegin(), lines_[i].rend()})).second;
+    if (is_joined_[i]) continue;  // another one repeats it
+    for (const osmium::Location end : {front, back}) ending_[end].push_back(i);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (lines_[i].empty()) continue;  // taken
+    if (is_joined_[i]) continue;
     if (lines_[i].front() != lines_[i].back()) {
       join_from(i);
-      continue;
+    } else if (!add_ring({lines_[i].begin(), lines_[i].end() - (lines_[i].size() > 1 ? 1 : 0)})) {
+      loose_.insert(loose_.end(), lines_[i].begin(), lines_[i].end() - (lines_[i].size() > 1 ? 1 : 0));
     }
-    if (lines_[i].size() > 1) lines_[i].pop_back();
-    add_ring(std::move(lines_[i]));
   }
 }
 
-NodeLocations Chains::take(std::size_t line, osmium::Location from) {
-  NodeLocations& places = lines_[line];
-  for (const osmium::Location end : {places.front(), places.back()}) ends_.erase({end, kinds_[line], line});
-  if (places.front() != from) std::reverse(places.begin(), places.end());
-  return std::exchange(places, {});
-}
-
-std::optional<std::size_t> Chains::next_at(osmium::Location place, std::size_t kind) const {
-  const auto begin = ends_.lower_bound({place, 0, 0}), end = ends_.lower_bound({place, lines_.size(), 0});
-  if (begin == end) return std::nullopt;
-  return std::get<2>(std::get<1>(*begin) != kind ? *begin : *std::prev(end));
-}
-
+// A tree of all lines that hang together, and a ring for each line that is not in it. Every ring of these lines is a
+// sum of such rings: it cannot go round a place that none of them does.
 void Chains::join_from(std::size_t first) {
-  NodeLocations path = take(first, lines_[first].front());
-  std::vector<std::size_t> joints = {0, path.size() - 1};  // where lines begin and end
-  std::size_t kind = kinds_[first];
-  for (int end = 0; end < 2 && path.size() > 1; ++end) {  // on from its end, then from its beginning
-    std::map<osmium::Location, std::size_t> known;
-    for (const std::size_t joint : joints) known.emplace(path[joint], joint);
-    while (const auto next = next_at(path.back(), kind)) {
-      kind = kinds_[*next];
-      const NodeLocations line = take(*next, path.back());
-      path.insert(path.end(), line.begin() + 1, line.end());
-      const auto [before, is_new] = known.emplace(path.back(), path.size() - 1);
-      const std::size_t begin = before->second;
-      if (is_new) {
-        joints.push_back(begin);
-        continue;
+  constexpr std::size_t kMostPlaces = 1'000'000;  // in rings: more than drawing explains, and nobody knows which
+  Tree tree;
+  tree[lines_[first].front()] = Step();
+  std::vector<osmium::Location> reached = {lines_[first].front()};
+  std::vector<std::size_t> all, closing;
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const osmium::Location from = reached[k];
+    for (const std::size_t line : ending_[from]) {
+      if (is_joined_[line]) continue;
+      is_joined_[line] = true;
+      all.push_back(line);
+      const osmium::Location to = lines_[line].front() == from ? lines_[line].back() : lines_[line].front();
+      if (tree.emplace(to, Step{line, from, tree.at(from).depth + 1}).second) {
+        reached.push_back(to);
+      } else {
+        closing.push_back(line);
       }
-      add_ring({path.begin() + static_cast<std::ptrdiff_t>(begin), path.end() - 1});
-      for (; joints.back() > begin; joints.pop_back()) known.erase(path[joints.back()]);
-      path.resize(begin + 1);
-      kind = lines_.size();
     }
-    std::reverse(path.begin(), path.end());
-    std::reverse(joints.begin(), joints.end());
-    for (std::size_t& joint : joints) joint = path.size() - 1 - joint;
-    kind = lines_.size();
   }
-  if (path.size() > 1) loose_.insert(loose_.end(), path.begin(), path.end());
+  for (const std::size_t line : closing) {
+    if (places_ <= kMostPlaces) close(line, tree);
+  }
+  for (const std::size_t line : all) {
+    if (places_ <= kMostPlaces && is_in_ring_[line]) continue;
+    loose_.insert(loose_.end(), lines_[line].begin(), lines_[line].end());
+  }
 }
 
-void Chains::add_ring(NodeLocations ring) {
-  if (has_corner(ring)) {
-    rings_.push_back(std::move(ring));
-  } else {
-    loose_.insert(loose_.end(), ring.begin(), ring.end());
+/// Along the line, and back to where it begins through the tree.
+void Chains::close(std::size_t line, const Tree& tree) {
+  NodeLocations ring = lines_[line], rest = {ring.front()};  // from both of its ends on
+  std::vector<std::size_t> used = {line};
+  while (ring.back() != rest.back()) {
+    const Step &one = tree.at(ring.back()), &other = tree.at(rest.back());
+    NodeLocations& path = one.depth >= other.depth ? ring : rest;
+    const Step& step = one.depth >= other.depth ? one : other;
+    NodeLocations next = lines_[step.line];
+    used.push_back(step.line);
+    if (next.front() == step.from) std::reverse(next.begin(), next.end());
+    path.insert(path.end(), next.begin() + 1, next.end());
   }
+  ring.insert(ring.end(), rest.rbegin() + 1, rest.rend());
+  ring.pop_back();
+  places_ += ring.size();
+  if (!add_ring(std::move(ring))) return;
+  for (const std::size_t one : used) is_in_ring_[one] = true;
+}
+
+/// Not where all of its places lie on one line.
+bool Chains::add_ring(NodeLocations ring) {
+  const bool is_ring = has_corner(ring);
+  if (is_ring) rings_.push_back(std::move(ring));
+  return is_ring;
+}
+
+std::optional<RingFault> Chains::fault() const {
+  if (!is_ambiguous_) return std::nullopt;
+  std::vector<WoundSide> sides = sides_of(rings_, {}, false);
+  for (const NodeLocations& line : lines_) {  // counted in place of inner rings
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      sides.push_back({std::min(line[i - 1], line[i]), std::max(line[i - 1], line[i]), {0, 1}, {}});
+    }
+  }
+  for (const WoundSide& side : wound(std::move(sides))) {
+    if (side.above.outer > 0 && side.above.inner % 2 == 0) {
+      return RingFault{"its outer ways make rings in more than one way", side.from};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<RingFault> ring_fault(const std::vector<NodeLocations>& outer, const std::vector<NodeLocations>& inner) {
@@ -229,6 +271,57 @@ std::optional<RingFault> ring_fault(const std::vector<NodeLocations>& outer, con
   // One that runs along a hole of its own, there and back to it; among several it might cut one into another ring.
   if (fault && outer.size() == 1 && !fault_of(wound(sides_of(outer, inner, true)))) return std::nullopt;
   return fault;
+}
+
+RingPairs meeting_boxes(const std::vector<NodeLocations>& a, const std::vector<NodeLocations>& b,
+                        const core::ProgressReporter& progress) {
+  constexpr std::size_t kMostPlaces = 1'000'000;
+  std::vector<PlaneBox> boxes;
+  for (const auto* const rings : {&a, &b}) {
+    for (const NodeLocations& ring : *rings) boxes.emplace_back(ring);
+  }
+  if (boxes.empty()) return {};
+  PlaneBox all = boxes.front();
+  for (const PlaneBox& box : boxes) {
+    all.extend(box.min);
+    all.extend(box.max);
+  }
+  if (all.is_tall()) {
+    for (PlaneBox& box : boxes) box.turn();
+  }
+  std::vector<std::size_t> order(boxes.size()), open_a, open_b;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return boxes[i].min.x() < boxes[j].min.x(); });
+  RingPairs pairs;
+  std::size_t places = 0;
+  for (const std::size_t i : order) {
+    progress.check();
+    const bool is_a = i < a.size();
+    std::vector<std::size_t>& others = is_a ? open_b : open_a;
+    std::erase_if(others, [&](std::size_t j) { return boxes[j].max.x() < boxes[i].min.x(); });
+    for (const std::size_t j : others) {
+      if (boxes[j].max.y() < boxes[i].min.y() || boxes[i].max.y() < boxes[j].min.y()) continue;
+      pairs.emplace_back(is_a ? i : j, (is_a ? j : i) - a.size());
+      places += b[pairs.back().second].size();
+    }
+    if (places > kMostPlaces) return {};
+    (is_a ? open_a : open_b).push_back(i);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<NodeLocations> each_once(const std::vector<NodeLocations>& rings) {
+  std::set<NodeLocations> seen;
+  std::vector<NodeLocations> result;
+  for (const NodeLocations& ring : rings) {
+    NodeLocations from_least = ring;
+    if (twice_signed_area(ring) < 0) std::reverse(from_least.begin(), from_least.end());
+    std::rotate(from_least.begin(), std::min_element(from_least.begin(), from_least.end()), from_least.end());
+    if (seen.insert(std::move(from_least)).second) result.push_back(ring);
+  }
+  return result;
 }
 
 }  // namespace vantage::internal::osm

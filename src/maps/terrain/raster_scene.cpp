@@ -267,8 +267,9 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   if (options.max_error_m > 0) {
     // Half of the error on either side, and then up by as much: all of it lies above the posts.
     const TriangulatedTerrain surface =
-        raised_over(TriangulatedTerrain(simplified(grid, posts, options.max_error_m / 2, file, progress)), {posts});
-    result.report.largest_error_m = largest_error(surface, posts);
+        raised_over(TriangulatedTerrain(simplified(grid, posts, options.max_error_m / 2, file, progress), progress),
+                    {posts}, progress);
+    result.report.largest_error_m = largest_error(surface, posts, progress);
     scene.mesh = surface.mesh();
   } else {
     scene.mesh = every_post(grid, std::move(posts));

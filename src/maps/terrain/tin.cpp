@@ -66,7 +66,7 @@ void Tin::add(const std::vector<Vec3>& points) {
 }
 
 void Tin::refine(double max_error, const std::function<void(double)>& progress) {
-  constexpr unsigned kQuiet = 4096;  // insertions
+  constexpr unsigned kQuiet = 64;  // insertions; the first ones move a million candidates
   queue_ = {};
   for (std::uint32_t f = 0; f < facets_.size(); ++f) queue_.push({facets_[f].error, f, facets_[f].worst});
   for (unsigned count = 0; !queue_.empty() && queue_.top().error > max_error; ++count) {

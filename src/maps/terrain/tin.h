@@ -8,6 +8,7 @@
 #include <queue>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::terrain {
@@ -37,13 +38,13 @@ class Tin {
   /// Once, after all candidates.
   void add_middles(std::vector<Middle> middles);
   /// Inserts the worst candidate until none, and no middle, differs from its facet by more than `max_error` vertically.
-  /// Calls `progress` with the worst error every few thousand insertions.
+  /// Calls `progress` with the worst error every few dozen insertions.
   void refine(double max_error, const std::function<void(double)>& progress);
   /// Where two facets make a convex quadrilateral whose corners all but lie on a circle, as those of a raster's cell
   /// do, folds it along the diagonal that is higher where the two cross: Delaunay's choice would depend on rounding.
   /// Leaves it where a candidate would then differ by more than `max_error`. Last: the network may not be Delaunay
   /// afterwards, and takes no more points. tin_fold.cpp.
-  void fold_up(double max_error);
+  void fold_up(double max_error, const core::ProgressReporter& progress = {});
 
   const std::vector<Vec3>& points() const { return points_; }
   /// Counter-clockwise, indices into points().

@@ -101,10 +101,11 @@ void Tin::replace_neighbour(std::uint32_t facet, std::uint32_t old, std::uint32_
   }
 }
 
-void Tin::fold_up(double max_error) {
+void Tin::fold_up(double max_error, const core::ProgressReporter& progress) {
   std::vector<std::uint32_t> open(facets_.size());
   std::iota(open.begin(), open.end(), 0);
   while (!open.empty()) {
+    progress.tick();
     const std::uint32_t facet = open.back();
     open.pop_back();
     for (std::size_t side = 0; side < 3; ++side) {

@@ -39,12 +39,14 @@ Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted) {
 }
 
 TriangulatedTerrain raised_over(TriangulatedTerrain surface,
-                                std::initializer_list<std::reference_wrapper<const std::vector<Vec3>>> points) {
+                                std::initializer_list<std::reference_wrapper<const std::vector<Vec3>>> points,
+                                const core::ProgressReporter& progress) {
   constexpr double kRounding_m = 1e-9;
   std::vector<double> raise(surface.mesh().vertices.size(), 0);
   bool is_raised = false;
   for (const std::vector<Vec3>& list : points) {
     for (const Vec3& point : list) {
+      progress.tick();
       const auto below = surface.find(point.head<2>());
       if (!below) continue;
       const double height = point.z() - below->height;
@@ -58,12 +60,14 @@ TriangulatedTerrain raised_over(TriangulatedTerrain surface,
   if (!is_raised) return surface;
   Mesh mesh = surface.mesh();
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].z() += raise[i];
-  return TriangulatedTerrain(std::move(mesh));
+  return TriangulatedTerrain(std::move(mesh), progress);
 }
 
-double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points) {
+double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points,
+                     const core::ProgressReporter& progress) {
   double largest = 0;
   for (const Vec3& point : points) {
+    progress.tick();
     const std::optional<double> height = surface.height(point.head<2>());
     if (!height) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, std::abs(*height - point.z()));

@@ -21,9 +21,11 @@ Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted);
 /// Raised until none of the points lies above it, but for rounding: the corners of a triangle as far as the farthest
 /// point above it. So it is nowhere raised farther than some point lay above it. Points beyond it do not count.
 TriangulatedTerrain raised_over(TriangulatedTerrain surface,
-                                std::initializer_list<std::reference_wrapper<const std::vector<Vec3>>> points);
+                                std::initializer_list<std::reference_wrapper<const std::vector<Vec3>>> points,
+                                const core::ProgressReporter& progress);
 
 /// Vertical, over all of these points; infinite where there is no surface under one.
-double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points);
+double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points,
+                     const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::terrain

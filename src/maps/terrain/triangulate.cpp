@@ -137,12 +137,13 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   tin.add_middles(middles(grid, samples, tin.add_candidates(samples.inner)));
   // Half of the error on either side, and then up by as much: all of it lies above the posts.
   grow(tin, max_error_m / 2, progress);
-  tin.fold_up(max_error_m / 2);
+  tin.fold_up(max_error_m / 2, progress);
   const std::vector<bool> all(tin.facets().size(), true);
-  Triangulation result{raised_over(TriangulatedTerrain(mesh_of(tin, all)), {samples.border, samples.posts}), 0,
-                       samples.posts.size()};
-  result.largest_error_m =
-      std::max(largest_error(result.surface, samples.border), largest_error(result.surface, samples.posts));
+  Triangulation result{
+      raised_over(TriangulatedTerrain(mesh_of(tin, all), progress), {samples.border, samples.posts}, progress), 0,
+      samples.posts.size()};
+  result.largest_error_m = std::max(largest_error(result.surface, samples.border, progress),
+                                    largest_error(result.surface, samples.posts, progress));
   return result;
 }
 
