@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -225,7 +226,7 @@ std::vector<OnLeg> judge_legs(const Flight& flight, const std::vector<Leg>& legs
                               double radius_m, const internal::core::ProgressReporter& reporter) {
   std::vector<OnLeg> found(legs.size());
   std::atomic<std::size_t> done = 0;
-  const Progress asked = [&](const char*, double) {
+  const Progress asked = [&](std::string_view, double) {
     reporter.check();
     return true;
   };
