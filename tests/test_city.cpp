@@ -392,10 +392,20 @@ CityOptions round_place(double latitude, double longitude, double radius_m) {
 
 // Rounding to the grid moves a corner that lies on a side of another piece to and fro across it.
 TEST_F(CityTest, PiecesThatGoOnCrossingByLessThanAUnitAreBuilt) {
-  const std::string ways = exact_map(
-      {{669000, 930000}, {689000, 925000}, {674000, 925000}, {689000, 920000}, {694000, 920000}, {699000, 920000},
-       {699000, 925000}, {699000, 930000}, {699000, 935000}, {694000, 935000}, {689000, 935000}, {689000, 930000}},
-      {{1, 2, 3, 1}, {4, 5, 6, 7, 8, 9, 10, 11, 12, 2, 4}}, [](long) { return std::string(); });
+  const std::string ways =
+      exact_map({{669000, 930000},
+                 {689000, 925000},
+                 {674000, 925000},
+                 {689000, 920000},
+                 {694000, 920000},
+                 {699000, 920000},
+                 {699000, 925000},
+                 {699000, 930000},
+                 {699000, 935000},
+                 {694000, 935000},
+                 {689000, 935000},
+                 {689000, 930000}},
+                {{1, 2, 3, 1}, {4, 5, 6, 7, 8, 9, 10, 11, 12, 2, 4}}, [](long) { return std::string(); });
   write_bytes(folder_ / "city.osm",
               testing::osm_xml(ways + testing::osm_relation(1, {"way 1 outer", "way 2 outer"},
                                                             testing::osm_tag("type", "multipolygon") +
@@ -407,8 +417,17 @@ TEST_F(CityTest, PiecesThatGoOnCrossingByLessThanAUnitAreBuilt) {
 // Its parts cut two holes into it that touch each other and its side.
 TEST_F(CityTest, TheHullOfWhatCannotBeDrawnApartStandsIn) {
   const std::string ways = exact_map(
-      {{575600, 550400}, {575167, 549985}, {575582, 549552}, {576015, 549967}, {575311, 550123}, {575239, 550054},
-       {575308, 549982}, {575380, 550051}, {575383, 550193}, {575519, 549907}, {575591, 549976}},
+      {{575600, 550400},
+       {575167, 549985},
+       {575582, 549552},
+       {576015, 549967},
+       {575311, 550123},
+       {575239, 550054},
+       {575308, 549982},
+       {575380, 550051},
+       {575383, 550193},
+       {575519, 549907},
+       {575591, 549976}},
       {{1, 2, 3, 4, 1}, {5, 6, 7, 8, 5}, {9, 5, 10, 11, 9}}, [](long way) {
         return way == 1 ? testing::osm_tag("building", "yes") + testing::osm_tag("height", "30")
                         : testing::osm_tag("building:part", "yes") + testing::osm_tag("height", way == 2 ? "20" : "30");

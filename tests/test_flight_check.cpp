@@ -306,10 +306,10 @@ TEST(FlightCheck, WithATubeHoldsForAllOfIt) {
   EXPECT_GT(checked, 500U);
 }
 
-/// 5 m north of a flight along x, within a volume that asks for no range.
+/// 25 m north of a flight along x, within a volume that asks for no range: what nothing holds counts from 20 m farther.
 Mission beside_what_is_not_built() {
   Scene scene = with_ground(SceneBuilder().ground("ground", 200, -0.5));
-  scene.ledger.push_back({{"mast"}, "", "nothing tells how wide it is", Box{{-1, 5, 0}, {1, 7, 30}}});
+  scene.ledger.push_back({{"mast"}, "", "nothing tells how wide it is", Box{{-1, 25, 0}, {1, 27, 30}}});
   auto room = std::make_shared<TargetVolume>();
   room->mesh = make_box_mesh({-50, -40, 1}, {50, 40, 60});
   Target target;

@@ -203,7 +203,8 @@ TEST(FlightLinks, TextsTellThem) {
 // The flight is 100 m away, and sees its target within 30 m.
 TEST(FlightLinks, WhatIsNotBuiltInTheirWayIsTold) {
   Scene scene = SceneBuilder().ground("ground", 200, -0.5);
-  scene.ledger.push_back({{"mast"}, "", "nothing tells how wide it is", Box{{9, 40, 0}, {10, 41, 30}}});
+  scene.ledger.push_back(
+      {{"mast"}, "", "nothing tells how wide it is", Box{{29, 40, 0}, {30, 41, 30}}});  // counts from 20 m farther
   Mission mission = mission_in(scene, Target::point({0, 110, 5}), 30);
   Flight flight;
   flight.points = {{{-20, 100, 5}, 0, 5, ""}, {{0, 100, 5}, 0, 5, ""}};
@@ -213,7 +214,7 @@ TEST(FlightLinks, WhatIsNotBuiltInTheirWayIsTold) {
   EXPECT_EQ(check_flight(mission, flight, {.tube_radius_m = 10}).notes.size(), 1U);
   mission.links[0].radio = RadioLink{0.05, 1};  // its zone is 12 m wide in the middle
   EXPECT_EQ(check_flight(mission, flight).notes.size(), 1U);
-  mission.links = {{"pilot", {20, 0, 1}}};
+  mission.links = {{"pilot", {40, 0, 1}}};
   ASSERT_EQ(check_flight(mission, flight).notes.size(), 1U);
   expect_wording(check_flight(mission, flight).notes[0]);
 }

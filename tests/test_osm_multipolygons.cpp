@@ -341,7 +341,7 @@ TEST(Chains, CloseARingWhereTheyComeBack) {
   EXPECT_FALSE(two.fault());
   EXPECT_EQ(Chains({a, b, c}).loose().size(), 3u);
   EXPECT_EQ(Chains({a, a, b, b}).rings().size(), 1u);
-  EXPECT_TRUE(Chains({a, a, b, b}).fault()) << "twice is no hole";
+  EXPECT_TRUE(Chains({a, a, b, b}).fault());
 }
 
 // A side of two rings that both draw, in pieces.
@@ -421,7 +421,7 @@ TEST(DoubledSides, HideNoCrossing) {
   };
   const Extract crossing = extract_of_way({3, 4, 1, 2, 3, 4, 1, 3});
   ASSERT_EQ(crossing.areas.size(), 1u);
-  EXPECT_EQ(crossing.areas[0].polygons[0].outer.size(), 7u) << "as it is drawn";
+  EXPECT_EQ(crossing.areas[0].polygons[0].outer.size(), 7u);
   const Problem* const problem = testing::find_problem(crossing, testing::way_id(1));
   ASSERT_NE(problem, nullptr);
   testing::expect_wording(problem->what);

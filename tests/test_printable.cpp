@@ -85,8 +85,7 @@ TEST(Printable, AddressesAreCutToWhatIsNoSecret) {
   }
   EXPECT_EQ(without_secrets("at 'http://me:secret@a.example/x?key=1' & me@b.org; why? http://c.example/?k"),
             "at 'http://a.example/x' & me@b.org; why? http://c.example/");
-  EXPECT_EQ(without_secrets("no 'h/a?key=secret', nor \"me:secret@h\"; why? a.b;c=secret, and so on"),
-            "no 'h/a', nor \"h\"; why? a.b, and so on");
+  EXPECT_EQ(without_secrets("'h/a?key=secret', \"me:secret@h\"; ? a.b;c=secret, on"), "'h/a', \"h\"; ? a.b, on");
   EXPECT_EQ(without_secrets("why? At a:/b"), "why? At a:/b");
   const std::string many(100'000, '/');
   EXPECT_EQ(without_secrets(many).size(), many.size());

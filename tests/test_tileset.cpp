@@ -592,9 +592,12 @@ TEST(Tileset, TheLedgerHasNoKeysOfServers) {
   json root = tile_json(10);
   root["refine"] = "ADD";
   root["children"] = json::array({tile_json(0, "a.glb")});
-  const std::vector<std::string> uris = {"http://me:SECRET@a.example/x.b3dm?key=SECRET", "ftp://me:SECRET@a.example/x",
-                                         "//me:SECRET@a.example/x.b3dm", "data:text/plain;base64,SECRET",
-                                         "gone.b3dm?key=SECRET", "gone.glb;key=SECRET"};
+  const std::vector<std::string> uris = {"http://me:SECRET@a.example/x.b3dm?key=SECRET",
+                                         "ftp://me:SECRET@a.example/x",
+                                         "//me:SECRET@a.example/x.b3dm",
+                                         "data:text/plain;base64,SECRET",
+                                         "gone.b3dm?key=SECRET",
+                                         "gone.glb;key=SECRET"};
   for (const std::string& uri : uris) root["children"].push_back(tile_json(0, uri));
   Tileset tiles(tileset_json(root));
   tiles.add("a.glb", box_glb({{}}));

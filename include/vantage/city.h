@@ -131,7 +131,7 @@ struct CityOptions {
   double terrain_error_m = 0.5;
   HeightOptions terrain_heights = {};
   std::string terrain_crs = {};  ///< of the raster, as RasterOptions::crs; empty: what the file says
-  double ground_margin_m = 50;  ///< how far the ground goes on round what is built
+  double ground_margin_m = 50;   ///< how far the ground goes on round what is built
   BuildingDefaults defaults;
   Occluders occluders;
   OccluderDefaults occluder_defaults;

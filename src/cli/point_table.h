@@ -18,11 +18,11 @@
 namespace vantage::cli {
 
 struct TableOptions {
-  bool lonlat = false;      ///< longitude and latitude, not x and y
-  bool json = false;        ///< write objects, not rows
-  bool fraction = false;    ///< write which part of the target is seen, too
-  bool target = false;      ///< write the target's name, too
-  std::optional<double> z;  ///< of all points; then the table has no such column
+  bool lonlat = false;                 ///< longitude and latitude, not x and y
+  bool json = false;                   ///< write objects, not rows
+  bool fraction = false;               ///< write which part of the target is seen, too
+  bool target = false;                 ///< write the target's name, too
+  std::optional<double> z;             ///< of all points; then the table has no such column
   std::optional<HeightDatum> heights;  ///< what heights are measured from where the table does not say
 };
 

@@ -112,7 +112,7 @@ std::string without_loose_secrets(std::string_view text, bool to_the_end) {
       const bool has_query = mark != kNowhere && path < begin + mark && value != kNowhere && begin + mark < value;
       if (has_user ? mark < user : has_query) {
         shown += part.substr(0, has_user ? 0 : mark);
-        end = end_of_address(text, done, done + begin, to_the_end);
+        end = end_of_address(text, done > 0 ? done - 1 : 0, done + begin, to_the_end);
         break;
       }
       if (has_user) {

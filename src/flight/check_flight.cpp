@@ -137,8 +137,7 @@ class JudgedTarget {
   }
 
   /// What hides any of them is told; out of range, behind and limits only where that holds for all.
-  static TargetOnLeg look_at_any(const std::vector<One>& list, const Leg& leg, double radius_m,
-                                 const Progress& asked) {
+  static TargetOnLeg look_at_any(const std::vector<One>& list, const Leg& leg, double radius_m, const Progress& asked) {
     TargetOnLeg result;
     bool is_first = true;
     for (const One& one : list) {

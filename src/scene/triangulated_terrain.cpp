@@ -136,12 +136,13 @@ void TriangulatedTerrain::index_triangles(const core::ProgressReporter& progress
 }
 
 void TriangulatedTerrain::index_vertices(const core::ProgressReporter& progress) {
-  fill_cells(vertices_.first, vertices_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
-             mesh_.vertices.size(),
-             [&](std::uint32_t v, const auto& add) {
-               add(cell(cell_column(mesh_.vertices[v].x()), cell_row(mesh_.vertices[v].y())));
-             },
-             progress);
+  fill_cells(
+      vertices_.first, vertices_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+      mesh_.vertices.size(),
+      [&](std::uint32_t v, const auto& add) {
+        add(cell(cell_column(mesh_.vertices[v].x()), cell_row(mesh_.vertices[v].y())));
+      },
+      progress);
 }
 
 std::optional<TriangulatedTerrain::Found> TriangulatedTerrain::find(const Eigen::Vector2d& at) const {

@@ -1,5 +1,6 @@
 #include "support/osm_maps.h"
 
+#include "core/format.h"
 #include "support/internals.h"
 #include "support/run_program.h"
 
@@ -43,9 +44,8 @@ class Description {
 }  // namespace
 
 std::string osm_node(long id, double lon, double lat, const std::string& inside) {
-  std::string text = "<node id='";
-  text.append(std::to_string(id)).append("' version='1' lon='").append(std::to_string(lon));
-  return text.append("' lat='").append(std::to_string(lat)).append("'>").append(inside).append("</node>\n");
+  return internal::core::format("<node id='{}' version='1' lon='{:.7f}' lat='{:.7f}'>{}</node>\n", id, lon, lat,
+                                inside);
 }
 
 std::string osm_tag(const std::string& key, const std::string& value) {

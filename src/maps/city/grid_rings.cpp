@@ -202,9 +202,8 @@ void for_each_meeting(const std::vector<GridRing>& rings, const MeetingVisit& vi
 
 Meeting meeting_of(const std::vector<GridRing>& rings) {
   Meeting result;
-  for_each_meeting(rings, [&](std::size_t, std::size_t, bool crossing) {
-    (crossing ? result.crossing : result.touching) = true;
-  });
+  for_each_meeting(
+      rings, [&](std::size_t, std::size_t, bool crossing) { (crossing ? result.crossing : result.touching) = true; });
   return result;
 }
 
