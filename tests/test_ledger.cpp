@@ -774,6 +774,7 @@ TEST(LedgerNear, AgreesWithAllBoxesOneAfterAnother) {
 
 TEST(LedgerNear, AGuessReachesFartherThanWhatIsHeld) {
   Scene scene;
+  scene.ledger.reserve(3);
   LedgerEntry& entry = scene.ledger.emplace_back();
   entry.box = Box{{10, 0, 0}, {20, 10, 9}};
   const Box path{{-5, 0, 5}, {-5, 10, 5}};

@@ -275,11 +275,12 @@ class PlanTable {
     for (const auto& [index, tells] : commands_) {
       const Told told = told_by(tells, fields[index]);
       if (told == Told::nothing) continue;
-      const std::string says = "column " + std::to_string(index + 1) + " says " + in_quotes(fields[index]);
+      std::string says = "column " + std::to_string(index + 1) + " says ";
+      says += in_quotes(fields[index]);
       if (told == Told::movement) {
         not_judged.name(where, "its " + says + ", which is not followed: of a table the positions are flown to");
       } else {
-        unclear_.emplace(index, where + ": its " + says);
+        unclear_.emplace(index, std::string(where).append(": its ").append(says));
       }
     }
   }
