@@ -718,11 +718,11 @@ TEST_F(LedgerTest, ATargetInAStandInIsToldWhatLeavesItOut) {
   MapText map = block_with_courtyard(-10, 10);
   map.box(35, -20, 80, 20, {{"natural", "wood"}, {"height", "25"}});
   const Mission wooded = mission(map, town_mission(""));
-  const std::vector<Warning> warnings = mission_warnings(wooded);
-  ASSERT_EQ(count(warnings, WarningCode::target_inside), 1u);
-  for (const Warning& warning : warnings) {
-    if (warning.code == WarningCode::target_inside) testing::expect_wording(warning.text);
-  }
+  const PreparedScene scene(wooded.scene());
+  const Error error = testing::expect_code([&] { prepare_target(wooded, scene); }, ErrorCode::target_inside_solid);
+  testing::expect_wording(error.what());
+  const Mission bare = mission(map, town_mission(", without: [woods]"));
+  EXPECT_NO_THROW(prepare_target(bare, PreparedScene(bare.scene())));
 }
 
 TEST(LedgerText, IsShortAndNamesWhatHasNoName) {

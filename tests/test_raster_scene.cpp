@@ -19,6 +19,7 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
+#include "vantage/mission.h"
 
 namespace vantage {
 namespace {
@@ -176,6 +177,33 @@ TEST(RasterScene, NarrowVoidsAreAsHighAsTheHighestPostAtTheirRim) {
   ASSERT_EQ(warned.scene.ledger.size(), 1u);
   EXPECT_FALSE(warned.scene.ledger[0].stand_in);
   testing::expect_wording(warned.scene.ledger[0].reason);
+}
+
+// Below the fill a target is seen from below the fill, whatever is there.
+TEST(RasterScene, ATargetUnderWhatFillsAVoidIsRefused) {
+  const testing::TemporaryDirectory folder;
+  enable_maps();
+  TestRaster raster = plain(80, 80);
+  make_void(raster, 30, 30, 20, 20);
+  raster.at(29, 33) = 430;
+  write_raster(folder.path(), "dsm", raster);
+  const auto prepare = [&](double x, double z, const std::string& missing) {
+    const std::string height = ", " + std::to_string(z) + "], ", west = "[" + std::to_string(x) + ", ",
+                      east = "[" + std::to_string(x + 2) + ", ";
+    testing::write_bytes(folder / "mission.yaml", "scene: {raster: dsm.tif, missing: " + missing +
+                                                      "}\ntarget: {vertices: [" + west + "0" + height + east + "0" +
+                                                      height + east + "2" + height + west + "2" + height +
+                                                      "]}\nsensor: {max_range: 60}\n");
+    const Mission mission = resolve_mission(read_mission(folder / "mission.yaml"));
+    prepare_target(mission, PreparedScene(mission.scene()));
+  };
+  for (const double z : {402, 399, 429}) {
+    const Error error = testing::expect_code([&] { prepare(0, z, "block"); }, ErrorCode::target_inside_solid);
+    if (z == 402) testing::expect_wording(error.what());
+  }
+  EXPECT_NO_THROW(prepare(0, 431, "block"));
+  EXPECT_NO_THROW(prepare(20, 402, "block"));
+  EXPECT_NO_THROW(prepare(0, 402, "warn"));
 }
 
 TEST(RasterScene, AGivenHeightOfVoidsNeverOpensANarrowOne) {

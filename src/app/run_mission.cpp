@@ -11,6 +11,7 @@
 #include "app/kept_volumes.h"
 #include "app/pierced_advice.h"
 #include "app/providers/spheres.h"
+#include "app/scene_warnings.h"
 #include "common/input.h"
 #include "core/parallel.h"
 #include "core/places.h"
@@ -205,6 +206,7 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
 PreparedTarget prepare(const Mission& mission, const Target& target, const PreparedScene& scene) {
   const GroundTarget* const ground = internal::app::only_ground_target(mission.as_written);
   return about_target(mission, target, [&] {
+    internal::app::refuse_in_stand_ins(*mission.loaded, target);
     try {
       return PreparedTarget(scene, target, mission.sensor);
     } catch (const Error& error) {

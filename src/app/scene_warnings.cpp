@@ -170,18 +170,22 @@ bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
   return inside;
 }
 
-/// That some of the target lies inside a closed object: what is seen of it from inside is computed, and seldom meant.
-/// Looks at the middle and the corners: who sees the whole target sees these.
-std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& target) {
+/// The middle of a target's part and its corners, on the side that is looked at: who sees all of it sees these.
+std::vector<Vec3> places_of(const TargetFrame& frame) {
   constexpr double kClear = 1e-3;   // metres: it may lie on the object
   constexpr double kWithin = 0.99;  // of the way to a corner: objects beside it may touch the target there
+  const Vec3 clear = frame.all_sides ? Vec3(Vec3::Zero()) : Vec3(kClear * frame.normal);
+  std::vector<Vec3> places = {frame.origin + clear};
+  for (const auto& corner : frame.polygon) {
+    places.push_back(frame.to_scene({kWithin * corner.x(), kWithin * corner.y(), 0}) + clear);
+  }
+  return places;
+}
+
+/// That some of the target lies inside a closed object: what is seen of it from inside is computed, and seldom meant.
+std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& target) {
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
-    const TargetFrame frame = make_target_frame(target, i);
-    const Vec3 clear = frame.all_sides ? Vec3(Vec3::Zero()) : Vec3(kClear * frame.normal);
-    std::vector<Vec3> places = {frame.origin + clear};
-    for (const auto& corner : frame.polygon) {
-      places.push_back(frame.to_scene({kWithin * corner.x(), kWithin * corner.y(), 0}) + clear);
-    }
+    const std::vector<Vec3> places = places_of(make_target_frame(target, i));
     std::optional<std::uint32_t> object;
     std::size_t inside = 0, first = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -192,12 +196,11 @@ std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& ta
       ++inside;
     }
     if (!object) continue;
-    return Warning{
-        WarningCode::target_inside,
-        (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
-            in_quotes(display_name(loaded.scene.objects[*object])) +
-            ", so no position outside that object sees all of it; " +
-            how_to_leave_out_stand_in(loaded, *object).value_or(how_to_take_roof(loaded, *object, places[first]))};
+    return Warning{WarningCode::target_inside,
+                   (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
+                       in_quotes(display_name(loaded.scene.objects[*object])) +
+                       ", so no position outside that object sees all of it; " +
+                       how_to_take_roof(loaded, *object, places[first])};
   }
   return std::nullopt;
 }
@@ -215,13 +218,10 @@ struct Crossed {
   double ground_z = -std::numeric_limits<double>::infinity();  ///< of the highest one that faces up
 };
 
-}  // namespace
-
-std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at) {
-  constexpr double kOnGround = 1e-3;  // metres: so far apart may a floor and the ground below it be
+std::map<std::uint32_t, Crossed> objects_on_the_vertical(const LoadedScene& loaded, const Vec3& at) {
   const Scene& scene = loaded.scene;
-  if (scene.object_of.empty()) return std::nullopt;  // a scene may have no objects
   std::map<std::uint32_t, Crossed> objects;
+  if (scene.object_of.empty()) return objects;  // a scene may have no objects
   const auto is_in_plan = [&](const Box& box) {
     return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
   };
@@ -243,11 +243,59 @@ std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3&
     }
     return true;
   });
-  for (const auto& [object, crossed] : objects) {
-    const bool has_floor = crossed.below > 0 || crossed.floor_z > crossed.ground_z - kOnGround;
-    if (crossed.above > 0 && has_floor) return object;
+  return objects;
+}
+
+bool is_round(const Crossed& crossed) {
+  constexpr double kOnGround = 1e-3;  // metres: so far apart may a floor and the ground below it be
+  const bool has_floor = crossed.below > 0 || crossed.floor_z > crossed.ground_z - kOnGround;
+  return crossed.above > 0 && has_floor;
+}
+
+/// What holds a place without being there as built: a stand-in round it, or what fills a void of a raster over it.
+/// Voids are filled up to the highest posts of their rim, and the ground beneath is another object of that kind.
+const LedgerEntry* stand_in_round(const LoadedScene& loaded, const Vec3& at) {
+  const Scene& scene = loaded.scene;
+  const std::map<std::uint32_t, Crossed> objects = objects_on_the_vertical(loaded, at);
+  const auto is_held_by = [&](const LedgerEntry& entry) {
+    const auto own = entry.stand_in ? objects.find(*entry.stand_in) : objects.end();
+    if (own == objects.end()) return false;
+    const ObjectKind kind = scene.objects[own->first].kind;
+    if (kind == ObjectKind::stand_in) return is_round(own->second);
+    const bool is_void = entry.box && (kind == ObjectKind::ground || kind == ObjectKind::surface);
+    if (!is_void || own->second.above <= 0) return false;
+    if ((entry.box->min - at).head<2>().maxCoeff() > 0 || (at - entry.box->max).head<2>().maxCoeff() > 0) return false;
+    return std::any_of(objects.begin(), objects.end(), [&](const auto& one) {
+      return one.first != own->first && scene.objects[one.first].kind == kind;
+    });
+  };
+  const auto found = std::find_if(scene.ledger.begin(), scene.ledger.end(), is_held_by);
+  return found == scene.ledger.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at) {
+  for (const auto& [object, crossed] : objects_on_the_vertical(loaded, at)) {
+    if (is_round(crossed)) return object;
   }
   return std::nullopt;
+}
+
+void refuse_in_stand_ins(const LoadedScene& loaded, const Target& target) {
+  if (loaded.scene.ledger.empty()) return;
+  for (std::size_t i = 0; i < target.parts.size(); ++i) {
+    if (target.parts[i].empty()) continue;
+    for (const Vec3& place : places_of(make_target_frame(target, i))) {
+      const LedgerEntry* const entry = stand_in_round(loaded, place);
+      if (entry == nullptr) continue;
+      const auto leave_out = how_to_leave_out_stand_in(loaded, *entry->stand_in);
+      throw Error(ErrorCode::target_inside_solid, "the target lies in what only stands in for something", "",
+                  leave_out.value_or("it may be there or not: " + ledger_text(*entry) +
+                                     "; raise the target, or leave out what fills voids with scene: {missing: warn}"),
+                  *entry->stand_in);
+    }
+  }
 }
 
 namespace {

@@ -20,6 +20,10 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume
 /// is in the open, under a roof without a floor, or in an object whose facets face inward.
 std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at);
 
+/// Throws Error(target_inside_solid) where the middle or a corner of a target lies in what only stands in for something
+/// that is not built, or under what fills a void of a raster: nobody knows what is seen from there.
+void refuse_in_stand_ins(const LoadedScene& loaded, const Target& target);
+
 /// Of these the one that tells that the scene seems to lie on its side, with what to do. Looked for once.
 std::optional<Warning> on_its_side(const LoadedScene& loaded);
 
