@@ -14,6 +14,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/solids.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/query.h"
 #include "vantage/volume.h"
@@ -63,6 +64,15 @@ TEST(Sensor, TheLeastRangeTakesABallAway) {
   const double wanted = (ball(100) - ball(60)) / 2;
   EXPECT_LE(volume, wanted);
   EXPECT_NEAR(volume, wanted, 1e-3 * wanted);
+}
+
+TEST(Sensor, RangesWhoseSquaresVanishAreRefused) {
+  for (const double range : {5e-324, 1e-320, 1e-200, 1e-61}) {
+    testing::expect_code([&] { check_sensor({.max_range_m = range}); }, ErrorCode::value_out_of_range, "sensor");
+  }
+  const Scene scene = testing::SceneBuilder().ground("ground", 60, -20);
+  const PreparedTarget target(PreparedScene(scene), Target::point({0, 0, 0}), {.max_range_m = 1e-60});
+  EXPECT_EQ(compute_visibility(target).outcome, Outcome::computed);
 }
 
 TEST(Sensor, IncidenceLeavesACone) {

@@ -18,6 +18,7 @@ using internal::core::number_text;
 
 constexpr double kLargestTangent = 1e3;  // half a picture of 179.9 degrees
 constexpr std::size_t kMostCells = 1024;
+constexpr double kShortest = 1e-60;        // metres: the square of a square of it is no zero yet
 constexpr double kSmallestTangent = 1e-6;  // and one of a fifth of a second of arc
 
 void require(bool holds, const char* problem, const char* where, const char* fix,
@@ -101,6 +102,7 @@ void check_sensor(const Sensor& sensor) {
   require(std::isfinite(range_m), "max_range must be a positive, finite number of metres", "sensor",
           "give the farthest distance at which the target can be seen, or the size of a pixel, which limits it too");
   require(range_m <= internal::request::kLongest, "max_range is larger than 1e9 m", "sensor", "give metres");
+  require(range_m >= kShortest, "max_range is shorter than 1e-60 m", "sensor", "give metres");
   if (sensor.min_range_m < range_m) return;
   throw Error(ErrorCode::limits_empty,
               "min_range is " + number_text(sensor.min_range_m) + " m, and " +
