@@ -15,6 +15,7 @@
 #include "app/pierced_advice.h"
 #include "app/triangle_runs.h"
 #include "common/input.h"
+#include "common/ledger.h"
 #include "core/triangle_distance.h"
 
 namespace vantage::internal::app {
