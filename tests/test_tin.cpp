@@ -79,6 +79,17 @@ TEST(Tin, TakesTheWorstFirstAndStopsAtTheError) {
   expect_tiling(mesh_of_all(tin), {0, 0}, {10, 10});
 }
 
+TEST(Tin, AsksAtEachOfTheFirstInsertions) {  // each of them may move a million candidates
+  testing::Random random(12);
+  Tin tin = unit_square(100);
+  std::vector<Vec3> posts;
+  for (int i = 0; i < 500; ++i) posts.push_back(random.point(1, 99));
+  tin.add_candidates(posts);
+  std::size_t asked = 0;
+  tin.refine(0, [&](double) { ++asked; });
+  EXPECT_GE(asked, posts.size());
+}
+
 TEST(Tin, KeepsThePromisedErrorOnRandomHeights) {
   testing::Random random(12);
   for (int run = 0; run < 20; ++run) {

@@ -66,13 +66,13 @@ void Tin::add(const std::vector<Vec3>& points) {
 }
 
 void Tin::refine(double max_error, const std::function<void(double)>& progress) {
-  constexpr unsigned kQuiet = 64;  // insertions; the first ones move a million candidates
+  constexpr unsigned kFirst = 1024, kQuiet = 64;  // insertions; each of the first ones may move a million candidates
   queue_ = {};
   for (std::uint32_t f = 0; f < facets_.size(); ++f) queue_.push({facets_[f].error, f, facets_[f].worst});
   for (unsigned count = 0; !queue_.empty() && queue_.top().error > max_error; ++count) {
     const Worst worst = queue_.top();
     queue_.pop();
-    if (count % kQuiet == 0) progress(worst.error);
+    if (count < kFirst || count % kQuiet == 0) progress(worst.error);
     const auto facet_of = [&]() -> const Facet& { return facets_[worst.facet]; };
     if (facet_of().worst != worst.candidate || facet_of().error != worst.error) continue;  // replaced since
     if (!insert_for(worst, max_error)) drop(worst.candidate, worst.facet);

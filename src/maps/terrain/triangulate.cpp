@@ -61,7 +61,7 @@ struct Samples {
 };
 
 Samples sample(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen::Vector2d& min,
-               const Eigen::Vector2d& max) {
+               const Eigen::Vector2d& max, const core::ProgressReporter& progress) {
   Samples samples;
   const std::array<Eigen::Vector2d, 4> corners = {min, {max.x(), min.y()}, max, {min.x(), max.y()}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -77,6 +77,7 @@ Samples sample(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen
   const std::vector<Eigen::Vector2d> places = post_positions(grid, frame);
   samples.inner_post.resize(places.size(), Tin::kNone);
   for (std::size_t i = 0; i < places.size(); ++i) {
+    progress.tick();
     const double inside_m = std::min((places[i] - min).minCoeff(), (max - places[i]).minCoeff());
     if (inside_m < 0) continue;
     samples.posts.push_back(lifted(places[i], static_cast<double>(grid.heights_m[i])));
@@ -131,10 +132,12 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   }
   core::ProgressReporter progress(callback, grid.file);
   progress.begin("triangulating the terrain");
-  const Samples samples = sample(grid, frame, min, max);
+  const Samples samples = sample(grid, frame, min, max, progress);
   Tin tin(samples.corners);
   tin.add_candidates(samples.border);
-  tin.add_middles(middles(grid, samples, tin.add_candidates(samples.inner)));
+  const std::uint32_t first = tin.add_candidates(samples.inner);
+  progress.check();
+  tin.add_middles(middles(grid, samples, first));
   // Half of the error on either side, and then up by as much: all of it lies above the posts.
   grow(tin, max_error_m / 2, progress);
   tin.fold_up(max_error_m / 2, progress);
