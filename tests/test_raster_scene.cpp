@@ -15,11 +15,13 @@
 #include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
+#include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
 #include "vantage/mission.h"
+#include "vantage/result.h"
 
 namespace vantage {
 namespace {
@@ -187,23 +189,29 @@ TEST(RasterScene, ATargetUnderWhatFillsAVoidIsRefused) {
   make_void(raster, 30, 30, 20, 20);
   raster.at(29, 33) = 430;
   write_raster(folder.path(), "dsm", raster);
-  const auto prepare = [&](double x, double z, const std::string& missing) {
+  const auto mission_at = [&](double x, double z, const std::string& missing) {
     const std::string height = ", " + std::to_string(z) + "], ", west = "[" + std::to_string(x) + ", ",
                       east = "[" + std::to_string(x + 2) + ", ";
     testing::write_bytes(folder / "mission.yaml", "scene: {raster: dsm.tif, missing: " + missing +
                                                       "}\ntarget: {vertices: [" + west + "0" + height + east + "0" +
                                                       height + east + "2" + height + west + "2" + height +
                                                       "]}\nsensor: {max_range: 60}\n");
-    const Mission mission = resolve_mission(read_mission(folder / "mission.yaml"));
-    prepare_target(mission, PreparedScene(mission.scene()));
+    return resolve_mission(read_mission(folder / "mission.yaml"));
   };
+  const auto prepare = [](const Mission& mission) { prepare_target(mission, PreparedScene(mission.scene())); };
+  const Mesh volume = testing::make_box_mesh({0, 0, 403}, {1, 1, 404});
   for (const double z : {402, 399, 429}) {
-    const Error error = testing::expect_code([&] { prepare(0, z, "block"); }, ErrorCode::target_inside_solid);
+    const Mission mission = mission_at(0, z, "block");
+    const Error error = testing::expect_code([&] { prepare(mission); }, ErrorCode::target_inside_solid);
     if (z == 402) testing::expect_wording(error.what());
+    testing::expect_code([&] { prove_volume(mission, volume); }, ErrorCode::target_inside_solid);
+    testing::expect_code([&] { verify_volume(mission, volume); }, ErrorCode::target_inside_solid);
   }
-  EXPECT_NO_THROW(prepare(0, 431, "block"));
-  EXPECT_NO_THROW(prepare(20, 402, "block"));
-  EXPECT_NO_THROW(prepare(0, 402, "warn"));
+  EXPECT_NO_THROW(prepare(mission_at(0, 431, "block")));
+  EXPECT_NO_THROW(prepare(mission_at(20, 402, "block")));
+  const Mission open = mission_at(0, 402, "warn");
+  EXPECT_NO_THROW(prepare(open));
+  EXPECT_NO_THROW(prove_volume(open, volume));
 }
 
 TEST(RasterScene, AGivenHeightOfVoidsNeverOpensANarrowOne) {

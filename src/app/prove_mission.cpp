@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/certified_ply.h"
+#include "app/scene_warnings.h"
 #include "common/atomic_file.h"
 #include "common/input.h"
 #include "common/known_data.h"
@@ -172,6 +173,7 @@ void check_is_of_file(const Certificate& certificate, const CertifiedFiles& abou
 
 ProofReport prove_volume(const Mission& mission, const Mesh& volume, const ProveOptions& options,
                          const Progress& progress) {
+  internal::app::refuse_in_stand_ins(mission);
   std::optional<ProofReport> all;
   for (const ProvedView& view : proved_views(mission, options.lift_m)) {
     ProveOptions one = options;

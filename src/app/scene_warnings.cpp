@@ -16,6 +16,7 @@
 #include "app/triangle_runs.h"
 #include "common/input.h"
 #include "common/ledger.h"
+#include "core/places.h"
 #include "core/triangle_distance.h"
 
 namespace vantage::internal::app {
@@ -197,11 +198,12 @@ std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& ta
       ++inside;
     }
     if (!object) continue;
-    return Warning{WarningCode::target_inside,
-                   (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
-                       in_quotes(display_name(loaded.scene.objects[*object])) +
-                       ", so no position outside that object sees all of it; " +
-                       how_to_take_roof(loaded, *object, places[first])};
+    return Warning{
+        WarningCode::target_inside,
+        (inside == places.size() ? "the target lies inside " : "some of the target lies inside ") +
+            in_quotes(display_name(loaded.scene.objects[*object])) +
+            ", so no position outside that object sees all of it; " +
+            how_to_leave_out_stand_in(loaded, *object).value_or(how_to_take_roof(loaded, *object, places[first]))};
   }
   return std::nullopt;
 }
@@ -219,14 +221,16 @@ struct Crossed {
   double ground_z = -std::numeric_limits<double>::infinity();  ///< of the highest one that faces up
 };
 
+bool is_in_plan(const Box& box, const Vec3& at) {
+  return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
+}
+
 std::map<std::uint32_t, Crossed> objects_on_the_vertical(const LoadedScene& loaded, const Vec3& at) {
   const Scene& scene = loaded.scene;
   std::map<std::uint32_t, Crossed> objects;
   if (scene.object_of.empty()) return objects;  // a scene may have no objects
-  const auto is_in_plan = [&](const Box& box) {
-    return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
-  };
-  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
+  const auto may_be_crossed = [&](const Box& box) { return is_in_plan(box, at); };
+  triangle_runs(loaded).visit(may_be_crossed, [&](std::size_t i) {
     std::array<Vec3, 3> facet;
     for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
     if (!holds(facet, at)) return true;
@@ -263,9 +267,8 @@ const LedgerEntry* stand_in_round(const LoadedScene& loaded, const Vec3& at) {
     if (own == objects.end()) return false;
     const ObjectKind kind = scene.objects[own->first].kind;
     if (kind == ObjectKind::stand_in) return is_round(own->second);
-    const bool is_void = entry.box && (kind == ObjectKind::ground || kind == ObjectKind::surface);
-    if (!is_void || own->second.above <= 0) return false;
-    if ((entry.box->min - at).head<2>().maxCoeff() > 0 || (at - entry.box->max).head<2>().maxCoeff() > 0) return false;
+    if (kind != ObjectKind::ground && kind != ObjectKind::surface) return false;
+    if (!entry.box || !is_in_plan(*entry.box, at) || own->second.above <= 0) return false;
     return std::any_of(objects.begin(), objects.end(), [&](const auto& one) {
       return one.first != own->first && scene.objects[one.first].kind == kind;
     });
@@ -290,13 +293,24 @@ void refuse_in_stand_ins(const LoadedScene& loaded, const Target& target) {
     for (const Vec3& place : places_of(make_target_frame(target, i))) {
       const LedgerEntry* const entry = stand_in_round(loaded, place);
       if (entry == nullptr) continue;
-      const auto leave_out = how_to_leave_out_stand_in(loaded, *entry->stand_in);
-      throw Error(ErrorCode::target_inside_solid, "the target lies in what only stands in for something", "",
-                  leave_out.value_or("it may be there or not: " + ledger_text(*entry) +
-                                     "; raise the target, or leave out what fills voids with scene: {missing: warn}"),
-                  *entry->stand_in);
+      throw Error(
+          ErrorCode::target_inside_solid, "the target lies in a stand-in", "",
+          how_to_leave_out_stand_in(loaded, *entry->stand_in)
+              .value_or(
+                  "a void is filled there: " + ledger_text(*entry) +
+                  "; raise the target above that, or fill voids from their neighbours with scene: {missing: warn}"),
+          *entry->stand_in);
     }
   }
+}
+
+void refuse_in_stand_ins(const Mission& mission) {
+  core::with_place(mission.as_written.places.target, [&] {
+    for (const std::vector<Target>& view : views_of(mission)) {
+      for (const Target& target : view) refuse_in_stand_ins(*mission.loaded, target);
+    }
+    return 0;
+  });
 }
 
 namespace {

@@ -23,6 +23,8 @@ std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3&
 /// Throws Error(target_inside_solid) where the middle or a corner of a target lies in what only stands in for something
 /// that is not built, or under what fills a void of a raster: nobody knows what is seen from there.
 void refuse_in_stand_ins(const LoadedScene& loaded, const Target& target);
+/// The same for all targets of a mission.
+void refuse_in_stand_ins(const Mission& mission);
 
 /// Of these the one that tells that the scene seems to lie on its side, with what to do. Looked for once.
 std::optional<Warning> on_its_side(const LoadedScene& loaded);

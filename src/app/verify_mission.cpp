@@ -1,4 +1,5 @@
 // The check of a mission's volume.
+#include "app/scene_warnings.h"
 #include "common/known_data.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
@@ -7,6 +8,7 @@ namespace vantage {
 
 VerifyReport verify_volume(const Mission& mission, const Mesh& volume, const VerifyOptions& options,
                            const Progress& progress) {
+  internal::app::refuse_in_stand_ins(mission);
   const auto check = [&](const auto& seen) {
     return verify_volume(mission.scene(), seen, mission.sensor, mission.navigation, volume, options, progress);
   };

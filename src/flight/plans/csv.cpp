@@ -13,6 +13,7 @@
 
 #include "common/input.h"
 #include "common/table_columns.h"
+#include "core/format.h"
 #include "flight/plans/mission_items.h"
 #include "flight/plans/plan_source.h"
 #include "flight/plans/text_lines.h"
@@ -275,12 +276,11 @@ class PlanTable {
     for (const auto& [index, tells] : commands_) {
       const Told told = told_by(tells, fields[index]);
       if (told == Told::nothing) continue;
-      std::string says = "column " + std::to_string(index + 1) + " says ";
-      says += in_quotes(fields[index]);
+      const std::string says = core::format("its column {} says {}", index + 1, in_quotes(fields[index]));
       if (told == Told::movement) {
-        not_judged.name(where, "its " + says + ", which is not followed: of a table the positions are flown to");
+        not_judged.name(where, says + ", which is not followed: of a table the positions are flown to");
       } else {
-        unclear_.emplace(index, std::string(where).append(": its ").append(says));
+        unclear_.emplace(index, core::format("{}: {}", where, says));
       }
     }
   }
