@@ -398,7 +398,10 @@ TEST(RasterScene, PostsMustLieSideBySide) {
   TestRaster world = make_raster(36, 18, block);
   world.srs = "EPSG:4326";
   world.transform = {-180, 10, 0, 90, 0, -10};
-  for (const TestRaster& raster : {small, world}) {
+  TestRaster wound = make_raster(12, 30000, block);  // quadratic, were it triangulated: half a minute
+  wound.srs = "EPSG:4326";
+  wound.transform = {11, -1844674407370955.2, 0, 48, 0, -1e-4};
+  for (const TestRaster& raster : {small, world, wound}) {
     const auto file = write_raster(folder.path(), "dsm", raster);
     testing::expect_error([&] { scene_from_raster(file, {}); }, ErrorCode::raster_grid_unsupported, "dsm.tif");
   }

@@ -279,6 +279,12 @@ void check_posts(std::int64_t posts, const std::filesystem::path& file) {
 HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWindow& pixels, const Progress& callback,
                        const HeightReading& reading) {
   check_posts(static_cast<std::int64_t>(pixels.columns) * pixels.rows, grid.file);
+  // Where posts lie on each other, or between those of other rows, a surface of them takes quadratic time to refuse.
+  if (grid.crs.is_geographic() && !(std::abs(grid.step.x()) * (pixels.columns - 1) < 360)) {
+    throw Error(ErrorCode::raster_grid_unsupported,
+                "the posts of the raster do not lie side by side: it goes round the earth", grid.file.string(),
+                "give a smaller region, with --center and --radius, or check the size of its pixels");
+  }
   if (!(std::abs(reading.heights.void_m.value_or(0)) <= kImpossible_m)) {
     throw Error(ErrorCode::value_out_of_range, "the height of voids is beyond 12 km", grid.file.string(),
                 "give it in metres");
