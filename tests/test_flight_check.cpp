@@ -17,6 +17,7 @@
 #include "flight/flight_timeline.h"
 #include "flight/gimbal.h"
 #include "support/flight_cases.h"
+#include "support/plan_texts.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/solids.h"
@@ -119,6 +120,53 @@ TEST(FlightCheck, SeesNothingFromOtherWays) {
   EXPECT_EQ(check.nearest.distance_m, nearest);
   EXPECT_EQ(check.nearest.at_m, 10);
   EXPECT_FALSE(check.passes());
+}
+
+// Also without a clearance: the vehicle would fly into it.
+TEST(FlightCheck, NoFlightMeetsTheScene) {
+  const Mission mission = behind_a_wall();
+  const auto failures = [&](const std::vector<Vec3>& positions, double tube_m = 0) {
+    return check_flight(mission, flight_along(positions, 5), {.tube_radius_m = tube_m}).failures;
+  };
+  const std::vector<Vec3> through = {{0, -20, 5}, {0, 26, 5}}, beside = {{-20, -4, 12}, {20, -4, 12}};
+  expect_wording(plan_texts::joined(failures(through), "\n"));
+  EXPECT_EQ(failures(beside), std::vector<std::string>());
+  EXPECT_EQ(failures(beside, 9), std::vector<std::string>());
+  EXPECT_NE(plan_texts::joined(failures(beside, 11), "\n").find("the flight meets wall"), std::string::npos);
+  // Inside of it from end to end, and far from its faces. A building may have no floor.
+  SceneBuilder block;
+  block.ground("ground", 200, -0.5).box("block", {-30, -30, -0.5}, {30, 30, 60});
+  for (const bool has_floor : {true, false}) {
+    Scene scene = with_ground(block);
+    const auto is_floor = [&](std::size_t i) {
+      const auto z = [&](std::size_t k) { return scene.mesh.vertices[scene.mesh.triangles[i][k]].z(); };
+      return scene.object_of[i] == 1 && std::max({z(0), z(1), z(2)}) < 0;
+    };
+    for (std::size_t i = scene.mesh.triangles.size(); !has_floor && i-- > 0;) {
+      if (!is_floor(i)) continue;
+      scene.mesh.triangles.erase(scene.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+      scene.object_of.erase(scene.object_of.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    const Mission inside = mission_in(std::move(scene), checked_square(), 100);
+    const FlightCheck check = check_flight(inside, flight_along({{-9, 0, 30}, {9, 0, 30}}), {.clearance_m = 5});
+    EXPECT_EQ(check.failures, std::vector<std::string>{"the flight meets block, 0 m along it"}) << has_floor;
+    EXPECT_EQ(check.nearest.distance_m, 0);
+  }
+}
+
+TEST(FlightCheck, NoFlightIsBelowTheGround) {
+  Mission mission = behind_a_wall();  // the ground is at -0.5
+  const auto failures = [&](const std::vector<Vec3>& positions) {
+    return check_flight(mission, flight_along(positions, 5)).failures;
+  };
+  const std::vector<Vec3> under = {{-20, 0, 20}, {-10, 0, -9.5}, {10, 0, -9.5}, {20, 0, 20}};
+  const std::vector<Vec3> level = {{-20, -5, -0.6}, {20, -5, -0.6}};
+  const std::vector<Vec3> flown = {
+      {0, -20, -0.9}, {0, -20, 9}, {0, -10, 9}, {0, -10, -0.5}};  // the ground is not exact
+  expect_wording(plan_texts::joined(failures(under), "\n") + "\n" + plan_texts::joined(failures(level), "\n"));
+  EXPECT_EQ(failures(flown), std::vector<std::string>());
+  mission.navigation.above_ground = AboveGround{-100, 400, *ground_of(mission.scene())};
+  EXPECT_EQ(failures(under).size(), 1U);
 }
 
 TEST(FlightCheck, OfOnePointIsAStay) {

@@ -306,7 +306,8 @@ def check(mission: AnyMission, plan: AnyFlight, *, tube_m: float = 0.0, speed_m_
           threads: int = 0, progress: Progress = None) -> FlightCheck:
     """Judges a flight by what a mission asks: when is all of each target seen, which limits are broken, how near is what.
 
-    Exact along straight legs; rounding errs on the safe side. With several targets each is judged by itself.
+    Exact along straight legs; rounding errs on the safe side. With several targets each is judged by itself. Whatever is
+    asked, a flight fails that meets an object, lies inside a solid or is below the ground.
 
     Args:
         mission: a mission, a result, or the path of a mission file. What its `tour` says counts where nothing is given here.

@@ -19,6 +19,7 @@
 #include "flight/check_links.h"
 #include "flight/flight_timeline.h"
 #include "flight/obstacles.h"
+#include "scene/viewpoint_check.h"
 #include "vantage/error.h"
 #include "vantage/flight_check.h"
 #include "vantage/query.h"
@@ -322,6 +323,41 @@ NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene
   return nearest;
 }
 
+/// A flight that crosses nothing is inside a solid where its first point is.
+NearestPass inside_of(const Mission& mission, const std::vector<std::uint32_t>& ground, const Vec3& first) {
+  const Scene& scene = mission.scene();
+  if (scene.mesh.empty()) return {};
+  const auto solid = internal::scene::ViewpointCheck(scene).look(first).inside;
+  if (!solid || scene.objects[*solid].kind == ObjectKind::ground) return {};
+  if (std::find(ground.begin(), ground.end(), *solid) != ground.end()) return {};
+  return {0, 0, first, first, display_name(scene.objects[*solid])};
+}
+
+constexpr const char* kBelowGround = "ground";
+
+/// Where the middle of the flight is below the ground, whatever heights the mission asks for. Takeoffs and landings
+/// touch the ground, which is known to a metre there.
+void find_below_ground(const Mission& mission, const std::vector<Leg>& legs, std::vector<OnLeg>& found) {
+  constexpr double kTouchM = 1, kRoundingM = 1e-3, kAnyHeightM = 1e9;
+  const auto& asked = mission.navigation.above_ground;
+  if (asked && asked->min_m >= 0) return;  // told as that limit
+  std::optional<Ground> ground = flight::ground_if_known(mission);
+  if (!ground) return;
+  Navigation navigation;
+  navigation.above_ground = AboveGround{0, kAnyHeightM, *std::move(ground)};
+  const LegLimits limits(navigation);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Vec3 way = legs[i].to - legs[i].from;
+    const bool is_end = i == 0 || i + 1 == legs.size();
+    const bool may_touch = std::abs(way.z()) > kTouchM && (is_end || way.head<2>().norm() < kTouchM);
+    for (LegBreak& broken : limits.broken(legs[i])) {
+      if (broken.limit != "agl min" || !(broken.worst > (may_touch ? kTouchM : kRoundingM))) continue;
+      broken.limit = kBelowGround;
+      found[i].broken.push_back(std::move(broken));
+    }
+  }
+}
+
 /// What is required and does not hold.
 std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheckOptions& options) {
   using internal::core::number_text;
@@ -350,13 +386,21 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
     if (const auto failure = flight::failure_of(link)) failures.push_back(*failure);
   }
   for (const BrokenLimit& limit : check.broken) {
+    if (limit.name == kBelowGround) {
+      failures.push_back(internal::core::format("the flight is {} m below the ground, {} m along it",
+                                                number_text(limit.worst), number_text(limit.worst_at_m)));
+      continue;
+    }
     failures.push_back(
         std::isfinite(limit.worst)
             ? internal::core::format("{} is broken by {} {}, {} m along the flight", limit.name,
                                      number_text(limit.worst), limit.unit, number_text(limit.worst_at_m))
             : internal::core::format("{} is broken, {} m along the flight", limit.name, number_text(limit.worst_at_m)));
   }
-  if (options.clearance_m && check.nearest.distance_m < *options.clearance_m) {
+  if (check.nearest.distance_m == 0) {
+    failures.push_back(internal::core::format("the flight meets {}, {} m along it", check.nearest.object,
+                                              number_text(check.nearest.at_m)));
+  } else if (options.clearance_m && check.nearest.distance_m < *options.clearance_m) {
     failures.push_back(internal::core::format("{} is {} m away, {} m along the flight, and {} m are asked for",
                                               check.nearest.object.empty() ? "the scene" : check.nearest.object,
                                               number_text(check.nearest.distance_m), number_text(check.nearest.at_m),
@@ -427,8 +471,9 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   }
   const internal::core::ProgressReporter reporter(progress);
   reporter.begin("checking the flight");
-  const std::vector<OnLeg> found = judge_legs(flight, legs, judges, check.tube_radius_m, reporter);
+  std::vector<OnLeg> found = judge_legs(flight, legs, judges, check.tube_radius_m, reporter);
   reporter.finish();
+  find_below_ground(mission, legs, found);
   for (std::size_t i = 0; i < judges.targets.size(); ++i) {
     check.targets.push_back(check_target(judges.targets[i], i, found, flight, along, options));
   }
@@ -438,8 +483,13 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
     check.links.push_back(judges.links[i].check(views, legs, along, check.tube_radius_m));
   }
   check.broken = broken_limits(found, along);
-  const LegDistances distances(scene, {.without_ground = true, .without_objects = flight::named_ground(mission)});
+  const std::vector<std::uint32_t> ground = flight::named_ground(mission);
+  const LegDistances distances(scene, {.without_ground = true, .without_objects = ground});
   check.nearest = nearest_pass(legs, distances, along, check.tube_radius_m, progress);
+  if (check.nearest.distance_m > 0) {
+    const NearestPass inside = inside_of(mission, ground, legs.front().from);
+    if (!inside.object.empty()) check.nearest = inside;
+  }
   check.failures = failures_of(check, options);
   check.not_judged = flight.not_judged;
   for (const Warning& note : mission.notes) check.notes.push_back(note.text);

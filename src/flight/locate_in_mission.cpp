@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "core/format.h"
+#include "flight/obstacles.h"
 #include "geo/on_globe.h"
 #include "geo/zone_reach.h"
 #include "vantage/earth.h"
@@ -28,16 +29,6 @@ bool is_home_of_tour(const FlightPlan& plan, const Mission& mission) {
   if (!plan.home) return true;
   const Eigen::Vector2d away = plan.home->horizontal - home_of_tour(plan.is_in_scene_frame, mission);
   return away.cwiseAbs().maxCoeff() <= (plan.is_in_scene_frame ? kSameM : kSameDeg);
-}
-
-/// Nothing where the scene does not say what of it is ground: locating says when it is needed.
-std::optional<Ground> ground_if_known(const Mission& mission) {
-  try {
-    return ground_of(mission);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::ground_missing) throw;
-    return std::nullopt;
-  }
 }
 
 bool has_zones_of_the_earth(const Mission& mission) {
@@ -67,7 +58,7 @@ std::optional<Warning> beyond_zones(const Mission& mission, const Flight& flight
 LocatedPlan locate_flight(const Mission& mission, const FlightPlan& plan, LocateOptions options) {
   std::optional<Ground> ground;
   if (options.ground == nullptr) {
-    ground = ground_if_known(mission);
+    ground = internal::flight::ground_if_known(mission);
     options.ground = ground ? &*ground : nullptr;
   }
   if (!options.georeference) options.georeference = mission.scene().georeference;

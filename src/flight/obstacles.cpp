@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scene/obstacles.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::flight {
 
@@ -16,6 +17,15 @@ std::vector<std::uint32_t> named_ground(const Mission& mission) {
     if (object.name == name || object.source_id == name || display_name(object) == name) ground.push_back(i);
   }
   return ground;
+}
+
+std::optional<Ground> ground_if_known(const Mission& mission) {
+  try {
+    return ground_of(mission);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::ground_missing) throw;
+    return std::nullopt;
+  }
 }
 
 Obstacles::Obstacles(const Mission& mission) : Obstacles(mission.scene(), named_ground(mission)) {}

@@ -2,17 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/triangle_tree.h"
 #include "vantage/geometry.h"
+#include "vantage/ground.h"
 #include "vantage/mission.h"
 
 namespace vantage::internal::flight {
 
 /// The objects that the mission calls its ground.
 std::vector<std::uint32_t> named_ground(const Mission& mission);
+
+/// What heights of the mission are above; nothing where the scene does not say what of it is ground.
+std::optional<Ground> ground_if_known(const Mission& mission);
 
 class Obstacles {
  public:

@@ -5,10 +5,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
-#include <tuple>
 
 #include "core/triangle_distance.h"
+#include "core/weld.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::scene {
@@ -31,22 +30,6 @@ double solid_angle(const Corners& c) {
                         a * b * d + c[0].dot(c[1]) * d + c[0].dot(c[2]) * b + c[1].dot(c[2]) * a);
 }
 
-/// Vertices at one position get one number.
-std::vector<std::uint32_t> welded(const std::vector<Vec3>& vertices) {
-  std::vector<std::uint32_t> order(vertices.size()), number(vertices.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto less = [&](std::uint32_t i, std::uint32_t j) {
-    const Vec3 &a = vertices[i], &b = vertices[j];
-    return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
-  };
-  std::sort(order.begin(), order.end(), less);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && !less(order[i - 1], order[i]);
-    number[order[i]] = is_same ? number[order[i - 1]] : order[i];
-  }
-  return number;
-}
-
 std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t at) {
   while (parent[at] != at) at = parent[at] = parent[parent[at]];
   return at;
@@ -55,7 +38,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t at) {
 }  // namespace
 
 ViewpointCheck::ViewpointCheck(const Scene& scene) : scene_(scene) {
-  const std::vector<std::uint32_t> weld = welded(scene.mesh.vertices);
+  const std::vector<std::uint32_t> weld = core::first_at_position(scene.mesh.vertices);
   std::vector<std::uint32_t> parent = weld;
   for (const Triangle& t : scene.mesh.triangles) {
     const std::uint32_t root = root_of(parent, weld[t[0]]);
@@ -72,25 +55,34 @@ ViewpointCheck::ViewpointCheck(const Scene& scene) : scene_(scene) {
   }
 }
 
-void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const {
+ViewpointCheck::Place ViewpointCheck::look(const Vec3& viewpoint) const {
   std::vector<double> angle(pieces_, 0.0);
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
     if (core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]) <
         kOnSurface * kOnSurface) {
-      throw Error(ErrorCode::viewpoint_on_surface, name + " lies on a surface",
-                  "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'",
-                  "move it off the surface, by 1 mm or more", scene_.object_of[t]);
+      return {scene_.object_of[t], {}};
     }
     angle[piece_of_[t]] += solid_angle(corners);
   }
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     const double winding = angle[piece_of_[t]] / (4 * std::numbers::pi);
-    if (winding <= kInside && winding >= kInsideOut) continue;
+    if (!(winding <= kInside && winding >= kInsideOut)) return {{}, scene_.object_of[t]};
+  }
+  return {};
+}
+
+void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const {
+  const auto [surface, solid] = look(viewpoint);
+  if (surface) {
+    throw Error(ErrorCode::viewpoint_on_surface, name + " lies on a surface",
+                "object '" + display_name(scene_.objects[*surface]) + "'", "move it off the surface, by 1 mm or more",
+                *surface);
+  }
+  if (solid) {
     throw Error(ErrorCode::viewpoint_inside_solid, name + " lies inside a solid",
-                "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'", "move it into the open",
-                scene_.object_of[t]);
+                "object '" + display_name(scene_.objects[*solid]) + "'", "move it into the open", *solid);
   }
 }
 

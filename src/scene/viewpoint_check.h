@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ inline constexpr double kOnSurface = 1e-3;
 class ViewpointCheck {
  public:
   VANTAGE_INTERNAL_API explicit ViewpointCheck(const Scene& scene);
+
+  /// The object that a place lies on, or else one that it lies inside of; neither in the open.
+  struct Place {
+    std::optional<std::uint32_t> on, inside;
+  };
+  VANTAGE_INTERNAL_API Place look(const Vec3& viewpoint) const;
 
   /// Throws Error(input) that names the object. `name` begins the message: "the viewpoint of volume 2".
   VANTAGE_INTERNAL_API void check(const Vec3& viewpoint, const std::string& name) const;
