@@ -927,6 +927,49 @@ TEST(ReadFlightPlan, TellsWhatOfGeoJsonIsNotFlown) {
                ErrorCode::value_unsupported, "features[1]");
 }
 
+TEST(ReadFlightPlan, RefusesMembersOfGeoJsonThatAreNotFlown) {
+  const std::string line = "{\"type\": \"LineString\", \"coordinates\": [[11, 48, 560], [11.001, 48, 570]]}";
+  const std::string feature = "{\"type\": \"Feature\", \"properties\": {}, \"geometry\": " + line + "}";
+  const auto with = [&](const std::string& more, const std::string& members = "") {
+    return parsed_plan("{\"type\": \"FeatureCollection\", \"features\": [" + feature + ", " + more + "]" + members +
+                       "}");
+  };
+  const auto refuse = [&](const std::string& more, ErrorCode code) {
+    expect_error([&] { with(more); }, code, "features[1]");
+  };
+  const auto shaped = [](const std::string& shape) { return "{\"type\": \"Feature\", \"geometry\": " + shape + "}"; };
+  refuse("{\"type\": \"Feature\", \"Geometry\": " + line + "}", ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"geometry\": null, \"path\": [[11, 48], [12, 48]]}", ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"geometry\": null, \"path\": [{\"lat\": 48, \"lon\": 11}]}",
+         ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"geometry\": null, \"properties\": {\"way\": " + line + "}}",
+         ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"properties\": {}}", ErrorCode::plan_syntax);
+  refuse("{\"type\": \"Feature\", \"properties\": [1], \"geometry\": null}", ErrorCode::plan_syntax);
+  refuse(shaped("{\"type\": \"LineString\", \"Coordinates\": [[11, 48], [12, 48]]}"), ErrorCode::value_unsupported);
+  refuse(shaped("[" + line + "]"), ErrorCode::plan_syntax);
+  refuse(shaped(feature), ErrorCode::value_unsupported);
+  refuse(shaped("{\"type\": \"GeometryCollection\", \"Geometries\": [" + line + "]}"), ErrorCode::value_unsupported);
+  refuse(shaped("{\"type\": \"GeometryCollection\", \"geometries\": [[" + line + "]]}"), ErrorCode::plan_syntax);
+  refuse(shaped("{\"coordinates\": [[11, 48], [12, 48]]}"), ErrorCode::plan_syntax);
+  refuse(shaped("{\"type\": \"LineString\", \"coordinates\": \"[[11, 48], [12, 48]]\"}"), ErrorCode::plan_syntax);
+  expect_error([&] { with(feature, ", \"Features\": [" + feature + "]"); }, ErrorCode::value_unsupported, "the object");
+  expect_error([&] { with(feature, ", \"mission\": {}"); }, ErrorCode::plan_syntax);
+  // What programs write beside it.
+  const std::string data = "{\"color\": [255, 0, 0], \"name\": \"b\", \"gpx\": {\"times\": [[1, 2]]}}";
+  const std::string boxed = "{\"type\": \"Feature\", \"id\": 7, \"bbox\": [11, 48, 12, 49], \"properties\": " + data +
+                            ", \"geometry\": {\"type\": \"LineString\", \"bbox\": [11, 48, 12, 49], \"coordinates\": "
+                            "[[11.001, 48, 570, 1e9], [11.002, 48, 580, 1e9]]}}";
+  const FlightPlan plan = with(boxed + ", {\"type\": \"Feature\", \"properties\": [], \"geometry\": null}",
+                               ", \"bbox\": [11, 48, 12, 49], \"name\": \"a\", \"properties\": {\"author\": \"c\"}");
+  EXPECT_EQ(plan.items.size(), 4u);
+  ASSERT_EQ(plan.notes.size(), 1u);
+  EXPECT_EQ(plan.notes[0].code, WarningCode::plan_joined);
+  const std::string crs =
+      "{\"type\": \"Feature\", \"crs\": {\"properties\": {\"name\": \"EPSG:31468\"}}, \"geometry\": " + line + "}";
+  EXPECT_TRUE(has_note(with(crs).notes, WarningCode::plan_assumed));
+}
+
 TEST(ReadFlightPlan, TakesStaysOfPointsBesideTheirLine) {
   const auto point = [](const std::string& at, const std::string& data) {
     return "<Placemark><ExtendedData>" + data +
