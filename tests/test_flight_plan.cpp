@@ -883,6 +883,45 @@ TEST(ReadFlightPlan, TakesTracksRoutesAndPointsOfGpx) {
   expect_error([&] { parsed_plan(gpx("<wpt lat=\"NaN\" lon=\"11\"/>")); }, ErrorCode::not_a_number, "line 3");
 }
 
+TEST(ReadFlightPlan, RefusesPositionsOfGpxThatAreNotFlown) {
+  const auto point = [](const std::string& name, const std::string& content = "<ele>500</ele>") {
+    return "<" + name + " lat=\"48\" lon=\"11\">" + content + "</" + name + ">";
+  };
+  const std::string points = point("trkpt") + point("trkpt"), track = "<trk><trkseg>" + points + "</trkseg></trk>\n";
+  const auto refuse = [&](const std::string& content, ErrorCode code, const std::string& place = "line 4") {
+    expect_error([&] { parsed_plan(gpx(content)); }, code, place);
+  };
+  refuse(track + "<Trk><trkseg>" + points + "</trkseg></Trk>", ErrorCode::plan_syntax);
+  refuse(track + "<trk><trkSeg>" + points + "</trkSeg></trk>", ErrorCode::plan_syntax);
+  refuse(track + "<trk><trkseg>" + point("trkPt") + "</trkseg></trk>", ErrorCode::plan_syntax);
+  refuse(track + "<metadata>" + track + "</metadata>", ErrorCode::value_unsupported);
+  refuse(track + "<extensions>" + track + "</extensions>", ErrorCode::value_unsupported);
+  refuse(track + "<rte>" + points + "</rte>", ErrorCode::value_unsupported);
+  refuse(track + "<way><point><Latitude>48</Latitude></point></way>", ErrorCode::value_unsupported);
+  refuse("<trk><trkseg>" + point("trkpt", points) + "</trkseg></trk>", ErrorCode::value_unsupported, "line 3");
+  refuse(point("wpt", "<Ele>500</Ele>"), ErrorCode::plan_syntax, "line 3");
+  refuse(point("wpt", "<ele>50</ele><ele>500</ele>"), ErrorCode::conflicting_keys, "line 3");
+  // Garmin's devices fly along these.
+  refuse("<rte>" +
+             point("rtept", "<extensions><gpxx:RoutePointExtension>" + point("gpxx:rpt") +
+                                "</gpxx:RoutePointExtension></extensions>") +
+             "</rte>",
+         ErrorCode::value_unsupported, "line 3");
+  // What programs write beside it.
+  const std::string more =
+      "<extensions><gpxtpx:TrackPointExtension><gpxtpx:hr>60</gpxtpx:hr><gpxtpx:Extensions/>"
+      "</gpxtpx:TrackPointExtension><hold_s>2</hold_s></extensions><extensions><speed_m_s>3</speed_m_s></extensions>";
+  const FlightPlan plan = parsed_plan(
+      gpx("<metadata><bounds minlat=\"48\" minlon=\"11\" maxlat=\"49\" maxlon=\"12\"/></metadata><trk><name>a</name>"
+          "<number>1</number><extensions><gpxx:TrackExtension><gpxx:DisplayColor>Red</gpxx:DisplayColor>"
+          "</gpxx:TrackExtension></extensions><trkseg>" +
+          point("trkpt", "<ele>500</ele><time>2026-01-01T00:00:00Z</time>" + more) + "</trkseg></trk>"));
+  ASSERT_EQ(plan.items.size(), 1u);
+  EXPECT_EQ(plan.items[0].hold_s, 2);
+  EXPECT_EQ(plan.items[0].speed_m_s, 3);
+  EXPECT_TRUE(plan.notes.empty());
+}
+
 TEST(ReadFlightPlan, TakesLinesAndPointsOfGeoJson) {
   const FlightPlan line = parsed_plan(
       "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\", \"properties\": {\"name\": \"a\"}, "

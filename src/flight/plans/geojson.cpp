@@ -93,7 +93,7 @@ class GeojsonTracks {
           !meant_name(key, {"type", "features", "geometry", "geometries", "coordinates", "properties"}).empty();
       if (!is_misspelt && !holds_positions(value, key == "properties")) continue;
       source_.fail(ErrorCode::value_unsupported, place,
-                   "the member " + in_quotes(printable(key)) + " may hold what is flown, and is not read",
+                   "the member " + in_quotes(key) + " may hold what is flown, and is not read",
                    "write it as GeoJSON has it, or take it out");
     }
   }
