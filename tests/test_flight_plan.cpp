@@ -670,6 +670,43 @@ TEST(ReadFlightPlan, TellsWhatOfKmlIsNotFlown) {
       parsed_plan(kml(line + "<Placemark><ExtendedData><point>2</point></ExtendedData></Placemark>")).notes.empty());
 }
 
+TEST(ReadFlightPlan, RefusesPositionsOfKmlThatAreNotFlown) {
+  const std::string line = kml_line("11,48,520 11.001,48,530") + "\n", at = "11,48,500 11,48.1,500";
+  const auto refuse = [&](const std::string& content, ErrorCode code = ErrorCode::plan_syntax) {
+    expect_error([&] { parsed_plan(kml(line + "<Placemark>" + content + "</Placemark>")); }, code, "line 4");
+  };
+  const std::string list = "<coordinates>" + at + "</coordinates>";
+  refuse("<LineString><Coordinates>" + at + "</Coordinates></LineString>");
+  refuse("<LineString>" + list + "<Coordinates>" + at + "</Coordinates></LineString>");
+  refuse("<LineString><coordinates><a>" + at + "</a></coordinates></LineString>");
+  refuse("<LineString>" + at + "</LineString>");
+  refuse("<LineString><coord>11 48 500</coord></LineString>");
+  refuse("<LineString>" + list + "<LineString>" + list + "</LineString></LineString>");
+  refuse("<gx:Track><gx:Coord>11 48 500</gx:Coord></gx:Track>");
+  refuse("<gx:Track>" + list + "</gx:Track>");
+  refuse("<Point>" + list + "</Point>");
+  refuse("<LinesString>" + list + "</LinesString>", ErrorCode::value_unsupported);
+  refuse("<ExtendedData><LineString>" + list + "</LineString></ExtendedData>", ErrorCode::value_unsupported);
+  refuse("<gx:Track><ExtendedData>" + list + "</ExtendedData></gx:Track>", ErrorCode::value_unsupported);
+  refuse("<coords>" + at + "</coords>", ErrorCode::value_unsupported);
+  refuse("<LineString><gx:altitudeOffset>1</gx:altitudeOffset><gx:altitudeOffset>2</gx:altitudeOffset>" + list +
+             "</LineString>",
+         ErrorCode::conflicting_keys);
+  // What programs write beside it.
+  const std::string more =
+      "<Style id=\"s\"><LineStyle><color>ff0000ff</color></LineStyle></Style><Placemark><name>b</name><LookAt>"
+      "<longitude>11</longitude><latitude>48</latitude><altitude>0</altitude></LookAt><Region><LatLonAltBox>"
+      "<north>49</north></LatLonAltBox></Region><ExtendedData><Data name=\"coordinates\"><value>11,48</value></Data>"
+      "</ExtendedData><LineString id=\"l\"><extrude>1</extrude><tessellate>1</tessellate><gx:altitudeMode>absolute"
+      "</gx:altitudeMode><gx:drawOrder>1</gx:drawOrder>" +
+      list +
+      "</LineString></Placemark><Placemark><gx:Track id=\"t\"><altitudeMode>absolute</altitudeMode><when>2020</when>"
+      "<gx:coord>11 48 500</gx:coord><gx:angles>1 2 3</gx:angles><Model><Location><longitude>11</longitude></Location>"
+      "</Model><ExtendedData><SchemaData><gx:SimpleArrayData name=\"a\"><gx:value>1</gx:value></gx:SimpleArrayData>"
+      "</SchemaData></ExtendedData></gx:Track></Placemark>";
+  EXPECT_EQ(parsed_plan(kml(line + more)).items.size(), 5u);
+}
+
 TEST(ReadFlightPlan, TakesAllTracksOfAName) {
   const std::string text = kml(kml_line("11,48,1 11,48.001,2", "absolute", "out") +
                                kml_line("11,49,3", "absolute", "b") + kml_line("11,48.002,4", "absolute", "out"));
