@@ -794,6 +794,8 @@ TEST(ReadFlightPlan, RefusesArchivesOfSeveralPlans) {
   refuse({{"doc.kml", line}, {"doc.kml", line}});
   refuse({{"wpmz/waylines.wpml", dji}, {"wpmz/waylines2.wpml", dji}, {"wpmz/template.kml", line}});
   refuse({{"wpmz/waylines.wpml", dji}, {"doc.kml", line}});
+  refuse({{"doc.kml", line}, {"other.KMZ", internal::io::zipped({{"doc.kml", line}})}});
+  refuse({{"doc.kml", line}, {"b.gpx", "<gpx/>"}});
   refuse({{"wpmz/waylines.wpml", dji}, {"wpmz/template.kml", line}, {"template.kml", line}});
 }
 
