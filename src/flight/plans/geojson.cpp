@@ -80,7 +80,8 @@ class GeojsonTracks {
 
   const json& list(const json& object, const char* key, const std::string& place) const {
     const auto found = object.find(key);
-    if (found == object.end() || !found->is_array()) fail(place, in_quotes(key) + " is missing, or not an array");
+    if (found == object.end() || !found->is_array())
+      fail(place, std::string("\"") + key + "\" is missing, or not an array");
     return *found;
   }
 
