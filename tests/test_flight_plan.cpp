@@ -949,7 +949,8 @@ TEST(ReadFlightPlan, RefusesPositionsOfGpxThatAreNotFlown) {
   // What programs write beside it.
   const std::string more =
       "<extensions><gpxtpx:TrackPointExtension><gpxtpx:hr>60</gpxtpx:hr><gpxtpx:Extensions/>"
-      "</gpxtpx:TrackPointExtension><hold_s>2</hold_s></extensions><extensions><speed_m_s>3</speed_m_s></extensions>";
+      "</gpxtpx:TrackPointExtension><hold_s>2</hold_s><ogr:lat>48</ogr:lat></extensions><extensions><speed_m_s>3</"
+      "speed_m_s></extensions>";
   const FlightPlan plan = parsed_plan(
       gpx("<metadata><bounds minlat=\"48\" minlon=\"11\" maxlat=\"49\" maxlon=\"12\"/></metadata><trk><name>a</name>"
           "<number>1</number><extensions><gpxx:TrackExtension><gpxx:DisplayColor>Red</gpxx:DisplayColor>"

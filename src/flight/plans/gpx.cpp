@@ -113,7 +113,8 @@ class GpxTracks {
     }
     const auto check = [&](XmlTree::Node node) {
       std::string_view name = xml_.name(node);
-      name.remove_prefix(name.find_last_of("@:") + 1);  // of attributes
+      if (kind == "extensions" && !name.starts_with("@")) return true;  // data of the point, as QGIS writes it
+      name.remove_prefix(name.find_last_of("@:") + 1);
       if (is_alike(name, "lat") || is_alike(name, "lon") || is_alike(name, "latitude") || is_alike(name, "longitude")) {
         source_.fail(ErrorCode::value_unsupported, line_of(xml_, node),
                      in_quotes(kind) + " holds a position, and is not read there",
