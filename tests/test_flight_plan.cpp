@@ -670,6 +670,43 @@ TEST(ReadFlightPlan, TellsWhatOfKmlIsNotFlown) {
       parsed_plan(kml(line + "<Placemark><ExtendedData><point>2</point></ExtendedData></Placemark>")).notes.empty());
 }
 
+TEST(ReadFlightPlan, RefusesPositionsOfKmlThatAreNotFlown) {
+  const std::string line = kml_line("11,48,520 11.001,48,530") + "\n", at = "11,48,500 11,48.1,500";
+  const auto refuse = [&](const std::string& content, ErrorCode code = ErrorCode::plan_syntax) {
+    expect_error([&] { parsed_plan(kml(line + "<Placemark>" + content + "</Placemark>")); }, code, "line 4");
+  };
+  const std::string list = "<coordinates>" + at + "</coordinates>";
+  refuse("<LineString><Coordinates>" + at + "</Coordinates></LineString>");
+  refuse("<LineString>" + list + "<Coordinates>" + at + "</Coordinates></LineString>");
+  refuse("<LineString><coordinates><a>" + at + "</a></coordinates></LineString>");
+  refuse("<LineString>" + at + "</LineString>");
+  refuse("<LineString><coord>11 48 500</coord></LineString>");
+  refuse("<LineString>" + list + "<LineString>" + list + "</LineString></LineString>");
+  refuse("<gx:Track><gx:Coord>11 48 500</gx:Coord></gx:Track>");
+  refuse("<gx:Track>" + list + "</gx:Track>");
+  refuse("<Point>" + list + "</Point>");
+  refuse("<LinesString>" + list + "</LinesString>", ErrorCode::value_unsupported);
+  refuse("<ExtendedData><LineString>" + list + "</LineString></ExtendedData>", ErrorCode::value_unsupported);
+  refuse("<gx:Track><ExtendedData>" + list + "</ExtendedData></gx:Track>", ErrorCode::value_unsupported);
+  refuse("<coords>" + at + "</coords>", ErrorCode::value_unsupported);
+  refuse("<LineString><gx:altitudeOffset>1</gx:altitudeOffset><gx:altitudeOffset>2</gx:altitudeOffset>" + list +
+             "</LineString>",
+         ErrorCode::conflicting_keys);
+  // What programs write beside it.
+  const std::string more =
+      "<Style id=\"s\"><LineStyle><color>ff0000ff</color></LineStyle></Style><Placemark><name>b</name><LookAt>"
+      "<longitude>11</longitude><latitude>48</latitude><altitude>0</altitude></LookAt><Region><LatLonAltBox>"
+      "<north>49</north></LatLonAltBox></Region><ExtendedData><Data name=\"coordinates\"><value>11,48</value></Data>"
+      "</ExtendedData><LineString id=\"l\"><extrude>1</extrude><tessellate>1</tessellate><gx:altitudeMode>absolute"
+      "</gx:altitudeMode><gx:drawOrder>1</gx:drawOrder>" +
+      list +
+      "</LineString></Placemark><Placemark><gx:Track id=\"t\"><altitudeMode>absolute</altitudeMode><when>2020</when>"
+      "<gx:coord>11 48 500</gx:coord><gx:angles>1 2 3</gx:angles><Model><Location><longitude>11</longitude></Location>"
+      "</Model><ExtendedData><SchemaData><gx:SimpleArrayData name=\"a\"><gx:value>1</gx:value></gx:SimpleArrayData>"
+      "</SchemaData></ExtendedData></gx:Track></Placemark>";
+  EXPECT_EQ(parsed_plan(kml(line + more)).items.size(), 5u);
+}
+
 TEST(ReadFlightPlan, TakesAllTracksOfAName) {
   const std::string text = kml(kml_line("11,48,1 11,48.001,2", "absolute", "out") +
                                kml_line("11,49,3", "absolute", "b") + kml_line("11,48.002,4", "absolute", "out"));
@@ -757,6 +794,8 @@ TEST(ReadFlightPlan, RefusesArchivesOfSeveralPlans) {
   refuse({{"doc.kml", line}, {"doc.kml", line}});
   refuse({{"wpmz/waylines.wpml", dji}, {"wpmz/waylines2.wpml", dji}, {"wpmz/template.kml", line}});
   refuse({{"wpmz/waylines.wpml", dji}, {"doc.kml", line}});
+  refuse({{"doc.kml", line}, {"other.KMZ", internal::io::zipped({{"doc.kml", line}})}});
+  refuse({{"doc.kml", line}, {"b.gpx", "<gpx/>"}});
   refuse({{"wpmz/waylines.wpml", dji}, {"wpmz/template.kml", line}, {"template.kml", line}});
 }
 
@@ -883,6 +922,46 @@ TEST(ReadFlightPlan, TakesTracksRoutesAndPointsOfGpx) {
   expect_error([&] { parsed_plan(gpx("<wpt lat=\"NaN\" lon=\"11\"/>")); }, ErrorCode::not_a_number, "line 3");
 }
 
+TEST(ReadFlightPlan, RefusesPositionsOfGpxThatAreNotFlown) {
+  const auto point = [](const std::string& name, const std::string& content = "<ele>500</ele>") {
+    return "<" + name + " lat=\"48\" lon=\"11\">" + content + "</" + name + ">";
+  };
+  const std::string points = point("trkpt") + point("trkpt"), track = "<trk><trkseg>" + points + "</trkseg></trk>\n";
+  const auto refuse = [&](const std::string& content, ErrorCode code, const std::string& place = "line 4") {
+    expect_error([&] { parsed_plan(gpx(content)); }, code, place);
+  };
+  refuse(track + "<Trk><trkseg>" + points + "</trkseg></Trk>", ErrorCode::plan_syntax);
+  refuse(track + "<trk><trkSeg>" + points + "</trkSeg></trk>", ErrorCode::plan_syntax);
+  refuse(track + "<trk><trkseg>" + point("trkPt") + "</trkseg></trk>", ErrorCode::plan_syntax);
+  refuse(track + "<metadata>" + track + "</metadata>", ErrorCode::value_unsupported);
+  refuse(track + "<extensions>" + track + "</extensions>", ErrorCode::value_unsupported);
+  refuse(track + "<rte>" + points + "</rte>", ErrorCode::value_unsupported);
+  refuse(track + "<way><point><Latitude>48</Latitude></point></way>", ErrorCode::value_unsupported);
+  refuse("<trk><trkseg>" + point("trkpt", points) + "</trkseg></trk>", ErrorCode::value_unsupported, "line 3");
+  refuse(point("wpt", "<Ele>500</Ele>"), ErrorCode::plan_syntax, "line 3");
+  refuse(point("wpt", "<ele>50</ele><ele>500</ele>"), ErrorCode::conflicting_keys, "line 3");
+  // Garmin's devices fly along these.
+  refuse("<rte>" +
+             point("rtept", "<extensions><gpxx:RoutePointExtension>" + point("gpxx:rpt") +
+                                "</gpxx:RoutePointExtension></extensions>") +
+             "</rte>",
+         ErrorCode::value_unsupported, "line 3");
+  // What programs write beside it.
+  const std::string more =
+      "<extensions><gpxtpx:TrackPointExtension><gpxtpx:hr>60</gpxtpx:hr><gpxtpx:Extensions/>"
+      "</gpxtpx:TrackPointExtension><hold_s>2</hold_s><ogr:lat>48</ogr:lat></extensions><extensions><speed_m_s>3</"
+      "speed_m_s></extensions>";
+  const FlightPlan plan = parsed_plan(
+      gpx("<metadata><bounds minlat=\"48\" minlon=\"11\" maxlat=\"49\" maxlon=\"12\"/></metadata><trk><name>a</name>"
+          "<number>1</number><extensions><gpxx:TrackExtension><gpxx:DisplayColor>Red</gpxx:DisplayColor>"
+          "</gpxx:TrackExtension></extensions><trkseg>" +
+          point("trkpt", "<ele>500</ele><time>2026-01-01T00:00:00Z</time>" + more) + "</trkseg></trk>"));
+  ASSERT_EQ(plan.items.size(), 1u);
+  EXPECT_EQ(plan.items[0].hold_s, 2);
+  EXPECT_EQ(plan.items[0].speed_m_s, 3);
+  EXPECT_TRUE(plan.notes.empty());
+}
+
 TEST(ReadFlightPlan, TakesLinesAndPointsOfGeoJson) {
   const FlightPlan line = parsed_plan(
       "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\", \"properties\": {\"name\": \"a\"}, "
@@ -925,6 +1004,49 @@ TEST(ReadFlightPlan, TellsWhatOfGeoJsonIsNotFlown) {
   EXPECT_EQ(all(", {\"type\": \"FeatureCollection\", \"features\": [" + feature(line) + "]}").items.size(), 4u);
   expect_error([&] { all(", " + feature("{\"type\": \"linestring\", \"coordinates\": []}")); },
                ErrorCode::value_unsupported, "features[1]");
+}
+
+TEST(ReadFlightPlan, RefusesMembersOfGeoJsonThatAreNotFlown) {
+  const std::string line = "{\"type\": \"LineString\", \"coordinates\": [[11, 48, 560], [11.001, 48, 570]]}";
+  const std::string feature = "{\"type\": \"Feature\", \"properties\": {}, \"geometry\": " + line + "}";
+  const auto with = [&](const std::string& more, const std::string& members = "") {
+    return parsed_plan("{\"type\": \"FeatureCollection\", \"features\": [" + feature + ", " + more + "]" + members +
+                       "}");
+  };
+  const auto refuse = [&](const std::string& more, ErrorCode code) {
+    expect_error([&] { with(more); }, code, "features[1]");
+  };
+  const auto shaped = [](const std::string& shape) { return "{\"type\": \"Feature\", \"geometry\": " + shape + "}"; };
+  refuse("{\"type\": \"Feature\", \"Geometry\": " + line + "}", ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"geometry\": null, \"path\": [[11, 48], [12, 48]]}", ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"geometry\": null, \"path\": [{\"lat\": 48, \"lon\": 11}]}",
+         ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"geometry\": null, \"properties\": {\"way\": " + line + "}}",
+         ErrorCode::value_unsupported);
+  refuse("{\"type\": \"Feature\", \"properties\": {}}", ErrorCode::plan_syntax);
+  refuse("{\"type\": \"Feature\", \"properties\": [1], \"geometry\": null}", ErrorCode::plan_syntax);
+  refuse(shaped("{\"type\": \"LineString\", \"Coordinates\": [[11, 48], [12, 48]]}"), ErrorCode::value_unsupported);
+  refuse(shaped("[" + line + "]"), ErrorCode::plan_syntax);
+  refuse(shaped(feature), ErrorCode::value_unsupported);
+  refuse(shaped("{\"type\": \"GeometryCollection\", \"Geometries\": [" + line + "]}"), ErrorCode::value_unsupported);
+  refuse(shaped("{\"type\": \"GeometryCollection\", \"geometries\": [[" + line + "]]}"), ErrorCode::plan_syntax);
+  refuse(shaped("{\"coordinates\": [[11, 48], [12, 48]]}"), ErrorCode::plan_syntax);
+  refuse(shaped("{\"type\": \"LineString\", \"coordinates\": \"[[11, 48], [12, 48]]\"}"), ErrorCode::plan_syntax);
+  expect_error([&] { with(feature, ", \"Features\": [" + feature + "]"); }, ErrorCode::value_unsupported, "the object");
+  expect_error([&] { with(feature, ", \"mission\": {}"); }, ErrorCode::plan_syntax);
+  // What programs write beside it.
+  const std::string data = "{\"color\": [255, 0, 0], \"name\": \"b\", \"gpx\": {\"times\": [[1, 2]]}}";
+  const std::string boxed = "{\"type\": \"Feature\", \"id\": 7, \"bbox\": [11, 48, 12, 49], \"properties\": " + data +
+                            ", \"geometry\": {\"type\": \"LineString\", \"bbox\": [11, 48, 12, 49], \"coordinates\": "
+                            "[[11.001, 48, 570, 1e9], [11.002, 48, 580, 1e9]]}}";
+  const FlightPlan plan = with(boxed + ", {\"type\": \"Feature\", \"properties\": [], \"geometry\": null}",
+                               ", \"bbox\": [11, 48, 12, 49], \"name\": \"a\", \"properties\": {\"author\": \"c\"}");
+  EXPECT_EQ(plan.items.size(), 4u);
+  ASSERT_EQ(plan.notes.size(), 1u);
+  EXPECT_EQ(plan.notes[0].code, WarningCode::plan_joined);
+  const std::string crs =
+      "{\"type\": \"Feature\", \"crs\": {\"properties\": {\"name\": \"EPSG:31468\"}}, \"geometry\": " + line + "}";
+  EXPECT_TRUE(has_note(with(crs).notes, WarningCode::plan_assumed));
 }
 
 TEST(ReadFlightPlan, TakesStaysOfPointsBesideTheirLine) {

@@ -324,7 +324,7 @@ TEST_F(TargetFiles, KmzIsUnpacked) {
 
 TEST_F(TargetFiles, OtherZonesOfAnArchiveAreNotLost) {
   const std::string park = kml(placemark("park", "", kSquare));
-  for (const std::string name : {"nfz.kml", "doc.kml", "files/Other.KML"}) {
+  for (const std::string name : {"nfz.kml", "doc.kml", "files/Other.KML", "nfz.kmz"}) {
     write("zones.kmz", zip({{"doc.kml", park}, {name, park}, {"__MACOSX/doc.kml", "notes"}, {"a.png", "x"}}));
     write("yard.kml", park);
     const auto resolve = [&](const std::string& more) {

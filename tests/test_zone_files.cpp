@@ -333,6 +333,16 @@ TEST(ZoneFiles, AreasInMembersThatAreNotReadAreUnread) {
   EXPECT_EQ(unread(beside(collection(feature(polygon(), properties)), line + place)), "");
 }
 
+TEST(ZoneFiles, MisspeltMembersOfHeightsAndCirclesAreUnread) {
+  for (const std::string extent : {"\"Extent\": {\"subType\": \"Circle\", \"radius\": 50}", "\"radius\": 50"}) {
+    const std::string point = "{\"type\": \"Point\", \"coordinates\": [11, 48], " + extent + "}";
+    EXPECT_EQ(parsed(collection(feature(point) + ", " + feature(polygon()))).unread.size(), 1u) << extent;
+  }
+  const ZoneList list = parsed(volume(polygon(), kMetres + ", \"UpperLimit\": 50"));
+  ASSERT_EQ(list.zones.size(), 1u);
+  EXPECT_TRUE(list.zones[0].heights_fault) << "they must be given, or be any";
+}
+
 TEST(ZoneFiles, RefusesPositionsOfAnotherSystem) {
   const auto crs = [](const std::string& name) {
     return ", \"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"" + name + "\", \"was\": \"EPSG:4326\"}}";
@@ -380,6 +390,34 @@ TEST(ZoneFiles, AnUnknownGeometryOfAPlacemarkIsUnread) {
   EXPECT_EQ(list.unread[0].zone.name, "C");
   EXPECT_EQ(with("<MultiGeometry><Arc><a/></Arc></MultiGeometry>").unread.size(), 1u);
   EXPECT_TRUE(with("<number>5</number><wpml:action><wpml:x/></wpml:action>").unread.empty());
+}
+
+TEST(ZoneFiles, PositionsInNoGeometryOfKmlAreUnread) {
+  const std::string list = "11,48 11.001,48 11.001,48.001 11,48",
+                    ring = "<LinearRing><coordinates>" + list + "</coordinates>";
+  const auto unread = [&](const std::string& more, const std::string& beside = "", const std::string& before = "") {
+    return parsed(kml("<Placemark><Polygon>" + before + "<outerBoundaryIs>" + ring + more +
+                      "</LinearRing></outerBoundaryIs>" + beside +
+                      "</Polygon></Placemark><Placemark><Polygon><outerBoundaryIs>" + ring +
+                      "</LinearRing></outerBoundaryIs></Polygon></Placemark>"))
+        .unread.size();
+  };
+  EXPECT_EQ(unread(""), 0u);
+  EXPECT_EQ(unread("<Coordinates>" + list + "</Coordinates>"), 1u);
+  EXPECT_EQ(unread("", "<outerBoundary/>"), 1u);
+  EXPECT_EQ(unread("", "<wpml:elevation>5</wpml:elevation>"), 0u);
+  EXPECT_EQ(unread("", "<altitudeMode>absolute</altitudeMode>", "<gx:altitudeMode>absolute</gx:altitudeMode>"), 0u);
+  EXPECT_EQ(unread("", "<altitudeMode>absolute</altitudeMode>", "<altitudeMode>clampToGround</altitudeMode>"), 1u);
+  EXPECT_EQ(unread("", "<extrude>0</extrude>", "<extrude>1</extrude>"), 1u);
+  EXPECT_EQ(unread("", "<altitudeOffset>2</altitudeOffset>", "<altitudeOffset>1</altitudeOffset>"), 1u);
+  const std::string outside = "<Area><Ring><coordinates>" + list + "</coordinates></Ring></Area>";
+  EXPECT_EQ(parsed(kml(placemark("") + outside)).unread.size(), 1u);
+  EXPECT_EQ(
+      parsed(kml(placemark("") + "<LineString><Coordinates>" + list + "</Coordinates></LineString>")).unread.size(),
+      1u);
+  EXPECT_TRUE(parsed(kml(placemark("") + "<GroundOverlay><gx:LatLonQuad><coordinates>" + list +
+                         "</coordinates></gx:LatLonQuad></GroundOverlay>"))
+                  .unread.empty());
 }
 
 TEST(ZoneFiles, AltitudeOffsetsCount) {

@@ -105,12 +105,18 @@ const json* find_member(const json* object, const char* key) {
   return found == object->end() || found->is_null() ? nullptr : &*found;
 }
 
+bool has_radius(const json* object) {
+  const json* const radius = find_member(object, "radius");
+  return radius != nullptr && number_in(*radius) != std::optional(0.0);
+}
+
 std::string word_in(const json* value) {
   return value != nullptr && value->is_string() ? io::clean_name(value->get_ref<const std::string&>()) : std::string();
 }
 
 bool is_word(std::string_view text, std::string_view word) {
-  const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
+  const auto is_same = [&](char a, char b) { return small(a) == small(b); };
   return std::equal(text.begin(), text.end(), word.begin(), word.end(), is_same);
 }
 
@@ -290,10 +296,6 @@ bool GeoJsonReader::may_hold_area(const json& value) const {
   const json* const coordinates = find_member(&value, "coordinates");
   const bool is_polygon = word_in(find_member(&value, "type")).ends_with("Polygon");
   if (is_polygon && coordinates != nullptr && !coordinates->empty()) return true;
-  const auto has_radius = [](const json* object) {
-    const json* const radius = find_member(object, "radius");
-    return radius != nullptr && number_in(*radius) != std::optional(0.0);
-  };
   const bool has_place = coordinates != nullptr || find_member(&value, "center") || find_member(&value, "geometry");
   if (has_place && (has_radius(&value) || has_radius(find_member(&value, "extent")) ||
                     has_radius(find_member(&value, "properties")))) {
@@ -341,12 +343,12 @@ void GeoJsonReader::read_point(const json& geometry, const std::string& place, c
                                const Heights& heights) {
   const json* const extent = find_member(&geometry, "extent");
   const json* const of = extent != nullptr ? extent : properties_;
-  const json* const radius = find_member(of, "radius");
+  const auto may_be_extent = [](const json& member) { return has_radius(&member); };
   if (type_of(geometry, place) == "Point" && is_word(word_in(find_member(of, "subType")), "circle")) {
     add_circle(list(geometry, "coordinates", place), member(*of, "radius", place), false, place, name, heights);
   } else if (extent != nullptr) {
     fail(place, "\"extent\" is not a circle");
-  } else if (radius != nullptr && number_in(*radius) != std::optional(0.0)) {
+  } else if (has_radius(of) || has_radius(&geometry) || std::any_of(geometry.begin(), geometry.end(), may_be_extent)) {
     fail(place, "the point has a radius, and nothing says what it is for",
          "write \"subType\": \"Circle\" beside it, and the radius in metres");
   } else {
@@ -420,6 +422,11 @@ GeoJsonReader::Heights GeoJsonReader::heights_of(const json& layer, const Height
   heights.are_given = true;
   try {
     if (!layer.is_object()) fail(place, "\"layer\" is not an object");
+    for (const auto& [key, value] : layer.items()) {
+      for (const char* known : {keys.lower, keys.lower_reference, keys.upper, keys.upper_reference, keys.unit}) {
+        if (key != known && is_word(key, known)) fail(place, "write " + in_quotes(known) + " for " + in_quotes(key));
+      }
+    }
     heights.lower = height(layer, keys.lower, keys.lower_reference, keys.unit, place);
     heights.upper = height(layer, keys.upper, keys.upper_reference, keys.unit, place);
   } catch (const Error& error) {

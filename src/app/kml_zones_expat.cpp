@@ -29,7 +29,6 @@ struct DrawnPolygon {
   double low_m = INFINITY, high_m = -INFINITY;
   double offset_m = 0;  ///< altitudeOffset of Google, in all of its altitudes
   bool is_absolute = false, has_all_altitudes = true;
-  bool has_other = false;  ///< elements that are none of a polygon
   std::optional<Error> fault;
 
   bool is_level() const { return has_all_altitudes && low_m == high_m; }
@@ -233,10 +232,11 @@ class KmlReader {
   void end(const std::string& name);
   void end_in_polygon(const std::string& name);
   void end_boundary();
+  void end_positions(const std::string& name);
   void end_line();
   void end_polygon();
   void end_placemark();
-  void leave_unknown();
+  void leave_unknown(const std::string& problem);
   ListedRing positions() const;
   bool is_in(const char* name) const { return !open_.empty() && open_.back() == name; }
   std::string place() const { return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())); }
@@ -270,16 +270,14 @@ ZoneList KmlReader::read(std::string_view text) {
   return std::move(result_);
 }
 
-/// An element of a placemark that holds others may be an area.
-void KmlReader::leave_unknown() {
-  is_known_ = true;  // it is told once
+/// What may be an area, and is none of KML.
+void KmlReader::leave_unknown(const std::string& problem) {
   ListedZone zone;
   if (!name_.empty()) zone.names = {name_};
   zone.name = name_.empty() ? place() : name_;
   zone.place = place();
   zone.feature = placemarks_ > 0 ? placemarks_ - 1 : 0;
-  const Error fault(ErrorCode::value_unsupported, "KML has no <" + io::clean_name(open_.back()) + "> in a placemark",
-                    file_.string() + ", " + zone.place, "draw it as a polygon");
+  const Error fault(ErrorCode::value_unsupported, problem, file_.string() + ", " + zone.place, "draw it as a polygon");
   leave_unread(std::move(zone), fault, result_);
 }
 
@@ -292,8 +290,14 @@ void KmlReader::start(const std::string& name, bool is_of_dji) {
   if (!open_.empty() && open_.back() == "coordinates") fail("there is an element among coordinates");
   const bool is_of_placemark = is_in("Placemark") || is_in("MultiGeometry");
   if (is_of_placemark) is_known_ = is_of_dji || is_any(name, kOfPlacemark);
-  if (!is_of_placemark && !is_known_) leave_unknown();
-  if (polygon_ && !is_any(name, kOfPolygon)) polygon_->has_other = true;
+  if (!is_of_placemark && !is_known_) {  // an element of a placemark that holds others
+    is_known_ = true;                    // it is told once
+    leave_unknown("KML has no <" + io::clean_name(open_.back()) + "> in a placemark");
+  }
+  if (polygon_ && !polygon_->fault && !is_of_dji && !is_any(name, kOfPolygon)) {
+    polygon_->fault = Error(ErrorCode::zone_file_syntax, "KML has no <" + io::clean_name(name) + "> in a polygon",
+                            file_.string() + ", " + place(), "correct it, or take it out");
+  }
   if (is_any(name, {"LinearRing", "outerBoundaryIs", "innerBoundaryIs"})) ring_.reset();
   if (name == "LinearRing") ring_offset_m_ = 0;
   open_.push_back(name);
@@ -332,7 +336,7 @@ void KmlReader::end(const std::string& name) {
   if (name == "Polygon") end_polygon();
   if (name == "Placemark") end_placemark();
   if (name == "Point") ++result_.left_out["point"];
-  if (name == "coordinates" && !polygon_ && (is_in("LineString") || is_in("LinearRing"))) end_line();
+  if (!polygon_ && is_any(name, {"coordinates", "Coordinates"})) end_positions(name);
   if (name == "Track") ++result_.left_out["line"];
   if (name == "GroundOverlay") ++result_.left_out["image"];
   if (name == "Model" || name == "NetworkLink") {
@@ -348,6 +352,13 @@ void KmlReader::end(const std::string& name) {
     leave_unread(std::move(zone), fault, result_);
   }
   text_.clear();
+}
+
+void KmlReader::end_positions(const std::string& name) {
+  const bool is_read = name == "coordinates";
+  if (is_read && (is_in("LineString") || is_in("LinearRing"))) return end_line();
+  if ((is_read && (is_in("Point") || is_in("LatLonQuad"))) || io::clean_name(text_).empty()) return;
+  leave_unknown("<" + name + "> is in no geometry of KML");
 }
 
 void KmlReader::end_line() {
@@ -370,13 +381,22 @@ void KmlReader::end_line() {
 }
 
 void KmlReader::end_in_polygon(const std::string& name) {
-  if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
-  if (name == "extrude" && is_in("Polygon")) extrude_ = io::clean_name(text_);
+  const auto refuse_second = [&](bool differs) {
+    if (differs) fail("<" + name + "> is given twice");
+  };
+  if (is_any(name, {"altitudeMode", "extrude"}) && is_in("Polygon")) {
+    std::string& kept = name == "extrude" ? extrude_ : altitude_mode_;
+    const std::string text = io::clean_name(text_);
+    refuse_second(!kept.empty() && kept != text);
+    kept = text;
+  }
   if (name == "altitudeOffset") {
     const std::string text = io::clean_name(text_);
     const ParsedNumber offset = parse_number(text);
     if (offset.fault != NumberFault::none) fail("an altitudeOffset is not a number: " + in_quotes(text));
-    (is_in("LinearRing") ? ring_offset_m_ : polygon_->offset_m) = offset.value;
+    double& kept = is_in("LinearRing") ? ring_offset_m_ : polygon_->offset_m;
+    refuse_second(kept != 0 && kept != offset.value);
+    kept = offset.value;
   }
   if (name == "coordinates") {
     if (!is_in("LinearRing")) fail("coordinates of a polygon are in no ring");
@@ -416,7 +436,7 @@ void KmlReader::end_polygon() {
     leave_unread(std::move(zone), *polygon.fault, result_);
     return;
   }
-  if (zone.outer.empty() && (polygon.has_other || !zone.holes.empty())) {
+  if (zone.outer.empty() && !zone.holes.empty()) {
     const Error fault(ErrorCode::zone_file_syntax, "the polygon has no outer boundary",
                       file_.string() + ", " + zone.place, "correct it");
     leave_unread(std::move(zone), fault, result_);

@@ -41,10 +41,11 @@ ZoneList archive_zones(std::string_view text, const std::filesystem::path& file,
                        const core::ProgressReporter& progress) {
   constexpr const char* kFirst = "doc.kml";
   std::string kml;
-  std::vector<std::string> others;
+  std::vector<std::string> others, archives;
   try {
     kml = io::unzipped(text, kFirst, ".kml", kMostZoneBytes);
     others = io::names_in_zip(text, ".kml");
+    archives = io::names_in_zip(text, ".kmz");
   } catch (const io::ZipProblem& problem) {
     const bool is_too_large = problem.kind == io::ZipProblem::Kind::too_large;
     fail_in_zones(is_too_large ? ErrorCode::file_too_large : ErrorCode::zone_file_syntax, file, "",
@@ -57,6 +58,7 @@ ZoneList archive_zones(std::string_view text, const std::filesystem::path& file,
   ZoneList list = parse_zones(kml, file, progress);
   const auto first = std::find(others.begin(), others.end(), kFirst);
   others.erase(first == others.end() ? others.begin() : first);
+  others.insert(others.end(), archives.begin(), archives.end());
   for (const std::string& other : others) {
     ListedZone zone;
     zone.name = zone.place = io::clean_name(other);

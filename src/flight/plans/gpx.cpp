@@ -8,6 +8,7 @@
 #include "common/input.h"
 #include "flight/plans/kml.h"
 #include "flight/plans/point_details.h"
+#include "flight/plans/text_lines.h"
 
 namespace vantage::internal::flight::plans {
 namespace {
@@ -24,9 +25,15 @@ class GpxTracks {
     std::vector<PlanTrack> tracks, routes;
     for (XmlTree::Node node = xml_.first_child(xml_.root()); node != XmlTree::kNone; node = xml_.next(node)) {
       const std::string_view kind = xml_.name(node);
-      if (kind == "trk") add_line(node, "trkpt", tracks);
-      if (kind == "rte") add_line(node, "rtept", routes);
-      if (kind == "wpt") add_point(node, waypoints);
+      if (kind == "trk") {
+        add_line(node, "trkpt", tracks);
+      } else if (kind == "rte") {
+        add_line(node, "rtept", routes);
+      } else if (kind == "wpt") {
+        add_point(node, waypoints);
+      } else {
+        refuse_positions(node);
+      }
     }
     std::map<std::string, std::size_t> left_out;
     if (!tracks.empty()) {
@@ -54,9 +61,13 @@ class GpxTracks {
     track.place = line_of(xml_, line);
     std::size_t segments = 0;
     xml_.walk(line, [&](XmlTree::Node node) {
-      if (xml_.name(node) == point) add_point(node, track);
-      const bool is_segment = xml_.name(node) == "trkseg";
+      const bool is_segment = xml_.name(node) == "trkseg" && point == "trkpt";
       segments += is_segment && xml_.child(node, point) != XmlTree::kNone ? 1 : 0;
+      if (xml_.name(node) == point) {
+        add_point(node, track);
+      } else if (!is_segment) {
+        refuse_positions(node);
+      }
       return is_segment;
     });
     if (track.items.empty()) return;
@@ -75,13 +86,44 @@ class GpxTracks {
         checked_lonlat(number_of(xml_, longitude, source_), number_of(xml_, latitude, source_), item.place);
     // "Elevation of the point"; where <geoidheight> is beside it, that of NMEA is meant, above mean sea level.
     item.position.datum = HeightDatum::sea_level;
-    const XmlTree::Node height = xml_.child(point, "ele");
-    if (height != XmlTree::kNone) item.position.height_m = number_of(xml_, height, source_);
-    const XmlTree::Node more = xml_.child(point, "extensions");
-    if (more == XmlTree::kNone) return;
-    for (XmlTree::Node node = xml_.first_child(more); node != XmlTree::kNone; node = xml_.next(node)) {
-      set_detail(xml_.name(node), xml_.text(node), item);
+    for (XmlTree::Node node = xml_.first_child(point); node != XmlTree::kNone; node = xml_.next(node)) {
+      const std::string_view name = xml_.name(node);
+      if (node == latitude || node == longitude) continue;
+      refuse_positions(node);
+      if (name == "ele" && !std::isnan(item.position.height_m)) {
+        source_.fail(ErrorCode::conflicting_keys, line_of(xml_, node), "\"ele\" is given twice", "keep one of them");
+      }
+      if (name == "ele") item.position.height_m = number_of(xml_, node, source_);
+      if (name != "extensions") continue;
+      for (XmlTree::Node more = xml_.first_child(node); more != XmlTree::kNone; more = xml_.next(more)) {
+        set_detail(xml_.name(more), xml_.text(more), item);
+      }
     }
+  }
+
+  /// What is not read at its place may hold no position, not even an extension, and be no misspelt name of what is
+  /// read.
+  void refuse_positions(XmlTree::Node unread) const {
+    const std::string_view kind = xml_.name(unread);
+    const std::string_view meant =
+        meant_name(kind, {"trk", "trkseg", "trkpt", "rte", "rtept", "wpt", "ele", "extensions", "@lat", "@lon"});
+    if (!meant.empty()) {
+      source_.fail(ErrorCode::plan_syntax, line_of(xml_, unread), "GPX has no " + in_quotes(kind),
+                   "write " + in_quotes(meant));
+    }
+    const auto check = [&](XmlTree::Node node) {
+      std::string_view name = xml_.name(node);
+      if (kind == "extensions" && !name.starts_with("@")) return true;  // data of the point, as QGIS writes it
+      name.remove_prefix(name.find_last_of("@:") + 1);
+      if (is_alike(name, "lat") || is_alike(name, "lon") || is_alike(name, "latitude") || is_alike(name, "longitude")) {
+        source_.fail(ErrorCode::value_unsupported, line_of(xml_, node),
+                     in_quotes(kind) + " holds a position, and is not read there",
+                     "write it as a point of a track or a route, or take it out");
+      }
+      return true;
+    };
+    check(unread);
+    xml_.walk(unread, check);
   }
 
   const XmlTree& xml_;

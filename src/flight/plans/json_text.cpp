@@ -25,7 +25,11 @@ FlightPlan read_json(const PlanSource& source) {
   const nlohmann::json root = parse_plan_json(source);
   const bool is_geojson = root.contains("features") || root.contains("geometry") || root.contains("geometries") ||
                           root.contains("coordinates");
-  return is_geojson && !root.contains("mission") ? read_geojson(root, source) : read_qgroundcontrol(root, source);
+  if (is_geojson && root.contains("mission")) {
+    source.fail(ErrorCode::plan_syntax, "", "the file is a plan of QGroundControl and GeoJSON in one",
+                "make two files of it");
+  }
+  return is_geojson ? read_geojson(root, source) : read_qgroundcontrol(root, source);
 }
 
 }  // namespace vantage::internal::flight::plans

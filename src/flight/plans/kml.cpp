@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -56,7 +55,10 @@ class KmlTracks {
   /// Whether to go into the element.
   bool add(XmlTree::Node part, const std::string& name, std::string_view outer_mode = {}) {
     const std::string_view kind = xml_.name(part);
-    if (kind == "ExtendedData") return false;
+    if (kind == "ExtendedData") {
+      refuse_positions(part);
+      return false;
+    }
     constexpr std::array<std::string_view, 6> kNotFlown = {"Polygon", "Model",        "NetworkLink",
                                                            "Tour",    "PhotoOverlay", "GroundOverlay"};
     if (std::find(kNotFlown.begin(), kNotFlown.end(), kind) != kNotFlown.end()) {
@@ -70,10 +72,14 @@ class KmlTracks {
     }
     const bool is_list = kind == "LineString" || kind == "LinearRing" || kind == "Point";
     if (!is_list && kind != "Track") {
-      refuse_misspelt(part);
+      const std::string_view meant =
+          meant_name(kind, {"LineString", "LinearRing", "Track", "MultiTrack", "Point", "Placemark"});
+      if (!meant.empty()) fail(part, "KML has no " + in_quotes(kind), "write " + in_quotes(meant));
+      refuse_position(part);
       return true;
     }
-    for (const char* const only : {"coordinates", "altitudeMode"}) refuse_second(part, only);
+    for (const char* const only : {"coordinates", "altitudeMode", "altitudeOffset"}) refuse_second(part, only);
+    refuse_others(part, is_list ? "coordinates" : "coord");
     PlanTrack track;
     track.name = name;
     track.place = line_of(xml_, part);
@@ -91,6 +97,7 @@ class KmlTracks {
       for (PlanItem& item : track.items) item.position.height_m += number_of(xml_, offset, source_);
     }
     if (kind == "Point") {
+      if (track.items.size() > 1) fail(part, "a point has several positions", "write a line, or several points");
       points_.track.items.push_back(std::move(track.items.front()));
       points_.numbers.push_back(0);
     } else {
@@ -99,16 +106,48 @@ class KmlTracks {
     return false;
   }
 
-  /// Names of XML count upper and lower case.
-  void refuse_misspelt(XmlTree::Node part) const {
-    for (const std::string_view name : {"LineString", "LinearRing", "Track", "MultiTrack", "Point", "Placemark"}) {
-      const std::string_view kind = xml_.name(part);
-      const bool is_alike = std::equal(kind.begin(), kind.end(), name.begin(), name.end(), [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  [[noreturn]] void fail(XmlTree::Node node, const std::string& problem, const std::string& fix) const {
+    source_.fail(ErrorCode::plan_syntax, line_of(xml_, node), problem, fix);
+  }
+
+  /// Positions of other elements than lines, tracks and points would not be flown.
+  void refuse_position(XmlTree::Node node) const {
+    for (const char* name : {"coordinates", "coord", "coordinate", "coords"}) {
+      if (!is_alike(xml_.name(node), name)) continue;
+      source_.fail(ErrorCode::value_unsupported, line_of(xml_, node),
+                   in_quotes(xml_.name(node)) + " is in no line, track or point, and is not read there",
+                   "write it in \"LineString\", or take it out");
+    }
+  }
+
+  void refuse_positions(XmlTree::Node within) const {
+    xml_.walk(within, [this](XmlTree::Node node) {
+      refuse_position(node);
+      return true;
+    });
+  }
+
+  /// A line, a track or a point has its own elements alone, its positions as `read`, and no text beside them.
+  void refuse_others(XmlTree::Node part, std::string_view read) const {
+    constexpr std::array<std::string_view, 7> kKnown = {"altitudeMode", "altitudeOffset", "extrude", "tessellate",
+                                                        "drawOrder",    "when",           "angles"};
+    const std::string within = " in " + in_quotes(xml_.name(part));
+    const auto is_attribute = [&](XmlTree::Node node) { return xml_.name(node).starts_with("@"); };
+    if (!xml_.text(part).empty()) fail(part, "there is text" + within, "write positions in " + in_quotes(read));
+    for (XmlTree::Node child = xml_.first_child(part); child != XmlTree::kNone; child = xml_.next(child)) {
+      const std::string_view name = xml_.name(child);
+      if (is_attribute(child)) continue;
+      if (read == "coord" && (name == "Model" || name == "ExtendedData")) {
+        refuse_positions(child);
+        continue;
+      }
+      const bool is_known = name == read || std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end();
+      if (!is_known)
+        fail(child, "KML has no " + in_quotes(name) + within, "write " + in_quotes(read) + " for positions");
+      xml_.walk(child, [&](XmlTree::Node node) {
+        if (!is_attribute(node)) fail(node, "there is an element in " + in_quotes(name), "write numbers alone");
+        return false;
       });
-      if (!is_alike || kind == name) continue;
-      source_.fail(ErrorCode::plan_syntax, line_of(xml_, part), "KML has no " + in_quotes(kind),
-                   "write " + in_quotes(name));
     }
   }
 

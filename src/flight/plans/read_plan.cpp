@@ -45,6 +45,10 @@ std::string unpacked(const plans::PlanSource& source) {
     const auto made_from = names.empty() ? drawn.end() : std::find_if(drawn.begin(), drawn.end(), is_template);
     if (made_from != drawn.end()) drawn.erase(made_from);
     names.insert(names.end(), drawn.begin(), drawn.end());
+    for (const char* other : {".kmz", ".gpx", ".plan", ".waypoints", ".geojson"}) {
+      const std::vector<std::string> more = internal::io::names_in_zip(source.text, other);
+      if (!names.empty()) names.insert(names.end(), more.begin(), more.end());
+    }
     if (names.size() > 1) {
       constexpr std::size_t kMostNamed = 5;
       std::string list;

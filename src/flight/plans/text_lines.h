@@ -1,7 +1,10 @@
-// Lines of a text, without their ends.
+// Lines of a text, without their ends, and names in it.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -34,6 +37,21 @@ inline std::string_view without_blanks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+/// Whether they are the same but for upper and lower case.
+inline bool is_alike(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char one, char other) {
+    return std::tolower(static_cast<unsigned char>(one)) == std::tolower(static_cast<unsigned char>(other));
+  });
+}
+
+/// Which of `names` is meant, if upper and lower case alone are wrong; else empty.
+inline std::string_view meant_name(std::string_view name, std::initializer_list<std::string_view> names) {
+  for (const std::string_view known : names) {
+    if (is_alike(name, known)) return name == known ? std::string_view() : known;
+  }
+  return {};
 }
 
 }  // namespace vantage::internal::flight::plans
