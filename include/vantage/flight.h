@@ -120,7 +120,7 @@ struct PlanItem {
   std::optional<double> gimbal_pitch_deg;                       ///< 0 level, -90 straight down
   std::optional<PlanPosition> look_at;  ///< what the camera is turned to; instead of yaw and pitch
   double acceptance_radius_m = 0;       ///< the item counts as reached so near; 0: not stated
-  double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
+  double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0 (-0): of its own
   double turns = 0;                     ///< of a loiter; then it stays for `hold_s` where they end
   bool is_timed = false;                ///< of a loiter with turns: it circles for `hold_s` instead, and does not stay
   /// Of a loiter with turns: a multirotor stays in its centre instead, and the plan does not say which vehicle flies
