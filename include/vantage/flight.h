@@ -326,7 +326,7 @@ struct FlightOut {
   /// To stay in and out of; of QGroundControl, whose geofence has no heights. One to stay out of is left out where the
   /// flight or its home lies in it, seen from above.
   std::vector<Zone> keep_in = {}, keep_out = {};
-  double chord_error_m = 0.05;              ///< of circles, where a format has none
+  double chord_error_m = 0.05;              ///< of circles
   std::vector<SeenTarget> targets = {};     ///< CZML draws them
   double start_unix_s = kFlightStartUnixS;  ///< of CZML: seconds since 1970-01-01 UTC; of the years 1 to 9999
 };
@@ -339,9 +339,9 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// moves by at most 1 micrometre. Autopilots round again when a plan is uploaded: MAVLink has 1e-7 degrees (6 mm) and
 /// single precision for heights (0.03 mm below 1 km).
 ///
-/// Circles are loiters in .plan and .waypoints, and chords within `chord_error_m` in the other formats. Where the
-/// camera is turned to something, .plan and .waypoints hold a region of interest, and the other formats the angles.
-/// Stays are rounded up to a thousandth of a second. KML, GPX and GeoJSON hold what is done at a point by name
+/// Circles are chords within `chord_error_m`. Where the camera is turned to something, .plan and .waypoints hold a
+/// region of interest, and the other formats the angles. Stays are rounded up to a thousandth of a second, in .plan and
+/// .waypoints to a second. KML, GPX and GeoJSON hold what is done at a point by name
 /// (docs/flight-plans.md), and are read back with it.
 ///
 /// CZML has the position at every moment: each leg at its speed, without speeding up and braking, as check_flight has
