@@ -745,6 +745,8 @@ TEST(LocateFlight, CirclesWhereTheMissionEnds) {
     }
   }
   EXPECT_FALSE(flies(ends(PlanVehicle::multirotor), {0, 30, 10}, {0, 30, 10}));
+  options.ground_error_m = 1e-5;
+  expect_code([&] { ends(PlanVehicle::fixed_wing); }, ErrorCode::work_too_large, "item 2");
 }
 
 // Straight up and down, or on slopes: nobody knows which.

@@ -172,7 +172,7 @@ struct ReadPlanOptions {
 ///
 /// QGroundControl and waypoints: the commands of MAVLink NAV_WAYPOINT, SPLINE, ARC, LOITER_UNLIM, LOITER_TURNS,
 /// LOITER_TIME, LOITER_TO_ALT, RETURN_TO_LAUNCH, LAND, TAKEOFF, VTOL_TAKEOFF, VTOL_LAND, DELAY, DO_ORBIT, DO_JUMP
-/// (followed), DO_CHANGE_SPEED, DO_SET_HOME, DO_SET_ROI and its kin, DO_MOUNT_CONTROL, DO_GIMBAL_MANAGER_PITCHYAW,
+/// (followed), DO_CHANGE_SPEED, DO_SET_ROI and its kin, DO_MOUNT_CONTROL, DO_GIMBAL_MANAGER_PITCHYAW,
 /// CONDITION_YAW. Commands that move nothing are passed over. Others that move the vehicle, and unknown ones with a
 /// position, are in FlightPlan::not_judged; unknown ones without a position are counted in a note. Surveys and corridor
 /// scans are read as the items or the transect points that they store; a structure scan, which stores none, is refused.

@@ -790,9 +790,13 @@ void Locator::add_end() {
   const Corner centre = corners_.back();
   const double radius = std::abs(*options_.loiter_radius_m);
   for (const Corner& corner : circle_corners(centre, 0, radius, 1)) add(corner, true);
-  double side = 1;
-  for (double at = radius; at > -radius; at -= 2 * options_.ground_error_m, side = -side) {
-    const double angle = side * std::acos(at / radius);
+  const double chords = radius / options_.ground_error_m;
+  if (!(2 * chords < static_cast<double>(kMostFlightPoints))) {
+    fail(ErrorCode::work_too_large, place(last), "the circle takes more than a million chords",
+         "allow a larger error of the ground");
+  }
+  for (double chord = 0; chord < chords; ++chord) {
+    const double along = std::acos(1 - 2 * chord / chords), angle = std::fmod(chord, 2) == 0 ? along : -along;
     add(circle_corners(centre, angle, radius, 0).front(), true);
     add(circle_corners(centre, -angle, radius, 0).front(), true);
   }
