@@ -650,8 +650,7 @@ TEST(ReadFlightPlan, NamesItemsThatDoNotLeadOn) {
 // Jumps name rows of tables, and whole numbers that one item alone has.
 TEST(ReadFlightPlan, RefusesJumpsThatNameNoItem) {
   const std::string home = "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t510\t1\n",
-                    row = "\t0\t3\t16\t0\t0\t0\t0\t48.001\t11\t50\t1\n",
-                    jump = "\t0\t3\t177\t1\t1\t0\t0\t0\t0\t0\t1\n";
+                    row = "\t0\t3\t16\t0\t0\t0\t0\t48.001\t11\t50\t1\n", jump = "\t0\t3\t177\t1\t1\t0\t0\t0\t0\t0\t1\n";
   EXPECT_EQ(parsed_plan(home + "1" + row + "2" + row + "3" + jump).items.size(), 4u);
   expect_error([&] { parsed_plan(home + "2" + row + "1" + row + "3" + jump); }, ErrorCode::plan_syntax, "item 2");
   expect_code([&] { parsed_plan(home + "1" + row + "1" + row + "3" + jump); }, ErrorCode::plan_syntax, "item 1");

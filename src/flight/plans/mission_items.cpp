@@ -343,10 +343,10 @@ double Runner::circled_radius(const MissionItem& item, double radius_m) {
   if (item.command == kNavLoiterTime) stored_m = 0;
   const double flown_m = std::copysign(stored_m, radius_m);  // -0: its own, the other way round
   if (autopilot_ == Autopilot::ardupilot || flown_m == radius_m) return flown_m;
-  not_judged(item,
-             stored_m == 0 ? "some autopilots circle there with the radius that it states, and others with their own: "
-                             "give a .plan that names the autopilot"
-                           : "some autopilots round its radius: write whole metres, above 255 whole tens, up to 2550");
+  not_judged(item, stored_m == 0
+                       ? "some autopilots circle there with the radius that it states, and others with their own: "
+                         "give a .plan that names the autopilot"
+                       : "some autopilots round its radius: write whole metres, above 255 whole tens, up to 2550");
   return radius_m;
 }
 

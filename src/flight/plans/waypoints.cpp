@@ -88,8 +88,8 @@ class WaypointTable {
   void check_numbers() const {
     for (std::size_t i = 0; i < items_.size(); ++i) {
       if (items_[i].id == static_cast<long long>(i)) continue;
-      const bool jumps = std::any_of(items_.begin(), items_.end(),
-                                     [](const MissionItem& item) { return item.command == kDoJump; });
+      const bool jumps =
+          std::any_of(items_.begin(), items_.end(), [](const MissionItem& item) { return item.command == kDoJump; });
       if (!jumps) return;
       PlanSource::fail_at(ErrorCode::plan_syntax, items_[i].place,
                           "the table has a jump, and its rows are not numbered from 0 on, one after the other",
