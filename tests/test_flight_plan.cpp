@@ -207,14 +207,17 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
     return parsed_plan(plan({waypoint(48, 11, 10, 3, 1), item, waypoint(48.001, 11, 10)})).not_judged;
   };
   const std::string nowhere = "[2, 0, 0, 0, 0, 0, 0]", somewhere = "[0, 0, 0, null, 48.002, 11, 30]";
-  for (const int command : {25,  30,  32,  35,  37,  83,  91,  92,  94,   113,  176,   185,  186,
-                            192, 208, 218, 224, 246, 420, 601, 611, 3000, 4001, 42703, 43001}) {
+  for (const int command : {25,  30,  32,  35,  37,  83,  91,  92,  94,  113,  176,  185,   186,  192,
+                            208, 212, 218, 223, 224, 246, 420, 601, 611, 3000, 4001, 42703, 43001}) {
     const std::vector<std::string> told = not_judged(simple(command, 3, nowhere));
     ASSERT_EQ(told.size(), 1u) << command;
     EXPECT_NE(told[0].find("item 2"), std::string::npos) << told[0];
     EXPECT_NE(told[0].find(std::to_string(command)), std::string::npos) << told[0];
-    EXPECT_EQ(not_judged(simple(command, 3, somewhere)).size(), command == 92 || command == 208 ? 0u : 1u) << command;
+    EXPECT_EQ(not_judged(simple(command, 3, somewhere)).size(),
+              command == 92 || command == 208 || command == 212 ? 0u : 1u)
+        << command;
   }
+  EXPECT_TRUE(not_judged(simple(223, 2, "[1, 0, 0, 0, 0, 0, 0]")).empty()) << "the engine starts";
   // Not known: it depends on whether they have a position.
   for (const int command : {31000, 30001, 43000}) {
     EXPECT_EQ(not_judged(simple(command, 3, somewhere)).size(), 1u) << command;
@@ -224,6 +227,12 @@ TEST(ReadFlightPlan, NamesWhatMovesTheVehicleElsewhere) {
     EXPECT_TRUE(not_judged(simple(command, 3, somewhere)).empty()) << command;
   }
   EXPECT_EQ(not_judged(simple(179, 3, somewhere)).size(), 1u) << "another home in flight";
+  const std::string first = simple(179, 0, "[0, 0, 0, 0, 48.01, 11, 500]"),
+                    here = simple(179, 0, "[1, 0, 0, 0, 48.01, 11, 500]");
+  const FlightPlan home = parsed_plan(plan({first, waypoint(48, 11, 10)}));
+  ASSERT_EQ(home.not_judged.size(), 1u) << "it takes off elsewhere than there";
+  expect_wording(home.not_judged);
+  EXPECT_TRUE(parsed_plan(plan({here, waypoint(48, 11, 10)})).not_judged.empty());
   const std::string disarms = simple(400, 2, "[0, 0, 0, 0, 0, 0, 0]"), lands = simple(21, 3, somewhere) + ", ";
   EXPECT_EQ(not_judged(disarms).size(), 1u);
   EXPECT_TRUE(not_judged(lands + disarms).empty());
@@ -370,7 +379,9 @@ TEST(ReadFlightPlan, NamesRallyPointsThatItMayReturnTo) {
   EXPECT_TRUE(with("", {waypoint(48, 11, 10), home}).empty());
   EXPECT_TRUE(with("[48, 11, 30]", {waypoint(48, 11, 10)}).empty());
   // As rows of a table, also behind the return.
-  const std::string way = "QGC WPL 110\n0\t1\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n",
+  const std::string way =
+                        "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t500\t1\n"
+                        "1\t0\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n",
                     back = "1\t0\t3\t20\t0\t0\t0\t0\t0\t0\t0\t1\n",
                     rally = "2\t0\t3\t5100\t0\t0\t0\t0\t48.001\t11\t30\t1\n";
   const std::vector<std::string> rows = parsed_plan(way + back + rally).not_judged;
@@ -395,13 +406,15 @@ TEST(ReadFlightPlan, TellsThatFencesAreNotJudged) {
   EXPECT_TRUE(has_note(circle, WarningCode::plan_left_out));
   EXPECT_TRUE(has_note(with("\"polygon\": [[48, 11], [48, 12], [49, 12]]"), WarningCode::plan_left_out)) << "old";
   EXPECT_TRUE(with("\"circles\": [], \"polygons\": [], \"breachReturn\": [48, 11, 30]").empty());
-  const std::string way = "QGC WPL 110\n0\t1\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n";
+  const std::string way =
+      "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t500\t1\n"
+      "1\t0\t3\t16\t0\t0\t0\t0\t48\t11\t30\t1\n";
   for (const std::string command : {"5001", "5002", "5003", "5004"}) {
     const FlightPlan read = parsed_plan(way + "1\t0\t3\t" + command + "\t3\t0\t0\t0\t48.001\t11\t0\t1\n");
     EXPECT_TRUE(has_note(read.notes, WarningCode::plan_left_out)) << command;
-    EXPECT_EQ(read.notes.size(), 1u) << command;
+    EXPECT_EQ(read.notes.size(), 2u) << command << ", and the home";
   }
-  EXPECT_TRUE(parsed_plan(way + "1\t0\t3\t5000\t0\t0\t0\t0\t48.001\t11\t0\t1\n").notes.empty());
+  EXPECT_EQ(parsed_plan(way + "1\t0\t3\t5000\t0\t0\t0\t0\t48.001\t11\t0\t1\n").notes.size(), 1u);
 }
 
 // Of the ground station's own samples nothing is left out but a fence; one has rally points, and returns.
@@ -519,12 +532,174 @@ TEST(ReadFlightPlan, NamesHeightsOfZeroThatNobodyKnows) {
   EXPECT_EQ(read({low, waypoint(48, 11.001, 0, 0)}).not_judged.size(), 1u) << "above another level";
   EXPECT_TRUE(read({low, waypoint(48, 11.001, 0)}).not_judged.empty());
   for (const auto& [autopilot, vehicle, count] : {std::tuple(0, 2, 1u), {3, 0, 1u}, {0, 1, 0u}, {12, 0, 0u}}) {
-    EXPECT_EQ(plan_for(autopilot, vehicle, {up, waypoint(48.001, 11, 0)}).not_judged.size(), count)
+    const std::string back = simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]");
+    EXPECT_EQ(plan_for(autopilot, vehicle, {up, waypoint(48.001, 11, 0), back}).not_judged.size(), count)
         << autopilot << ", " << vehicle;
   }
   // Without a position, too; of fixed wings these alone.
   const std::string here = simple(17, 3, "[0, 0, 0, 0, 0, 0, 0]");
   for (const int vehicle : {1, 2, 20}) EXPECT_EQ(plan_for(0, vehicle, {up, here}).not_judged.size(), 1u) << vehicle;
+}
+
+// Its Plane climbs straight ahead, returns when the mission is over, and changes heights a little, or low, at once.
+TEST(ReadFlightPlan, NamesWaysOfArduPilotsPlane) {
+  constexpr int kArduPilot = 3, kPx4 = 12, kPlane = 1, kVtol = 20;
+  const std::string up = simple(22, 3, "[0, 0, 0, null, 48, 11, 50]"),
+                    vtol_up = simple(84, 3, "[0, 1, 0, null, 48, 11, 50]"),
+                    stays = simple(17, 3, "[0, 0, 60, 0, 48.002, 11, 50]"),
+                    back = simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]");
+  const auto told = [&](int autopilot, int vehicle, const std::vector<std::string>& items) {
+    return plan_for(autopilot, vehicle, items).not_judged;
+  };
+  const std::string level = waypoint(48.001, 11, 50);
+  ASSERT_EQ(told(kArduPilot, kPlane, {up, level}).size(), 1u);
+  expect_wording(told(kArduPilot, kPlane, {up, level}));
+  EXPECT_EQ(told(0, kPlane, {up, level, back}).size(), 1u);
+  EXPECT_TRUE(told(kPx4, kPlane, {up, level}).empty());
+  EXPECT_TRUE(told(kArduPilot, kVtol, {vtol_up, level}).empty()) << "straight up";
+  EXPECT_TRUE(told(kArduPilot, 2, {up, level}).empty());
+  // The end.
+  const auto last = [&](int autopilot, const std::vector<std::string>& items) {
+    return plan_for(autopilot, kPlane, items).items.back().kind;
+  };
+  EXPECT_EQ(last(kArduPilot, {level, level}), PlanItemKind::return_home);
+  EXPECT_EQ(last(kArduPilot, {level, stays}), PlanItemKind::loiter);
+  EXPECT_EQ(last(kArduPilot, {level, simple(21, 3, "[0, 0, 0, 0, 48.002, 11, 0]")}), PlanItemKind::land);
+  EXPECT_EQ(last(kPx4, {level, level}), PlanItemKind::waypoint);
+  EXPECT_EQ(plan_for(kArduPilot, kPlane, {level, back}).items.size(), 2u);
+  ASSERT_EQ(told(0, kPlane, {level, level}).size(), 1u);
+  expect_wording(told(0, kPlane, {level, level}));
+  // From one height to another one, above the home, which is at 500 m, or above the sea level.
+  const auto slope = [&](double from, double to, int frame = 3, int next_frame = 3) {
+    return told(kArduPilot, kPlane, {waypoint(48, 11, from, frame), waypoint(48.01, 11, to, next_frame)}).size();
+  };
+  for (const auto& [from, to] : {std::pair(50.0, 64.0), {64.0, 50.0}, {20.0, 90.0}, {50.0, 50.1}}) {
+    EXPECT_EQ(slope(from, to), 1u) << from << " to " << to;
+    EXPECT_EQ(slope(from + 500, to + 500, 0, 0), 1u) << from << " to " << to;
+  }
+  for (const auto& [from, to] : {std::pair(50.0, 65.0), {90.0, 5.0}, {21.0, 90.0}, {50.0, 50.0}}) {
+    EXPECT_EQ(slope(from, to), 0u) << from << " to " << to;
+    EXPECT_EQ(slope(from + 500, to + 500, 0, 0), 0u) << from << " to " << to;
+  }
+  EXPECT_EQ(slope(50, 570, 3, 0), 1u) << "of two levels";
+  expect_wording(told(kArduPilot, kPlane, {waypoint(48, 11, 50), waypoint(48.01, 11, 60)}));
+  EXPECT_TRUE(told(kPx4, kPlane, {waypoint(48, 11, 50), waypoint(48.01, 11, 60)}).empty());
+  EXPECT_TRUE(told(kArduPilot, 2, {waypoint(48, 11, 50), waypoint(48.01, 11, 60)}).empty());
+}
+
+// Radii, turns and seconds are whole there, and a radius for a time is none.
+TEST(ReadFlightPlan, RoundsNumbersAsArduPilotDoes) {
+  constexpr int kArduPilot = 3, kPx4 = 12;
+  const auto circle = [](int command, const std::string& first, const std::string& radius) {
+    const std::string second = command == 31 ? radius : "0";
+    return simple(command, 3, "[" + first + ", " + second + ", " + radius + ", 0, 48.001, 11, 50]");
+  };
+  const auto read = [](int autopilot, const std::string& item, int vehicle = 2) {
+    return plan_for(autopilot, vehicle, {waypoint(48, 11, 50), item, simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")});
+  };
+  const auto radius = [&](const std::string& stated, int command = 18) {
+    return read(kArduPilot, circle(command, "2", stated), 1).items.at(1).loiter_radius_m;
+  };
+  EXPECT_EQ(radius("20.9"), 20);
+  EXPECT_EQ(radius("-20.9"), -20);
+  EXPECT_EQ(radius("255.5"), 255);
+  EXPECT_EQ(radius("299"), 290);
+  EXPECT_EQ(radius("9999"), 2550);
+  EXPECT_EQ(radius("299.5", 17), 299);
+  EXPECT_EQ(radius("299.5", 31), 299);
+  EXPECT_EQ(radius("50", 19), 0);
+  EXPECT_TRUE(std::signbit(radius("-50", 19))) << "its own, the other way round";
+  EXPECT_EQ(read(kPx4, circle(18, "2", "20.9")).items[1].loiter_radius_m, 20.9);
+  EXPECT_EQ(read(kPx4, circle(19, "2", "50"), 1).items[1].loiter_radius_m, 50);
+  std::vector<std::string> told;
+  for (const auto& [item, vehicle] :
+       {std::pair(circle(18, "2", "20.9"), 2), {circle(18, "2.5", "20"), 2}, {circle(19, "9", "50"), 1}}) {
+    const std::vector<std::string> texts = read(0, item, vehicle).not_judged;
+    ASSERT_EQ(texts.size(), 1u) << item;
+    told.push_back(texts[0]);
+    EXPECT_TRUE(read(kPx4, item, vehicle).not_judged.empty()) << item;
+  }
+  expect_wording(told);
+  EXPECT_EQ(read(kArduPilot, circle(18, "2.5", "20")).not_judged.size(), 1u);
+  EXPECT_TRUE(read(0, circle(18, "2", "20")).not_judged.empty());
+  const std::string stays = simple(16, 3, "[2.9, 0, 0, 0, 48.001, 11, 50]");
+  EXPECT_EQ(read(kArduPilot, stays).items[1].hold_s, 2);
+  EXPECT_EQ(read(0, stays).items[1].hold_s, 2);
+  EXPECT_EQ(read(kPx4, stays).items[1].hold_s, 2.9);
+  EXPECT_EQ(read(kArduPilot, circle(19, "7.9", "0")).items[1].hold_s, 7);
+}
+
+// PX4 stays at an item that does not lead on; ArduPilot has no such thing.
+TEST(ReadFlightPlan, NamesItemsThatDoNotLeadOn) {
+  std::string halts = waypoint(48, 11, 10);
+  halts.replace(halts.find("true"), 4, "false");
+  const auto told = [&](int autopilot, const std::vector<std::string>& items) {
+    return plan_for(autopilot, 2, items).not_judged;
+  };
+  ASSERT_EQ(told(12, {halts, waypoint(48.001, 11, 10)}).size(), 1u);
+  expect_wording(told(12, {halts, waypoint(48.001, 11, 10)}));
+  EXPECT_EQ(told(0, {halts, waypoint(48.001, 11, 10)}).size(), 1u);
+  EXPECT_TRUE(told(3, {halts, waypoint(48.001, 11, 10)}).empty());
+  EXPECT_TRUE(told(12, {waypoint(48.001, 11, 10), halts}).empty()) << "the last one";
+  const std::string home = "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t510\t0\n",
+                    row = "\t0\t3\t16\t0\t0\t0\t0\t48.001\t11\t50\t";
+  EXPECT_TRUE(parsed_plan(home + "1" + row + "1\n2" + row + "0\n").not_judged.empty());
+  EXPECT_EQ(parsed_plan(home + "1" + row + "0\n2" + row + "1\n").not_judged.size(), 1u);
+}
+
+// Jumps name rows of tables, and whole numbers that one item alone has.
+TEST(ReadFlightPlan, RefusesJumpsThatNameNoItem) {
+  const std::string home = "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t510\t1\n",
+                    row = "\t0\t3\t16\t0\t0\t0\t0\t48.001\t11\t50\t1\n", jump = "\t0\t3\t177\t1\t1\t0\t0\t0\t0\t0\t1\n";
+  EXPECT_EQ(parsed_plan(home + "1" + row + "2" + row + "3" + jump).items.size(), 4u);
+  expect_error([&] { parsed_plan(home + "2" + row + "1" + row + "3" + jump); }, ErrorCode::plan_syntax, "item 2");
+  expect_code([&] { parsed_plan(home + "1" + row + "1" + row + "3" + jump); }, ErrorCode::plan_syntax, "item 1");
+  EXPECT_EQ(parsed_plan(home + "2" + row + "1" + row).items.size(), 2u) << "nothing names them";
+  const auto to = [](const std::string& id, int second) {
+    parsed_plan(plan({waypoint(48, 11, 10, 3, 1), waypoint(48.001, 11, 10, 3, second),
+                      simple(177, 2, "[" + id + ", 1, 0, 0, 0, 0, 0]", 9)}));
+  };
+  to("1", 2);
+  expect_error([&] { to("1.6", 2); }, ErrorCode::index_out_of_range, "item 3");
+  expect_error([&] { to("1", 1); }, ErrorCode::index_out_of_range, "item 3");
+}
+
+// ArduPilot's first row is the home, whatever it says; others fly it.
+TEST(ReadFlightPlan, NamesFirstRowsThatAreNoHome) {
+  const auto told = [](const std::string& frame, const std::string& command) {
+    return parsed_plan("QGC WPL 110\n0\t1\t" + frame + "\t" + command +
+                       "\t0\t0\t0\t0\t48\t11\t50\t1\n1\t0\t3\t16\t0\t0\t0\t0\t48.001\t11\t50\t1\n")
+        .not_judged;
+  };
+  EXPECT_TRUE(told("0", "16").empty());
+  ASSERT_EQ(told("3", "16").size(), 1u);
+  expect_wording(told("3", "16"));
+  EXPECT_EQ(told("3", "22").size(), 1u);
+}
+
+// -2 is the vehicle's own speed, and with PX4 all that is none.
+TEST(ReadFlightPlan, ForgetsASpeedForTheVehiclesOwn) {
+  const auto speed = [](int autopilot, const std::string& next) {
+    return plan_for(autopilot, 2,
+                    {simple(178, 2, "[1, 0.5, -1, 0, 0, 0, 0]"), simple(178, 2, "[1, " + next + ", -1, 0, 0, 0, 0]"),
+                     waypoint(48, 11, 50)})
+        .items.at(0)
+        .speed_m_s;
+  };
+  for (const int autopilot : {0, 3, 12}) EXPECT_TRUE(std::isnan(speed(autopilot, "-2"))) << autopilot;
+  EXPECT_TRUE(std::isnan(speed(12, "-1")));
+  EXPECT_EQ(speed(3, "-1"), 0.5);
+  EXPECT_EQ(speed(12, "3"), 3);
+}
+
+TEST(ReadFlightPlan, NamesTransitionsToOtherWays) {
+  const auto told = [](const std::string& heading) {
+    return parsed_plan(plan({simple(84, 3, "[0, " + heading + ", 0, 270, 48, 11, 50]"), waypoint(48.001, 11, 50)}, 22))
+        .not_judged;
+  };
+  for (const std::string heading : {"0", "1", "null"}) EXPECT_TRUE(told(heading).empty()) << heading;
+  ASSERT_EQ(told("3").size(), 1u);
+  expect_wording(told("3"));
 }
 
 TEST(ReadFlightPlan, TellsVersionsThatItDoesNotKnow) {
@@ -579,7 +754,7 @@ TEST(ReadFlightPlan, TakesTablesOfWaypoints) {
   EXPECT_TRUE(has_note(read.notes, WarningCode::plan_assumed));
   ASSERT_EQ(read.items.size(), 3u);
   EXPECT_EQ(read.items[0].kind, PlanItemKind::takeoff);
-  EXPECT_EQ(read.items[1].hold_s, 1.5);
+  EXPECT_EQ(read.items[1].hold_s, 1) << "of 1.5, as ArduPilot stores it";
   EXPECT_EQ(read.items[1].place, "/data/flight.plan: line 4, item 2");
   expect_error([] { parsed_plan("QGC WPL 100\n"); }, ErrorCode::value_unsupported, "line 1");
   expect_error([] { parsed_plan("QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t48\t11\t510\n"); }, ErrorCode::plan_syntax,

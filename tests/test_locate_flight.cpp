@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -143,7 +144,7 @@ TEST(LocateFlight, RefusesCurvesThatLeadElsewhere) {
 
 TEST(LocateFlight, FollowsPositionsOfTheFrame) {
   const geo::LocalFrame frame({11, 48});
-  const FlightPlan two = parsed_plan(plan({waypoint(48.003, 11.002, 5, 0), waypoint(47.99, 11.05, 9, 0)}));
+  const FlightPlan two = parsed_plan(plan({waypoint(48.003, 11.002, 5, 0), waypoint(47.99, 11.05, 9, 0)}, 2, "null"));
   const LocatedPlan located = locate_flight(two, in_munich());
   ASSERT_EQ(located.flight.points.size(), 2u);
   EXPECT_LT((located.flight.points[1].position.head<2>() - frame.to_local({11.05, 47.99})).norm(), 1e-9);
@@ -235,6 +236,17 @@ TEST(LocateFlight, CirclesForATime) {
   expect_error([&] { locate_flight(open, options); }, ErrorCode::missing_key, "item 2");
   options.loiter_radius_m = 30;
   EXPECT_GT(locate_flight(open, options).flight.points.size(), 10u);
+  // Of its own radius a plan may say which way round: to the south of the centre, so to the west or the east first.
+  FlightPlan own = circles;
+  own.items[1].loiter_radius_m = -0.0;
+  own.items[1].hold_s = 1;
+  const auto first_x = [&] {
+    const Flight flight = locate_flight(own, options).flight;
+    return flight.points.at(2).position.x();
+  };
+  EXPECT_GT(first_x(), 0);
+  own.items[1].loiter_radius_m = 0;
+  EXPECT_LT(first_x(), 0);
 }
 
 TEST(LocateFlight, CutsCornersByArcs) {
@@ -352,12 +364,12 @@ TEST(LocateFlight, TakesOffAndReturns) {
   EXPECT_EQ(heights(locate_flight(parsed_plan(plan(items, 1)), options)),
             (std::vector<double>{500, 530, 550, 580, 580, 500}));
   const FlightPlan lands = parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48.003, 11, 0]")}));
-  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 500}));
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{500, 550, 550, 550, 550, 500}));
   options.with_ground_legs = false;
-  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 500})) << "elsewhere";
+  EXPECT_EQ(heights(locate_flight(lands, options)), (std::vector<double>{550, 550, 550, 550, 500})) << "elsewhere";
   EXPECT_EQ(heights(locate_flight(
                 parsed_plan(plan({waypoint(48.002, 11, 50), simple(21, 3, "[0, 0, 0, 0, 48, 11, 0]")})), options)),
-            (std::vector<double>{550, 550}))
+            (std::vector<double>{550, 550, 550, 550}))
       << "at the home";
   const FlightPlan homeless =
       parsed_plan(plan({waypoint(48.002, 11, 50, 0), simple(20, 2, "[0, 0, 0, 0, 0, 0, 0]")}, 2, "null"));
@@ -385,10 +397,10 @@ TEST(LocateFlight, LandsAndTakesOffOnItsWay) {
   const std::string there = simple(22, 3, "[0, 0, 0, 0, 48.003, 11, 30]"),
                     here = simple(22, 3, "[0, 0, 0, 0, 0, 0, 30]"),
                     elsewhere = simple(22, 3, "[0, 0, 0, 0, 48.0035, 11, 30]");
-  EXPECT_EQ(heights(there, 2), (std::vector<double>{550, 550, 470, 530, 550}));
-  EXPECT_EQ(heights(here, 2), (std::vector<double>{550, 550, 470, 530, 550}));
+  EXPECT_EQ(heights(there, 2), (std::vector<double>{550, 550, 550, 550, 470, 530, 550})) << "first from the home";
+  EXPECT_EQ(heights(here, 2), (std::vector<double>{550, 550, 550, 550, 470, 530, 550}));
   EXPECT_EQ(heights(there, 1), (std::vector<double>{550, 470, 530, 550})) << "on slopes";
-  EXPECT_EQ(heights(elsewhere, 2), (std::vector<double>{550, 550, 470, 530, 530, 550}));
+  EXPECT_EQ(heights(elsewhere, 2), (std::vector<double>{550, 550, 550, 550, 470, 530, 530, 550}));
   EXPECT_TRUE(located(here, 2).not_judged.empty());
   ASSERT_EQ(located(elsewhere, 2).not_judged.size(), 1u);
   expect_wording(located(elsewhere, 2).not_judged);
@@ -444,7 +456,8 @@ TEST(LocateFlight, FliesArcs) {
 // The frame of the scene bends it by nothing that counts, and ground legs keep their height.
 TEST(LocateFlight, FliesArcsOnTheEarthAndOverGround) {
   const FlightPlan plan = parsed_plan(plan_texts::plan(
-      {waypoint(48, 10.999731994569604, 50), simple(36, 3, "[180, 0, 0, null, 48.00269807653214, 11, 50]")}));
+      {waypoint(48, 10.999731994569604, 550, 0), simple(36, 0, "[180, 0, 0, null, 48.00269807653214, 11, 550]")}, 2,
+      "null"));
   const Flight flight = locate_flight(plan, in_munich()).flight;
   const geo::LocalFrame frame({11, 48});
   const Vec3 begin = flight.points.front().position, end = flight.points.back().position;
@@ -501,7 +514,6 @@ Vec3 cubic_at(const Vec3& from, const Vec3& to, const Vec3& from_tangent, const 
 FlightPlan with_loiter(double radius_m, double height_m = 10) {
   FlightPlan plan = in_scene({{-60, 0, 10}, {60, 0, height_m}, {60, 90, height_m}});
   plan.file = "a.plan";
-  plan.format = PlanFormat::qgroundcontrol;
   PlanItem& loiter = plan.items[1];
   loiter.kind = PlanItemKind::loiter;
   loiter.place = "a.plan: item 2";
@@ -665,6 +677,76 @@ TEST(LocateFlight, TakesOffElsewhereOnBothWays) {
   plan.vehicle = PlanVehicle::multirotor;
   plan.items[0].position.horizontal = {0, 0.5};
   EXPECT_FALSE(locate_flight(plan, options).flight.points[1].is_other_way) << "it is at the home";
+}
+
+// Without a takeoff: level from above the home, a fixed wing on a slope. What it sees there does not count.
+TEST(LocateFlight, ComesFromTheHomeWithoutATakeoff) {
+  FlightPlan plan = in_scene({{0, 100, 40}, {200, 100, 40}});
+  plan.items[0].hold_s = 5;
+  LocateOptions options = with_home();
+  const auto comes = [&](PlanVehicle vehicle) {
+    plan.vehicle = vehicle;
+    const Flight flight = locate_flight(plan, options).flight;
+    EXPECT_NEAR(length_m(flight), 200, 1e-9);
+    double held_s = 0;
+    for (const FlightPoint& point : flight.points) held_s += point.hold_s;
+    EXPECT_EQ(held_s, vehicle == PlanVehicle::multirotor || vehicle == PlanVehicle::unknown ? 5 : 0);
+    return std::tuple(flies(flight, {0, 0, 0}, {0, 0, 40}), flies(flight, {0, 0, 40}, {0, 100, 40}),
+                      flies(flight, {0, 0, 0}, {0, 100, 40}));
+  };
+  EXPECT_EQ(comes(PlanVehicle::multirotor), std::tuple(false, false, false)) << "a table is flown in the air";
+  for (const PlanFormat format : {PlanFormat::qgroundcontrol, PlanFormat::waypoints}) {
+    plan.format = format;
+    options.loiter_radius_m = 20;
+    options.with_ground_legs = false;
+    EXPECT_EQ(comes(PlanVehicle::multirotor), std::tuple(false, true, false));
+    EXPECT_EQ(comes(PlanVehicle::fixed_wing), std::tuple(false, false, false));
+    options.with_ground_legs = true;
+    EXPECT_EQ(comes(PlanVehicle::multirotor), std::tuple(true, true, false));
+    EXPECT_EQ(comes(PlanVehicle::vtol), std::tuple(true, true, false));
+    EXPECT_EQ(comes(PlanVehicle::fixed_wing), std::tuple(false, false, true));
+    EXPECT_EQ(comes(PlanVehicle::unknown), std::tuple(true, true, true));
+  }
+  plan.vehicle = PlanVehicle::multirotor;
+  options.with_ground_legs = false;
+  plan.items[0].is_spline = true;
+  EXPECT_TRUE(flies(locate_flight(plan, options).flight, {0, 100, 40}, {200, 100, 40}));
+  plan.items[0].is_spline = false;
+  plan.items[0].position.horizontal = {0, 0.5};
+  EXPECT_EQ(locate_flight(plan, options).flight.points.size(), 2u) << "it is at the home";
+}
+
+// What has wings circles about the last waypoint of a mission, and may be anywhere in the circle before.
+TEST(LocateFlight, CirclesWhereTheMissionEnds) {
+  FlightPlan plan = in_scene({{-60, 0, 10}, {0, 0, 10}});
+  plan.file = "a.plan";
+  plan.format = PlanFormat::qgroundcontrol;
+  plan.items[1].place = "a.plan: item 2";
+  LocateOptions options;
+  const auto ends = [&](PlanVehicle vehicle) {
+    plan.vehicle = vehicle;
+    return locate_flight(plan, options).flight;
+  };
+  EXPECT_TRUE(ends(PlanVehicle::multirotor).not_judged.empty());
+  ASSERT_EQ(ends(PlanVehicle::fixed_wing).not_judged.size(), 1u);
+  expect_wording(ends(PlanVehicle::fixed_wing).not_judged);
+  EXPECT_EQ(ends(PlanVehicle::vtol).not_judged.size(), 1u);
+  EXPECT_EQ(ends(PlanVehicle::unknown).not_judged.size(), 1u);
+  options.loiter_radius_m = -30;
+  for (const PlanVehicle vehicle : {PlanVehicle::fixed_wing, PlanVehicle::vtol, PlanVehicle::unknown}) {
+    const Flight flight = ends(vehicle);
+    EXPECT_TRUE(flight.not_judged.empty());
+    EXPECT_EQ(flight.chord_error_m, 0.05 + 0.25);
+    EXPECT_NEAR(length_m(flight), 60, 1e-9);
+    for (int i = 0; i < 200; ++i) {
+      const double away = 30 * i / 199.0, angle = i * 2.4;
+      const Vec3 inside(away * std::cos(angle), away * std::sin(angle), 10);
+      EXPECT_LE(distance_to_flight(flight, inside), flight.chord_error_m) << i;
+    }
+  }
+  EXPECT_FALSE(flies(ends(PlanVehicle::multirotor), {0, 30, 10}, {0, 30, 10}));
+  options.ground_error_m = 1e-5;
+  expect_code([&] { ends(PlanVehicle::fixed_wing); }, ErrorCode::work_too_large, "item 2");
 }
 
 // Straight up and down, or on slopes: nobody knows which.
@@ -918,6 +1000,38 @@ TEST(LocateFlight, ReturnsAtTheHeightOfThePlan) {
   EXPECT_EQ(highest(""), 550);
   EXPECT_EQ(highest("<wpml:globalRTHHeight>100</wpml:globalRTHHeight>"), 600);
   EXPECT_EQ(highest("<wpml:globalRTHHeight>20</wpml:globalRTHHeight>"), 550);
+}
+
+// Near the home vehicles climb less, or not at all; what has wings comes to that height in its own way.
+TEST(LocateFlight, ReturnsAtAnyHeightNearTheHome) {
+  LocateOptions options = with_home();
+  options.return_height_m = 100;
+  const auto returns = [&](double away_m, PlanVehicle vehicle) {
+    FlightPlan plan = in_scene({{300, 0, 30}, {away_m, 0, 30}, {0, 0, 0}});
+    plan.file = "a.plan";
+    plan.format = PlanFormat::qgroundcontrol;
+    plan.vehicle = vehicle;
+    plan.items[2] = PlanItem();
+    plan.items[2].kind = PlanItemKind::return_home;
+    plan.items[2].place = "a.plan: item 3";
+    return locate_flight(plan, options).flight;
+  };
+  const Flight near = returns(60, PlanVehicle::multirotor);
+  EXPECT_EQ(near.points.back().position, Vec3(0, 0, 100));
+  EXPECT_NEAR(length_m(near), 240, 1e-9) << "nothing of the return is certain";
+  EXPECT_TRUE(near.not_judged.empty());
+  for (double x = 0; x <= 60; x += 7) {
+    for (double z = 30; z <= 100; z += 3.3) EXPECT_LE(distance_to_flight(near, {x, 0, z}), near.chord_error_m) << x;
+  }
+  const Flight far = returns(120, PlanVehicle::multirotor);
+  EXPECT_GT(distance_to_flight(far, {60, 0, 50}), 19);
+  EXPECT_NEAR(length_m(far), 180 + 70 + 120, 1e-9);
+  options.loiter_radius_m = 20;
+  const std::vector<std::string> told = returns(120, PlanVehicle::fixed_wing).not_judged;
+  ASSERT_EQ(told.size(), 1u);
+  expect_wording(told);
+  options.return_height_m = 30;
+  EXPECT_TRUE(returns(120, PlanVehicle::fixed_wing).not_judged.empty());
 }
 
 // "Safely": level at the higher one of the heights. "Point to point": straight, and down some aircraft fly level first.

@@ -120,7 +120,7 @@ struct PlanItem {
   std::optional<double> gimbal_pitch_deg;                       ///< 0 level, -90 straight down
   std::optional<PlanPosition> look_at;  ///< what the camera is turned to; instead of yaw and pitch
   double acceptance_radius_m = 0;       ///< the item counts as reached so near; 0: not stated
-  double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0: as the vehicle likes
+  double loiter_radius_m = 0;           ///< > 0: clockwise seen from above; < 0: the other way; 0 (-0): of its own
   double turns = 0;                     ///< of a loiter; then it stays for `hold_s` where they end
   bool is_timed = false;                ///< of a loiter with turns: it circles for `hold_s` instead, and does not stay
   /// Of a loiter with turns: a multirotor stays in its centre instead, and the plan does not say which vehicle flies
@@ -172,7 +172,7 @@ struct ReadPlanOptions {
 ///
 /// QGroundControl and waypoints: the commands of MAVLink NAV_WAYPOINT, SPLINE, ARC, LOITER_UNLIM, LOITER_TURNS,
 /// LOITER_TIME, LOITER_TO_ALT, RETURN_TO_LAUNCH, LAND, TAKEOFF, VTOL_TAKEOFF, VTOL_LAND, DELAY, DO_ORBIT, DO_JUMP
-/// (followed), DO_CHANGE_SPEED, DO_SET_HOME, DO_SET_ROI and its kin, DO_MOUNT_CONTROL, DO_GIMBAL_MANAGER_PITCHYAW,
+/// (followed), DO_CHANGE_SPEED, DO_SET_ROI and its kin, DO_MOUNT_CONTROL, DO_GIMBAL_MANAGER_PITCHYAW,
 /// CONDITION_YAW. Commands that move nothing are passed over. Others that move the vehicle, and unknown ones with a
 /// position, are in FlightPlan::not_judged; unknown ones without a position are counted in a note. Surveys and corridor
 /// scans are read as the items or the transect points that they store; a structure scan, which stores none, is refused.
@@ -326,7 +326,7 @@ struct FlightOut {
   /// To stay in and out of; of QGroundControl, whose geofence has no heights. One to stay out of is left out where the
   /// flight or its home lies in it, seen from above.
   std::vector<Zone> keep_in = {}, keep_out = {};
-  double chord_error_m = 0.05;              ///< of circles, where a format has none
+  double chord_error_m = 0.05;              ///< of circles
   std::vector<SeenTarget> targets = {};     ///< CZML draws them
   double start_unix_s = kFlightStartUnixS;  ///< of CZML: seconds since 1970-01-01 UTC; of the years 1 to 9999
 };
@@ -339,9 +339,9 @@ VANTAGE_API PlanFormat plan_format_of(const std::filesystem::path& file);
 /// moves by at most 1 micrometre. Autopilots round again when a plan is uploaded: MAVLink has 1e-7 degrees (6 mm) and
 /// single precision for heights (0.03 mm below 1 km).
 ///
-/// Circles are loiters in .plan and .waypoints, and chords within `chord_error_m` in the other formats. Where the
-/// camera is turned to something, .plan and .waypoints hold a region of interest, and the other formats the angles.
-/// Stays are rounded up to a thousandth of a second. KML, GPX and GeoJSON hold what is done at a point by name
+/// Circles are chords within `chord_error_m`. Where the camera is turned to something, .plan and .waypoints hold a
+/// region of interest, and the other formats the angles. Stays are rounded up to a thousandth of a second, in .plan and
+/// .waypoints to a second. KML, GPX and GeoJSON hold what is done at a point by name
 /// (docs/flight-plans.md), and are read back with it.
 ///
 /// CZML has the position at every moment: each leg at its speed, without speeding up and braking, as check_flight has

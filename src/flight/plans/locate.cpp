@@ -93,6 +93,7 @@ class Locator {
   bool check_alike(std::size_t spline, const Corner& corner, const Corner& to);
   void add_curve(const std::vector<Vec3>& points, bool above_ground, const Corner& to);
   void add_item(std::size_t index);
+  bool add_start(std::size_t index);
   void add_from_any(std::size_t index);
   void add_lap(const Circle& circle, std::size_t next);
   void add_there_and_back(std::size_t index);
@@ -108,7 +109,9 @@ class Locator {
   bool may_circle() const { return plan_.vehicle != PlanVehicle::multirotor; }
   bool may_stop() const { return plan_.vehicle == PlanVehicle::multirotor || plan_.vehicle == PlanVehicle::unknown; }
   void add_return(std::size_t index);
+  bool knows_own_radius(std::size_t index, const std::string& about);
   void add_circle_about_home(const Corner& home);
+  void add_end();
   double loiter_radius(const PlanItem& item) const;
   double loiter_turns(const PlanItem& item, double radius_m);
   std::vector<Corner> with_cut_corners();
@@ -479,6 +482,7 @@ bool Locator::check_alike(std::size_t spline, const Corner& corner, const Corner
 
 /// How the vehicle comes from the item before: not at all where it stops there.
 Vec3 Locator::spline_begin(std::size_t index, const Corner& end, bool above_ground) {
+  if (index == 0) return Vec3::Zero();
   const PlanItem& before = plan_.items[index - 1];
   const bool stops = before.kind != PlanItemKind::waypoint || before.hold_s > 0 || corners_.size() < 2;
   if (stops) return Vec3::Zero();
@@ -545,7 +549,8 @@ void Locator::add_takeoff(std::size_t index) {
 
 double Locator::loiter_radius(const PlanItem& item) const {
   if (item.loiter_radius_m != 0) return item.loiter_radius_m;
-  if (options_.loiter_radius_m && *options_.loiter_radius_m != 0) return *options_.loiter_radius_m;
+  const double radius = options_.loiter_radius_m.value_or(0);
+  if (radius != 0) return std::signbit(item.loiter_radius_m) ? -std::abs(radius) : radius;
   fail(ErrorCode::missing_key, item.place, "the plan leaves the radius of the circle to the vehicle",
        "say how large the circles of the vehicle are with --loiter-radius (loiter_radius_m in Python)");
 }
@@ -717,13 +722,30 @@ void Locator::add_return(std::size_t index) {
   double z = corners_.empty() ? home_z(place(index)) : corners_.back().position.z();
   const double stated = plan_.items[index].position.height_m;
   if (options_.return_height_m || std::isfinite(stated)) {
-    const double least = home_z(place(index)) + options_.return_height_m.value_or(stated);
+    const double above_m = options_.return_height_m.value_or(stated), least = home_z(place(index)) + above_m;
+    constexpr double kSameHeightM = 1e-3;
+    if (std::abs(z - least) > kSameHeightM && may_circle() && plan_.format == PlanFormat::qgroundcontrol) {
+      not_judged_.name(place(index),
+                       "what has wings comes to the height of its return in circles or on the way: let the mission end "
+                       "at that height");
+    }
     if (z < least && !corners_.empty()) {
-      Corner climb = corner;
+      Corner climb = corner, there = corner;
       climb.position = corners_.back().position;
-      climb.position.z() = least;
+      climb.position.z() = there.position.z() = least;
       climb.hold_s = 0;
-      add(climb);
+      // Near the home it climbs less (PX4, ArduPilot), or not at all (DJI, within 50 m): to any height up to that.
+      constexpr double kNearM = 50;
+      const double away_m = (there.position - climb.position).norm();
+      if (away_m <= kSamePlaceM || away_m >= std::max(above_m, kNearM)) {
+        add(climb);
+      } else {
+        PlanItem item = plan_.items[index];
+        item.is_climb = true;
+        const bool was_other_way = std::exchange(is_other_way_, true);
+        add_levels(item, {climb, there});
+        is_other_way_ = was_other_way;
+      }
     }
     z = std::max(z, least);
   } else {
@@ -737,20 +759,48 @@ void Locator::add_return(std::size_t index) {
   add(corner);
 }
 
+/// Whether the radius is given of a circle that the vehicle flies where the plan is over.
+bool Locator::knows_own_radius(std::size_t index, const std::string& about) {
+  if (options_.loiter_radius_m.value_or(0) != 0) return true;
+  if (plan_.vehicle == PlanVehicle::unknown) {
+    tell_open_circle(index);
+  } else {
+    not_judged_.name(place(index), "the vehicle circles about " + about +
+                                       ", with a radius of its own: give it with --loiter-radius (loiter_radius_m in "
+                                       "Python)");
+  }
+  return false;
+}
+
 /// A fixed wing circles there until the pilot acts. The circle is come to on the way to its centre.
 void Locator::add_circle_about_home(const Corner& home) {
-  const double radius = options_.loiter_radius_m.value_or(0);
-  if (radius != 0) {
-    const double begin = corners_.empty() ? 0 : angle_of(from_centre(home, corners_.back().position.head<2>()));
-    const std::vector<Corner> circle = circle_corners(home, begin, radius, is_other_way_ ? 0 : 1);
-    for (std::size_t i = 0; i < circle.size(); ++i) add(circle[i], i > 0);
-  } else if (plan_.vehicle == PlanVehicle::unknown) {
-    tell_open_circle(home.item);
-  } else {
-    not_judged_.name(place(home.item),
-                     "the vehicle circles about the home, with a radius of its own: give it with --loiter-radius "
-                     "(loiter_radius_m in Python)");
+  if (!knows_own_radius(home.item, "the home")) return;
+  const double begin = corners_.empty() ? 0 : angle_of(from_centre(home, corners_.back().position.head<2>()));
+  const std::vector<Corner> circle = circle_corners(home, begin, *options_.loiter_radius_m, is_other_way_ ? 0 : 1);
+  for (std::size_t i = 0; i < circle.size(); ++i) add(circle[i], i > 0);
+}
+
+/// PX4 lets what has wings circle about the last waypoint until the pilot acts. It comes to the circle from within, on
+/// ways of its own: all of the disc is flown, on chords so close that nothing between is farther away than the ground's
+/// error. ArduPilot's plans end otherwise (end_in_air).
+void Locator::add_end() {
+  const std::size_t last = plan_.items.size() - 1;
+  const bool circles = plan_.items[last].kind == PlanItemKind::waypoint && may_circle();
+  if (plan_.format != PlanFormat::qgroundcontrol || !circles || !knows_own_radius(last, "the last waypoint")) return;
+  const Corner centre = corners_.back();
+  const double radius = std::abs(*options_.loiter_radius_m);
+  for (const Corner& corner : circle_corners(centre, 0, radius, 1)) add(corner, true);
+  const double chords = radius / options_.ground_error_m;
+  if (!(2 * chords < static_cast<double>(kMostFlightPoints))) {
+    fail(ErrorCode::work_too_large, place(last), "the circle takes more than a million chords",
+         "allow a larger error of the ground");
   }
+  for (double chord = 0; chord < chords; ++chord) {
+    const double along = std::acos(1 - 2 * chord / chords), angle = std::fmod(chord, 2) == 0 ? along : -along;
+    add(circle_corners(centre, angle, radius, 0).front(), true);
+    add(circle_corners(centre, -angle, radius, 0).front(), true);
+  }
+  has_levels_ = true;
 }
 
 std::vector<Corner> Locator::with_cut_corners() {
@@ -946,6 +996,33 @@ void Locator::add_lap(const Circle& circle, std::size_t next) {
   go_on_to(1);
 }
 
+/// A mission without a takeoff: it comes from above the home at the height of its first item, or on a slope. That it
+/// begins there is not certain: it may be in the air.
+bool Locator::add_start(std::size_t index) {
+  const PlanItem& item = plan_.items[index];
+  const bool is_mission = plan_.format == PlanFormat::qgroundcontrol || plan_.format == PlanFormat::waypoints,
+             is_in_air = item.kind == PlanItemKind::waypoint || item.kind == PlanItemKind::loiter;
+  const auto home = home_position();
+  if (!is_mission || !is_in_air || !corners_.empty() || !home) return false;
+  Corner corner = corner_of(index);
+  if (!options_.with_ground_legs && is_at_home(corner)) return false;
+  corner.follows_ground = false;
+  corner.above_ground_m.reset();
+  Corner above = corner;
+  above.position.head<2>() = *home;
+  if (options_.with_ground_legs) {
+    Corner below = above;
+    below.position.z() = home_z(item.place);
+    add(below, true);
+    if (plan_.vehicle == PlanVehicle::unknown) {
+      add(corner, true);
+      add(below, true);
+    }
+  }
+  if (plan_.vehicle != PlanVehicle::fixed_wing) add(above, true);
+  return !corners_.empty();
+}
+
 /// The item, from all places where the vehicle may leave the one before: nobody knows then on which way it is come to.
 /// Behind the last item that is but the rest of its circle.
 void Locator::add_from_any(std::size_t index) {
@@ -966,9 +1043,10 @@ void Locator::add_from_any(std::size_t index) {
   }
   is_other_way_ = false;
   if (is_over) return;
+  const bool is_start = add_start(index);
   const std::size_t first = corners_.size();
   add_item(index);
-  if (!circle && !start) return;
+  if (!circle && !start && !is_start) return;
   std::size_t last = plan_.items[index].is_spline ? corners_.size() - 1 : first;
   while (last + 1 < corners_.size() && corners_[last].is_other_way) ++last;
   for (std::size_t i = first; i <= last; ++i) corners_[i].is_other_way = true;
@@ -1010,6 +1088,7 @@ LocatedPlan Locator::locate() {
     }
   }
   add_from_any(plan_.items.size());
+  add_end();
   for (const Corner& corner : corners_) has_curves_ = has_curves_ || corner.cut_m > 0;
   const std::vector<Corner> corners = with_cut_corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -17,89 +17,30 @@ namespace {
 
 constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
-/// Commands that move no vehicle: conditions, cameras, servos, fences, engines, markers, gates between waypoints.
-bool moves_nothing(const MissionItem& item) {
-  constexpr int kGuidedEnable = 92, kParachute = 208;
-  if (item.command == kGuidedEnable && item.parameters[0] == 0) return true;                         // off
-  if (item.command == kParachute && item.parameters[0] >= 0 && item.parameters[0] < 2) return true;  // no release
-  constexpr std::array kCommands = {112,  114,  181,  182,  183,  184,   187,   194,   196,   198,   200,   202,
-                                    203,  204,  206,  207,  209,  211,   212,   214,   215,   220,   221,   222,
-                                    223,  240,  241,  247,  530,  531,   532,   533,   534,   600,   2000,  2001,
-                                    2003, 2500, 2501, 2502, 2503, 2510,  2511,  2520,  4000,  4501,  5000,  5001,
-                                    5002, 5003, 5004, 5005, 5100, 31005, 31006, 31007, 31008, 31009, 42600, 42700};
-  return std::find(kCommands.begin(), kCommands.end(), item.command) != kCommands.end();
-}
-
-/// Commands that move the vehicle where the plan does not say, or in a way that is not followed here, also without a
-/// position; and their names.
-struct Mover {
-  int command;
-  const char* name;
+/// What a height of 0 is for a waypoint or a loiter.
+enum class ZeroHeight {
+  flown,         ///< a height as any other: PX4
+  keeps,         ///< that of the item before: ArduPilot's Copter
+  keeps_here,    ///< the same where the item has no position: ArduPilot's Plane
+  unknown,       ///< one of these: the plan does not say which vehicle flies it
+  unknown_here,  ///< flown, or keeps_here: a fixed wing of an autopilot that the plan does not say
 };
-constexpr Mover kMovers[] = {{23, "NAV_LAND_LOCAL"},
-                             {24, "NAV_TAKEOFF_LOCAL"},
-                             {25, "NAV_FOLLOW"},
-                             {30, "NAV_CONTINUE_AND_CHANGE_ALT"},
-                             {32, "DO_FOLLOW"},
-                             {33, "DO_FOLLOW_REPOSITION"},
-                             {35, "DO_FIGURE_EIGHT"},
-                             {81, "NAV_PATHPLANNING"},
-                             {83, "NAV_ALTITUDE_WAIT"},
-                             {92, "NAV_GUIDED_ENABLE"},
-                             {94, "NAV_PAYLOAD_PLACE"},
-                             {113, "CONDITION_CHANGE_ALT"},
-                             {176, "DO_SET_MODE"},
-                             {185, "DO_FLIGHTTERMINATION"},
-                             {186, "DO_CHANGE_ALTITUDE"},
-                             {190, "DO_RALLY_LAND"},
-                             {191, "DO_GO_AROUND"},
-                             {192, "DO_REPOSITION"},
-                             {193, "DO_PAUSE_CONTINUE"},
-                             {208, "DO_PARACHUTE"},
-                             {210, "DO_INVERTED_FLIGHT"},
-                             {213, "NAV_SET_YAW_SPEED"},
-                             {218, "DO_AUX_FUNCTION"},
-                             {224, "DO_SET_MISSION_CURRENT"},
-                             {246, "PREFLIGHT_REBOOT_SHUTDOWN"},
-                             {252, "OVERRIDE_GOTO"},
-                             {262, "DO_SET_STANDARD_MODE"},
-                             {300, "MISSION_START"},
-                             {420, "INJECT_FAILURE"},
-                             {601, "DO_JUMP_TAG"},
-                             {611, "DO_SET_GLOBAL_ORIGIN"},
-                             {3000, "DO_VTOL_TRANSITION"},
-                             {4001, "GUIDED_SUBMODE_CIRCLE"},
-                             {5300, "DO_SET_SAFETY_SWITCH_STATE"},
-                             {42702, "NAV_SCRIPT_TIME"},
-                             {43001, "GUIDED_CHANGE_ALTITUDE"},
-                             {43002, "GUIDED_CHANGE_HEADING"},
-                             {42703, "NAV_ATTITUDE_TIME"}};
-
-const Mover* mover_of(int command) {
-  const auto* const mover =
-      std::find_if(std::begin(kMovers), std::end(kMovers), [&](const Mover& one) { return one.command == command; });
-  return mover == std::end(kMovers) ? nullptr : mover;
-}
-
-constexpr int kLastOfNavigation = 95;  // MAV_CMD_NAV_LAST
-
-bool is_given(double latitude, double longitude) {
-  if (std::isnan(latitude) || std::isnan(longitude)) return false;
-  return latitude != 0 || longitude != 0;  // both 0: "here", as autopilots take it
-}
 
 /// Runs one item after the other.
 class Runner {
  public:
-  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height, FlightPlan& plan)
+  Runner(const std::vector<MissionItem>& mission, const PlanSource& source, Autopilot autopilot, FlightPlan& plan)
       : mission_(mission),
         source_(source),
-        zero_height_(zero_height),
+        autopilot_(autopilot),
         plan_(plan),
+        zero_height_(zero_height()),
         not_judged_(source.name, plan.not_judged),
         jumps_left_(mission.size(), -1) {
     for (std::size_t i = 0; i < mission.size(); ++i) {
-      if (mission[i].id >= 0) index_of_.emplace(mission[i].id, i);
+      if (mission[i].id < 0) continue;
+      const auto [at, is_new] = index_of_.emplace(mission[i].id, i);
+      if (!is_new) at->second = mission.size();  // one of several
     }
   }
 
@@ -115,7 +56,14 @@ class Runner {
   void come_to(const MissionItem& item);
   bool come_on_arc(const MissionItem& item);
   void leave_out(const MissionItem& item);
+  void look_at_slope(const PlanItem& before, const MissionItem& item, const PlanItem& added);
+  double circled_radius(const MissionItem& item, double radius_m);
+  void end_in_air();
   void not_judged(const MissionItem& item, const std::string& why) { not_judged_.name(item.place, why); }
+  ZeroHeight zero_height() const;
+  bool may_be_ardupilot() const { return autopilot_ != Autopilot::px4; }
+  /// ArduPilot stores whole seconds.
+  double stay_s(double seconds) const { return std::max(may_be_ardupilot() ? std::floor(seconds) : seconds, 0.0); }
   bool has_wings() const { return plan_.vehicle == PlanVehicle::fixed_wing || plan_.vehicle == PlanVehicle::vtol; }
   std::optional<std::size_t> jump(std::size_t at);
   PlanItem& add(PlanItemKind kind, const MissionItem& item);
@@ -131,12 +79,14 @@ class Runner {
 
   const std::vector<MissionItem>& mission_;
   const PlanSource& source_;
-  ZeroHeight zero_height_;
+  Autopilot autopilot_;
   FlightPlan& plan_;
+  ZeroHeight zero_height_;
   NotJudged not_judged_;
   std::unordered_map<long long, std::size_t> index_of_;
   std::vector<long long> jumps_left_;  // of each DO_JUMP; -1: not come to yet
   bool is_over_ = false;
+  bool has_end_ = true;  // the vehicle goes on by itself behind the last item
   // What holds for the items to come.
   double speed_m_s_ = kNotGiven;
   std::optional<double> yaw_deg_, gimbal_yaw_deg_, gimbal_pitch_deg_;
@@ -160,6 +110,10 @@ void Runner::run() {
            "with its jumps the plan has more than " + std::to_string(kMostPlanItems) + " items",
            "let it jump less often");
     }
+    if (!item.goes_on && autopilot_ != Autopilot::ardupilot && at + 1 < mission_.size()) {
+      not_judged(item,
+                 "it does not lead on (autoContinue), and some autopilots stay or circle there until the pilot acts");
+    }
     if (item.command == kDoJump) {
       at = jump(at).value_or(at + 1);
       continue;
@@ -168,8 +122,30 @@ void Runner::run() {
     ++at;
     if (is_over_) not_flown_ = mission_.size() - at;
   }
+  end_in_air();
   look_for_fences_and_returns();
   add_notes();
+}
+
+/// Autopilots of which nothing is known, and ArduPilot's other vehicles, have one rule or the other. Tables are taken
+/// as of ArduPilot's Copter.
+ZeroHeight Runner::zero_height() const {
+  if (plan_.format == PlanFormat::waypoints) return ZeroHeight::keeps;
+  if (autopilot_ == Autopilot::px4) return ZeroHeight::flown;
+  if (autopilot_ == Autopilot::unknown) return has_wings() ? ZeroHeight::unknown_here : ZeroHeight::unknown;
+  if (has_wings()) return ZeroHeight::keeps_here;
+  return plan_.vehicle == PlanVehicle::multirotor ? ZeroHeight::keeps : ZeroHeight::unknown;
+}
+
+/// ArduPilot's Plane returns when the mission is over; PX4 circles about the last waypoint (Locator::add_end).
+void Runner::end_in_air() {
+  if (is_over_ || plan_.items.empty() || !has_wings() || !may_be_ardupilot() || !has_end_) return;
+  MissionItem end;
+  end.place = source_.place("end of the mission");
+  if (autopilot_ == Autopilot::unknown) {
+    return not_judged(end, "some vehicles circle there, and others return to the home: let it end with a return (20)");
+  }
+  add(PlanItemKind::return_home, end);
 }
 
 /// Wherever they are: also behind the return. PX4 takes any landing for one to return to, ArduPilot does not.
@@ -181,7 +157,7 @@ void Runner::look_for_fences_and_returns() {
   const auto has = [&](int command) { return count(command, command) > 0; };
   name_rally_points(static_cast<std::size_t>(count(kRallyPoint, kRallyPoint)), plan_);
   if (count(kFencePolygonIn, kFenceCircleOut) > 0) note_fence(plan_);
-  const bool is_ardupilot = zero_height_ == ZeroHeight::keeps || zero_height_ == ZeroHeight::keeps_here;
+  const bool is_ardupilot = autopilot_ == Autopilot::ardupilot || plan_.format == PlanFormat::waypoints;
   const bool lands = !is_ardupilot && (has(kNavLand) || has(kNavVtolLand));
   const char* const way = has(kDoLandStart)         ? "a landing (DO_LAND_START)"
                           : has(kDoReturnPathStart) ? "a way back (DO_RETURN_PATH_START)"
@@ -210,9 +186,11 @@ PlanItem& Runner::add(PlanItemKind kind, const MissionItem& item) {
     }
     const bool may_keep = kind == PlanItemKind::waypoint || kind == PlanItemKind::loiter;
     if (may_keep && added.position.height_m == 0) take_zero_height(before, is_here, item, added);
+    if (may_keep && before) look_at_slope(*before, item, added);
     added.follows_ground = added.position.datum == HeightDatum::ground && before &&
                            before->position.datum == HeightDatum::ground && item.frame != kGlobal;
   }
+  has_end_ = kind != PlanItemKind::land && item.command != kNavLoiterUnlimited;
   added.speed_m_s = speed_m_s_;
   added.yaw_deg = yaw_deg_;
   added.gimbal_yaw_deg = gimbal_yaw_deg_;
@@ -248,6 +226,22 @@ void Runner::keep_height(const PlanItem& before, const MissionItem& item, PlanIt
   ++kept_heights_;
 }
 
+/// ArduPilot's Plane changes its height on the whole leg only by 15 m or more (ALT_SLOPE_MIN), and if it climbs, from
+/// more than 20 m above the home; else as fast as it can.
+void Runner::look_at_slope(const PlanItem& before, const MissionItem& item, const PlanItem& added) {
+  if (!has_wings() || !may_be_ardupilot() || before.kind == PlanItemKind::land) return;
+  constexpr double kLeastChangeM = 15, kLowM = 20;
+  const PlanPosition &from = before.position, &to = added.position;
+  const double climb_m = from.datum == to.datum ? to.height_m - from.height_m : kNotGiven;
+  if (climb_m == 0 || climb_m <= -kLeastChangeM) return;
+  double above_home_m = from.datum == HeightDatum::home ? from.height_m : kNotGiven;
+  if (from.datum == HeightDatum::sea_level && plan_.home) above_home_m = from.height_m - plan_.home->height_m;
+  if (climb_m >= kLeastChangeM && above_home_m > kLowM) return;
+  not_judged(item,
+             "ArduPilot's Plane may change its height at once on the way to it, or on the whole way: keep the height "
+             "before, or change it by 15 m or more, and climb from more than 20 m above the home");
+}
+
 /// A waypoint, straight or on a spline.
 void Runner::come_to(const MissionItem& item) {
   const auto& p = item.parameters;
@@ -256,7 +250,7 @@ void Runner::come_to(const MissionItem& item) {
   const bool is_behind_arc = !plan_.items.empty() && plan_.items.back().arc_deg != 0;
   if (is_spline && is_behind_arc) not_judged(item, "it is a spline behind an arc");
   PlanItem& added = add(PlanItemKind::waypoint, item);
-  added.hold_s = std::max(or_zero(0), 0.0);
+  added.hold_s = stay_s(or_zero(0));
   added.is_spline = is_spline;
   splines_ += is_spline ? 1 : 0;
   added.acceptance_radius_m = is_spline ? 0 : or_zero(1);
@@ -292,11 +286,17 @@ bool Runner::move(const MissionItem& item) {
       ++unlimited_;
       loiter(item, or_zero(2), 1, 0);
       return true;
-    case kNavLoiterTurns:  // no number, or one below 0: a whole circle at least
-      loiter(item, or_zero(2), p[0] > 0 ? p[0] : std::max(std::abs(or_zero(0)), 1.0), 0);
+    case kNavLoiterTurns: {  // no number, or one below 0: a whole circle at least
+      const double turns = p[0] > 0 ? p[0] : std::max(std::abs(or_zero(0)), 1.0);
+      loiter(item, or_zero(2), turns, 0);
+      constexpr double kMostTurns = 255;
+      if (may_be_ardupilot() && (turns > kMostTurns || turns != std::floor(turns))) {
+        not_judged(item, "ArduPilot rounds the number of its turns: write a whole one, up to 255");
+      }
       return true;
+    }
     case kNavLoiterTime:
-      loiter(item, or_zero(2), 1, std::max(or_zero(0), 0.0));
+      loiter(item, or_zero(2), 1, stay_s(or_zero(0)));
       return true;
     case kNavLoiterToAltitude:
       climbs_ += plan_.vehicle == PlanVehicle::multirotor ? 0 : 1;
@@ -311,8 +311,18 @@ bool Runner::move(const MissionItem& item) {
       land(item);
       return true;
     case kNavTakeoff:
-    case kNavVtolTakeoff:
       add(PlanItemKind::takeoff, item);
+      if (has_wings() && may_be_ardupilot()) {
+        not_judged(item,
+                   "ArduPilot's Plane climbs straight ahead from where it stands, whatever the place: take off by "
+                   "hand, and judge the plan without its takeoff");
+      }
+      return true;
+    case kNavVtolTakeoff:  // 0, 1: it turns to the next waypoint
+      add(PlanItemKind::takeoff, item);
+      if (or_zero(1) != 0 && or_zero(1) != 1) {
+        not_judged(item, "its second parameter, " + shortest(p[1]) + ", lets the vehicle fly off another way: write 1");
+      }
       return true;
     case kNavDelay:
       delay(item);
@@ -322,12 +332,30 @@ bool Runner::move(const MissionItem& item) {
   }
 }
 
+/// ArduPilot stores whole metres, of turns whole tens of them above 255; its Plane circles for a time with a radius of
+/// its own.
+double Runner::circled_radius(const MissionItem& item, double radius_m) {
+  if (!may_be_ardupilot() || item.command == kDoOrbit || radius_m == 0) return radius_m;
+  const bool is_of_turns = item.command == kNavLoiterTurns;
+  constexpr double kMostWholeM = 255, kMostM = 2550;
+  double stored_m = std::floor(std::abs(radius_m));
+  if (is_of_turns && stored_m > kMostWholeM) stored_m = 10 * std::floor(std::min(stored_m, kMostM) / 10);
+  if (item.command == kNavLoiterTime) stored_m = 0;
+  const double flown_m = std::copysign(stored_m, radius_m);  // -0: its own, the other way round
+  if (autopilot_ == Autopilot::ardupilot || flown_m == radius_m) return flown_m;
+  not_judged(item, stored_m == 0
+                       ? "some autopilots circle there with the radius that it states, and others with their own: "
+                         "give a .plan that names the autopilot"
+                       : "some autopilots round its radius: write whole metres, above 255 whole tens, up to 2550");
+  return radius_m;
+}
+
 /// A multirotor that is told to loiter for a time stays where it is; others circle.
 void Runner::loiter(const MissionItem& item, double radius_m, double turns, double hold_s) {
   PlanItem& added = add(PlanItemKind::loiter, item);
   const bool all_circle = item.command == kNavLoiterTurns || item.command == kDoOrbit;
   const bool is_circle = all_circle || plan_.vehicle != PlanVehicle::multirotor;
-  added.loiter_radius_m = is_circle ? radius_m : 0;
+  added.loiter_radius_m = is_circle ? circled_radius(item, radius_m) : 0;
   added.turns = is_circle ? turns : 0;
   added.may_stay = !all_circle && plan_.vehicle == PlanVehicle::unknown;
   added.is_climb = item.command == kNavLoiterToAltitude;
@@ -375,10 +403,10 @@ bool Runner::come_on_arc(const MissionItem& item) {
 
 /// What is not known: it may move the vehicle if it is one of navigation or has a position.
 void Runner::leave_out(const MissionItem& item) {
-  const Mover* const mover = mover_of(item.command);
+  const char* const mover = name_of_mover(item.command);
   const std::string number = "command " + std::to_string(item.command);
   if (mover) {
-    not_judged(item, number + ", " + mover->name + ", moves the vehicle in a way that is not followed here");
+    not_judged(item, number + ", " + mover + ", moves the vehicle in a way that is not followed here");
   } else if (item.command <= kLastOfNavigation || is_given(item.parameters[4], item.parameters[5])) {
     not_judged(item, number + " is not known here, and may move the vehicle");
   } else {
@@ -399,15 +427,14 @@ bool Runner::set(const MissionItem& item) {
       if (!(p[0] >= 2) && p[1] > 0) {
         speed_m_s_ = p[1];
         airspeeds_ += p[0] != 1 && plan_.vehicle == PlanVehicle::fixed_wing ? 1 : 0;
+      } else if (!(p[0] >= 2) && (p[1] == -2 || autopilot_ == Autopilot::px4)) {
+        speed_m_s_ = kNotGiven;  // the vehicle's own again
       }
       return true;
     case kDoSetHome:
-      if (p[0] != 1) {  // 1: where it is
-        const PlanPosition home = position_of(item);
-        if (home.horizontal.allFinite()) plan_.home = home;
-      }
-      if (!plan_.items.empty()) {
-        not_judged(item, "it sets another home in flight, and heights and the return are measured from that");
+      if (p[0] != 1 || !plan_.items.empty()) {  // 1: where it is
+        not_judged(item,
+                   "it sets another home: heights and the return are measured from that, and not the place of takeoff");
       }
       return true;
     case kDoSetParameter:
@@ -465,9 +492,12 @@ void Runner::turn_camera(const MissionItem& item) {
 std::optional<std::size_t> Runner::jump(std::size_t at) {
   const MissionItem& item = mission_[at];
   const double id = item.parameters[0], repeat = item.parameters[1];
-  const auto target = std::abs(id) < 1e15 ? index_of_.find(std::llround(id)) : index_of_.end();
-  if (target == index_of_.end()) {
-    fail(ErrorCode::index_out_of_range, item, "it jumps to an item that is not there", "name an item of the plan");
+  const bool is_number = std::abs(id) < 1e15 && id == std::floor(id);
+  const auto target = is_number ? index_of_.find(std::llround(id)) : index_of_.end();
+  if (target == index_of_.end() || target->second == mission_.size()) {
+    fail(ErrorCode::index_out_of_range, item,
+         target == index_of_.end() ? "it jumps to an item that is not there" : "it jumps to one of several items",
+         "name an item of the plan, by a whole number that no other one has");
   }
   long long& left = jumps_left_[at];
   if (left < 0) {
@@ -518,48 +548,9 @@ void Runner::add_notes() {
 
 }  // namespace
 
-bool is_of_movement(int command) {
-  return (command > kNavWaypoint && command <= kLastOfNavigation) || mover_of(command);
-}
-
-PlanPosition position_of(const MissionItem& item) {
-  const double latitude = item.parameters[4], longitude = item.parameters[5];
-  PlanPosition position;
-  if (item.frame == kMission && !is_given(latitude, longitude)) return position;
-  position.height_m = item.parameters[6];
-  switch (item.frame) {
-    case kGlobal:
-    case kGlobalInt:
-      position.datum = HeightDatum::sea_level;
-      if (std::isnan(position.height_m) && !std::isnan(item.above_ground_m)) {
-        position.height_m = item.above_ground_m;
-        position.datum = HeightDatum::ground;
-      }
-      break;
-    case kGlobalRelative:
-    case kGlobalRelativeInt:
-      position.datum = HeightDatum::home;
-      break;
-    case kGlobalTerrain:
-    case kGlobalTerrainInt:
-      position.datum = HeightDatum::ground;
-      break;
-    default:
-      PlanSource::fail_at(ErrorCode::value_unsupported, item.place,
-                          "its frame, " + std::to_string(item.frame) + ", is not one of the earth",
-                          "give positions in frame 0 (heights above sea level), 3 (above home) or 10 (above terrain)");
-  }
-  if (!is_given(latitude, longitude)) return position;
-  const bool is_scaled =
-      item.frame == kGlobalInt || item.frame == kGlobalRelativeInt || item.frame == kGlobalTerrainInt;
-  const double unit = is_scaled && (std::abs(latitude) > 180 || std::abs(longitude) > 180) ? 1e-7 : 1;
-  position.horizontal = checked_lonlat(longitude * unit, latitude * unit, item.place);
-  return position;
-}
-
-void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height,
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, Autopilot autopilot,
                  FlightPlan& plan) {
-  Runner(mission, source, zero_height, plan).run();
+  Runner(mission, source, autopilot, plan).run();
 }
 
 void name_returns(const std::string& why, FlightPlan& plan) {

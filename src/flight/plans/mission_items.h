@@ -28,6 +28,7 @@ enum MissionCommand : int {
   kNavVtolTakeoff = 84,
   kNavVtolLand = 85,
   kNavDelay = 93,
+  kLastOfNavigation = 95,  ///< MAV_CMD_NAV_LAST
   kConditionYaw = 115,
   kDoJump = 177,
   kDoChangeSpeed = 178,
@@ -66,22 +67,16 @@ struct MissionItem {
   /// For a height that QGroundControl computes from its terrain: that above ground, where its height above sea level is
   /// missing.
   double above_ground_m = std::numeric_limits<double>::quiet_NaN();
-  long long id = -1;  ///< what DO_JUMP names; below 0: none
+  long long id = -1;    ///< what DO_JUMP names; below 0: none
+  bool goes_on = true;  ///< autoContinue, which ArduPilot ignores
   std::string place;
 };
 
-/// What a height of 0 is for a waypoint or a loiter.
-enum class ZeroHeight {
-  flown,         ///< a height as any other: PX4
-  keeps,         ///< that of the item before: ArduPilot's Copter
-  keeps_here,    ///< the same where the item has no position: ArduPilot's Plane
-  unknown,       ///< one of these: the plan does not say which vehicle flies it
-  unknown_here,  ///< flown, or keeps_here: a fixed wing of an autopilot that the plan does not say
-};
+enum class Autopilot { unknown, px4, ardupilot };
 
-/// Runs the mission from its first item to its last, jumps followed, into `plan`, whose vehicle and home are set.
-/// Throws Error(input) with the item's place.
-void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, ZeroHeight zero_height,
+/// Runs the mission from its first item to its last, jumps followed, into `plan`, whose format, vehicle and home are
+/// set. Throws Error(input) with the item's place.
+void run_mission(const std::vector<MissionItem>& mission, const PlanSource& source, Autopilot autopilot,
                  FlightPlan& plan);
 
 /// Names the first return, if there is one, as not judged.
@@ -93,6 +88,15 @@ void name_rally_points(std::size_t count, FlightPlan& plan);
 
 /// That the plan has a fence: a flight is judged by the zones of its mission alone.
 void note_fence(FlightPlan& plan);
+
+/// Whether an item has a position: both 0 is "here", as autopilots take it.
+bool is_given(double latitude, double longitude);
+
+/// Commands that move no vehicle: conditions, cameras, servos, fences, engines that start, markers, gates.
+bool moves_nothing(const MissionItem& item);
+
+/// Of a command that moves the vehicle where the plan does not say, or in a way that is not followed here; else null.
+const char* name_of_mover(int command);
 
 /// Whether the command does something else than to fly straight to a waypoint, as those of navigation do.
 bool is_of_movement(int command);

@@ -120,7 +120,7 @@ const Vec3& PlanWriter::home() const {
   return *flight_.home;
 }
 
-std::vector<OutPoint> PlanWriter::points(bool with_circles) const {
+std::vector<OutPoint> PlanWriter::points() const {
   std::vector<OutPoint> points;
   const std::vector<FlightPoint>& corners = flight_.flight.points;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -130,7 +130,7 @@ std::vector<OutPoint> PlanWriter::points(bool with_circles) const {
     point.speed_m_s = std::isnan(corners[i].speed_m_s) ? flight_.speed_m_s : corners[i].speed_m_s;
     if (!flight_.actions.empty()) point.action = flight_.actions[i];
     const double radius = point.action.loiter_radius_m, turns = point.action.turns;
-    if (radius == 0 || with_circles) {
+    if (radius == 0) {
       points.push_back(point);
       continue;
     }
@@ -162,7 +162,7 @@ std::vector<OutPoint> PlanWriter::points_to_cut() const {
   const io::GlobePlace place = on_globe();
   std::vector<OutPoint> cut;
   double last_deg = 0;
-  for (const OutPoint& point : points(false)) {
+  for (const OutPoint& point : points()) {
     const double longitude_deg = lonlat(point.position).x();
     const bool is_corner = std::abs(longitude_deg) == kAntimeridian || std::abs(last_deg) == kAntimeridian;
     if (!cut.empty() && !is_corner && io::crosses_antimeridian(last_deg, longitude_deg)) {

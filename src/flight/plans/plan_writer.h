@@ -68,8 +68,8 @@ class PlanWriter {
   /// Throws Error(missing_key).
   const Vec3& home() const;
 
-  /// The points with their actions. `with_circles`: circles stay one point; else they become chords.
-  std::vector<OutPoint> points(bool with_circles) const;
+  /// The points with their actions, and chords for circles.
+  std::vector<OutPoint> points() const;
   /// The same as chords, with a point more where a leg crosses the antimeridian: a line is cut there.
   std::vector<OutPoint> points_to_cut() const;
   /// Of these points, each on one side of the antimeridian: where a line ends there, the next one begins in its place.

@@ -41,7 +41,7 @@ int integer_member(const json& object, const char* key, const std::string& where
 /// What DO_JUMP calls it; -1: nothing.
 long long id_of(const json& item, const std::string& where) {
   const double id = member_or_nan(item, "doJumpId", where);
-  return id >= 0 && id < 1e15 ? std::llround(id) : -1;
+  return id >= 0 && id < 1e15 && id == std::floor(id) ? std::llround(id) : -1;
 }
 
 /// Numbers are flags, too: 0 is false.
@@ -74,7 +74,7 @@ class GroundStationPlan {
     for (std::size_t i = 0; i < items->size(); ++i) {
       add((*items)[i], source_.place("item " + std::to_string(i + 1)));
     }
-    run_mission(items_, source_, zero_height(*mission), plan_);
+    run_mission(items_, source_, autopilot(*mission), plan_);
     look_for_rally_points(root);
     look_for_fence(root);
     check_plan(plan_, source_);
@@ -94,15 +94,10 @@ class GroundStationPlan {
     read(mission, "mission", 2);
   }
 
-  /// Autopilots of which nothing is known, and ArduPilot's other vehicles, have one rule or the other.
-  ZeroHeight zero_height(const json& mission) const {
+  Autopilot autopilot(const json& mission) const {
     constexpr double kArduPilot = 3, kPx4 = 12;  // MAV_AUTOPILOT
-    const double autopilot = member_or_nan(mission, "firmwareType", source_.place("mission"));
-    if (autopilot == kPx4) return ZeroHeight::flown;
-    const bool has_wings = plan_.vehicle == PlanVehicle::fixed_wing || plan_.vehicle == PlanVehicle::vtol;
-    if (autopilot != kArduPilot) return has_wings ? ZeroHeight::unknown_here : ZeroHeight::unknown;
-    if (has_wings) return ZeroHeight::keeps_here;
-    return plan_.vehicle == PlanVehicle::multirotor ? ZeroHeight::keeps : ZeroHeight::unknown;
+    const double type = member_or_nan(mission, "firmwareType", source_.place("mission"));
+    return type == kPx4 ? Autopilot::px4 : type == kArduPilot ? Autopilot::ardupilot : Autopilot::unknown;
   }
 
   void look_for_rally_points(const json& root) {
@@ -181,6 +176,7 @@ class GroundStationPlan {
       added.parameters[i] = number_or_nan((*parameters)[i], where, "params[" + std::to_string(i) + "]");
     }
     added.id = id_of(item, where);
+    added.goes_on = flag(item, "autoContinue", true, where);
     take_height(item, added);
   }
 

@@ -1,5 +1,6 @@
 // Tables of waypoints: https://mavlink.io/en/file_formats/, "Plain-Text File Format". A header, then a row for each
 // item: number, whether it is the current one, frame, command, seven parameters, whether to go on by itself.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -49,8 +50,9 @@ class WaypointTable {
       line = without_blanks(line);
       if (!line.empty() && line.front() != '#') add(line, lines.number());
     }
+    check_numbers();
     take_home(plan);
-    run_mission(items_, source_, ZeroHeight::keeps, plan);
+    run_mission(items_, source_, Autopilot::unknown, plan);
     check_plan(plan, source_);
     return plan;
   }
@@ -79,6 +81,20 @@ class WaypointTable {
       }
       item.parameters[i] = may_be_absent ? std::nan("") : value.value;
     }
+    item.goes_on = integer(words[11], item.place) != 0;
+  }
+
+  /// Jumps name rows; some autopilots take the numbers that rows have, and others count.
+  void check_numbers() const {
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (items_[i].id == static_cast<long long>(i)) continue;
+      const bool jumps =
+          std::any_of(items_.begin(), items_.end(), [](const MissionItem& item) { return item.command == kDoJump; });
+      if (!jumps) return;
+      PlanSource::fail_at(ErrorCode::plan_syntax, items_[i].place,
+                          "the table has a jump, and its rows are not numbered from 0 on, one after the other",
+                          "save it anew with the ground station");
+    }
   }
 
   static int integer(std::string_view word, const std::string& where) {
@@ -90,11 +106,16 @@ class WaypointTable {
   }
 
   /// The first row is the home: a waypoint above sea level before all others, as Mission Planner and ArduPilot have it.
-  /// PX4's tables may begin with a waypoint instead: the note says what was taken.
+  /// PX4's tables may begin with a waypoint instead: the note says what was taken. Of another row that is not known.
   void take_home(FlightPlan& plan) {
     if (items_.size() < 2) return;
     const MissionItem& first = items_.front();
-    if (first.id != 0 || first.command != kNavWaypoint || first.frame != kGlobal) return;
+    if (first.id != 0 || first.command != kNavWaypoint || first.frame != kGlobal) {
+      plan.not_judged.push_back(first.place +
+                                ": some autopilots take the first row for the home, and others fly it: let the table "
+                                "begin with a row 0 for the home, a waypoint (16) above sea level (frame 0)");
+      return;
+    }
     const PlanPosition home = position_of(first);
     if (home.horizontal.allFinite()) plan.home = home;
     plan.notes.push_back({WarningCode::plan_assumed,

@@ -230,7 +230,7 @@ class CzmlDocument {
 
 std::string write_czml(const FlightOut& flight) {
   const PlanWriter writer(flight, PlanFormat::czml, {HeightDatum::ellipsoid});
-  std::vector<Sample> samples = samples_of(writer.points(false), writer.place());
+  std::vector<Sample> samples = samples_of(writer.points(), writer.place());
   const Clock clock(flight.start_unix_s, samples.back().at_s, writer.place());
   const Czml json = CzmlDocument(writer, clock, std::move(samples)).json();
   return core::escaped_json(json.dump(1, ' ', false, Czml::error_handler_t::replace)) + "\n";

@@ -31,7 +31,7 @@ class Mission {
       : writer_(writer), frame_(writer.heights() == HeightDatum::home ? kGlobalRelative : kGlobal) {}
 
   std::vector<OutItem> items() {
-    const std::vector<OutPoint> points = writer_.points(true);
+    const std::vector<OutPoint> points = writer_.points();
     if (writer_.flight().takes_off) take_off(points.front());
     for (const OutPoint& point : points) add(point);
     if (look_at_) add({kDoSetRoiNone, kMission, {}});
@@ -64,20 +64,13 @@ class Mission {
     }
     turn_camera(point.action);
     const FlightAction& action = point.action;
-    const bool is_circle = action.loiter_radius_m != 0;
-    if (is_circle && action.video) add({kVideoStart, kMission, {}});
-    const double height = writer_.height(point.position);
-    if (is_circle) {
-      add_at(kNavLoiterTurns, {action.turns, 0, action.loiter_radius_m, 0}, point.position, height);
-    } else {
-      // A video must run while it stays: it stays after it has begun.
-      add_at(kNavWaypoint, {action.video ? 0 : point.hold_s, 0, 0, action.yaw_deg.value_or(kNone)}, point.position,
-             height);
-      if (action.video) {
-        add({kVideoStart, kMission, {}});
-        add({kNavDelay, kMission, {point.hold_s, -1, -1, -1}});  // no time of day
-      }
-    }
+    // ArduPilot stores whole seconds. A video must run while it stays: it stays after it has begun.
+    constexpr double kRoundingS = 1e-9;
+    const double hold_s = std::ceil(point.hold_s - kRoundingS);
+    add_at(kNavWaypoint, {action.video ? 0 : hold_s, 0, 0, action.yaw_deg.value_or(kNone)}, point.position,
+           writer_.height(point.position));
+    if (action.video) add({kVideoStart, kMission, {}});
+    if (action.video && hold_s > 0) add({kNavDelay, kMission, {hold_s, -1, -1, -1}});  // no time of day
     if (action.video) add({kVideoStop, kMission, {}});
     if (action.photo) add({kImageStart, kMission, {0, 0, 1}});  // one
   }

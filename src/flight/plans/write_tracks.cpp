@@ -157,7 +157,7 @@ std::string write_kml(const FlightOut& flight) {
 
 std::string write_gpx(const FlightOut& flight) {
   const PlanWriter writer(flight, PlanFormat::gpx, {HeightDatum::sea_level});
-  const std::vector<OutPoint> points = writer.points(false);
+  const std::vector<OutPoint> points = writer.points();
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<gpx version=\"1.1\" creator=\"vantage\" "
       "xmlns=\"http://www.topografix.com/GPX/1/1\" xmlns:vantage=\"urn:x-vantage:flight\">\n<metadata><name>" +
@@ -202,7 +202,7 @@ std::string write_csv(const FlightOut& flight) {
   std::string text = "name,";
   if (!is_of_scene) text += std::string("longitude_deg,latitude_deg,") + height + ",";
   text += "x_m,y_m,z_m,hold_s,speed_m_s,yaw_deg,gimbal_pitch_deg,photo,video,sees\n";
-  const std::vector<OutPoint> points = writer.points(false);
+  const std::vector<OutPoint> points = writer.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const OutPoint& point = points[i];
     const CameraAngles angles = camera_angles(point);

@@ -37,7 +37,7 @@ class WaylineWriter {
  public:
   explicit WaylineWriter(const FlightOut& flight)
       : writer_(flight, PlanFormat::wpml, {HeightDatum::home, HeightDatum::ellipsoid, HeightDatum::sea_level}),
-        points_(writer_.points(false)) {
+        points_(writer_.points()) {
     check();
   }
 
