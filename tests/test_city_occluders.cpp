@@ -94,8 +94,21 @@ TEST(CityOccluders, Kinds) {
   EXPECT_EQ(kinds({{"bridge", "yes"}, {"highway", "primary"}}), "/bridge/bridge/");
   EXPECT_EQ(kinds({{"bridge", "no"}, {"highway", "primary"}}), "///");
   EXPECT_EQ(kinds({{"bridge", "yes"}, {"railway", "razed"}}), "///");
-  EXPECT_EQ(kinds({{"bridge", "yes"}}), "///");
-  EXPECT_EQ(kinds({{"natural", "tree"}}), "tree///");
+  EXPECT_EQ(kinds({{"bridge", "yes"}}), "/bridge/bridge/");
+  EXPECT_EQ(kinds({{"bridge", "yes"}, {"razed:railway", "rail"}}), "///");
+  for (const auto& [key, value] :
+       std::initializer_list<std::pair<std::string, std::string>>{{"waterway", "canal"},
+                                                                  {"aeroway", "taxiway"},
+                                                                  {"man_made", "pipeline"},
+                                                                  {"railway", "platform"},
+                                                                  {"railway", "abandoned"},
+                                                                  {"highway", "construction"},
+                                                                  {"natural", "water"}}) {
+    EXPECT_EQ(kinds({{"bridge", "viaduct"}, {key, value}}), "/bridge/bridge/") << value;
+  }
+  EXPECT_EQ(kinds({{"bridge", "yes"}, {"barrier", "wall"}}), "/wall/wall/");
+  EXPECT_EQ(kinds({{"building:levels", "5"}, {"amenity", "parking"}}), "stand-in/stand-in/stand-in/");
+  EXPECT_EQ(kinds({{"natural", "tree"}}), "tree/stand-in/stand-in/") << "an area of trees";
   EXPECT_EQ(kinds({{"natural", "tree_row"}}), "/tree//");
   EXPECT_EQ(kinds({{"highway", "residential"}}), "///");
 }

@@ -288,6 +288,82 @@ TEST_F(LedgerTest, ABuildingRelationWithUntaggedMembersIsBuilt) {
   }
 }
 
+TEST_F(LedgerTest, ABuildingRelationIsABuildingByItsType) {
+  MapText map;
+  map.relation({{"way", map.box(-30, -30, 30, 30, {}), "outline"}}, {{"type", "building"}, {"height", "40"}});
+  const Scene scene = build(map);
+  expect_block(scene, "relation/1");
+  EXPECT_TRUE(scene.ledger.empty());
+}
+
+TEST_F(LedgerTest, BuildingsThatAreNoLongerUsedStand) {
+  MapText map;
+  const std::vector<std::string> standing = {"abandoned:building", "disused:building", "ruins:building",
+                                             "construction:building", "abandoned:building:part"};
+  for (std::size_t i = 0; i < standing.size(); ++i) {
+    const double east = 100.0 * static_cast<double>(i);
+    map.area({{east, 0}, {east + 60, 0}, {east + 60, 60}, {east, 60}}, {{standing[i], "yes"}, {"height", "40"}});
+  }
+  map.area({{0, 90}, {60, 90}, {60, 150}, {0, 150}}, {{"razed:building", "yes"}, {"building:levels", "9"}});
+  const Scene scene = build(map);
+  for (std::size_t i = 0; i < standing.size(); ++i) expect_block(scene, "way/" + std::to_string(i + 1));
+  EXPECT_TRUE(scene.ledger.empty());
+}
+
+// The lower of two must not take the place of the higher.
+TEST_F(LedgerTest, OfTwoThingsInOneObjectTheHigherIsBuilt) {
+  const OccluderDefaults usual;
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "service"}, {"man_made", "chimney"}});
+  map.box(50, 0, 70, 20, {{"building", "yes"}, {"height", "5"}, {"height:hub", "80"}, {"rotor:diameter", "60"}});
+  map.box(100, 0, 120, 20, {{"building", "yes"}, {"height", "5"}, {"man_made", "silo"}});
+  map.way({map.node(150, 0), map.node(170, 0)}, {{"barrier", "hedge"}, {"natural", "tree_row"}});
+  const Scene scene = build(map);
+  EXPECT_NEAR(box_of(scene, "way/1").max.z(), usual.towers.at("chimney").height_m, 1e-6);
+  EXPECT_NEAR(box_of(scene, "way/2").max.z(), 110, 1e-6);
+  EXPECT_NEAR(box_of(scene, "way/3").max.z(), 5, 1e-6) << "its height is known";
+  EXPECT_NEAR(box_of(scene, "way/4").max.z(), usual.tree_m, 1e-6);
+}
+
+TEST_F(LedgerTest, AMultipolygonHasItsWallWhateverItBounds) {
+  MapText map;
+  const long outer = map.box(-30, -30, 30, 30, {}), inner = map.box(-9, -9, 9, 9, {});
+  map.relation({{"way", outer, "outer"}, {"way", inner, "inner"}},
+               {{"type", "multipolygon"}, {"landuse", "industrial"}, {"barrier", "wall"}, {"height", "4"}});
+  map.relation({{"way", map.box(-60, -60, 60, 60, {}), "outer"}}, {{"type", "multipolygon"}, {"natural", "tree_row"}});
+  write_bytes(folder_ / "city.osm", map.text());
+  CityOptions options;
+  options.occluders.others = false;  // the stand-in of the first
+  const Scene scene = build_city(folder_ / "city.osm", options).scene;
+  EXPECT_NEAR(box_of(scene, "relation/1").max.z(), 4, 1e-6);
+  EXPECT_TRUE(covers(scene, "relation/1", 29.95, 10)) << "along its outer ring";
+  EXPECT_TRUE(covers(scene, "relation/1", 9.05, 5)) << "along its inner ring";
+  EXPECT_FALSE(covers(scene, "relation/1", 20, 0));
+  EXPECT_NEAR(box_of(scene, "relation/2").max.z(), OccluderDefaults().tree_m, 1e-6);
+}
+
+TEST_F(LedgerTest, WhatMayBeAnywhereIsToldInEveryRegion) {
+  MapText map;
+  map.box(-5, -5, 5, 5, {{"building", "yes"}, {"height", "40"}});
+  const long far = map.box(5000, 0, 5010, 10, {});
+  map.way({9001, 9002, 9003}, {{"building", "yes"}, {"height", "30"}});
+  const long nested = map.relation({{"way", far, "outer"}}, {{"type", "multipolygon"}});
+  map.relation({{"relation", nested, "outer"}}, {{"type", "multipolygon"}, {"building", "yes"}, {"height", "30"}});
+  map.relation({{"node", map.node(5000, 0), ""}}, {{"type", "site"}, {"building", "yes"}, {"height", "30"}});
+  const long near = map.relation({{"way", map.box(20, 0, 80, 60, {}), "outer"}}, {{"type", "multipolygon"}});
+  map.relation({{"relation", near, "outer"}}, {{"type", "multipolygon"}, {"building", "yes"}, {"height", "40"}});
+  write_bytes(folder_ / "city.osm", map.text());
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};  // as MapText
+  options.region.radius_m = 200;
+  const Scene scene = build_city(folder_ / "city.osm", options).scene;
+  EXPECT_EQ(entry_of(scene, "way/3").object.source_id, "way/3");
+  EXPECT_EQ(entry_of(scene, "relation/3").object.source_id, "relation/3") << "of a node";
+  EXPECT_TRUE(box_of(scene, "relation/2").empty()) << "far away";
+  expect_block(scene, "relation/5");
+  EXPECT_EQ(scene.ledger.size(), 2U);
+}
+
 TEST_F(LedgerTest, ABuildingRelationTellsOfAllThatIsWrong) {
   MapText map;
   const long a = map.node(-30, -30), b = map.node(30, -30), c = map.node(30, 30);
@@ -455,6 +531,8 @@ TEST_F(LedgerTest, WhatSaysAnythingThatStandsIsABlocker) {
                                                 {{"historic", "monument"}, {"destroyed", "1945"}},
                                                 {{"attraction", "drop_tower"}, {"removed:barrier", "fence"}},
                                                 {{"aeroway", "tower"}, {"demolished:building", "yes"}},
+                                                {{"shop", "mall"}, {"razed:building", "yes"}},
+                                                {{"office", "company"}, {"demolished:building", "yes"}},
                                                 {{"tourism", "artwork"}, {"indoor", "false"}}};
   MapText map;
   for (std::size_t i = 0; i < things.size(); ++i) {

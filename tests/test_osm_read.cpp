@@ -216,6 +216,24 @@ TEST(OsmRead, NoticesRemarksOnErrors) {
   EXPECT_EQ(read_bytes_as_map(json).remark.rfind("runtime error", 0), 0U);
 }
 
+// They would be lost with what they are in.
+TEST(OsmRead, RefusesObjectsThatAreInNoMap) {
+  const TemporaryDirectory directory;
+  const auto refused = [&](const std::string& bytes, const std::string& problem) {
+    write_bytes(directory / "answer", bytes);
+    expect_map_error(directory / "answer", problem, "answer");
+  };
+  for (const std::string element : {"action", "create", "osm"}) {
+    std::string text = osm_xml(kHouse);
+    text.insert(text.find("<node"), "<" + element + ">");
+    text.insert(text.find("</osm>"), "</" + element + ">");
+    refused(text, "objects lie in an element of the file that is not of a map: " + element);
+  }
+  std::string derived = kJsonHouse;
+  derived.replace(derived.find("\"way\""), 5, "\"house\"");
+  refused(derived, "an element is no node, way or relation: its type is house");
+}
+
 TEST(OsmRead, RefusesBrokenJson) {
   const TemporaryDirectory directory;
   const auto expect_broken = [&directory](const std::string& content, const std::string& problem) {

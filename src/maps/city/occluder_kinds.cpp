@@ -27,36 +27,55 @@ bool is_tower(const osm::Tags& tags) {
   return is_one_of(tags.get("man_made"), towers);
 }
 
-/// A way that a bridge carries. Tracks that are gone have no bridge to speak of.
-bool is_carried(const osm::Tags& tags) {
-  static constexpr std::array<std::string_view, 6> gone = {"razed",        "dismantled", "proposed",
-                                                           "construction", "adjacent",   "platform"};
-  const auto stands = [&](std::string_view key) { return says_yes(tags.get(key)) && !is_one_of(tags.get(key), gone); };
-  return stands("highway") || stands("railway") || tags.get("bridge") == "aqueduct";
+constexpr std::array<std::string_view, 7> kGone = {"demolished", "razed",     "removed",   "proposed",
+                                                   "planned",    "destroyed", "dismantled"};
+
+/// "razed:building": what is gone of it; nothing for other keys.
+std::optional<std::string_view> gone_key(std::string_view key) {
+  const std::size_t colon = key.find(':');
+  if (colon == std::string::npos || !is_one_of(key.substr(0, colon), kGone)) return std::nullopt;
+  return key.substr(colon + 1);
+}
+
+/// What a bridge carries: nothing where no tag says it, or all that they say is gone.
+enum class Carried { nothing, gone, something };
+Carried carried(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 6> ways = {"highway", "railway",  "waterway",
+                                                           "aeroway", "man_made", "public_transport"};
+  Carried result = tags.get("bridge") == "aqueduct" ? Carried::something : Carried::nothing;
+  for (const auto& [key, value] : tags.all) {
+    if (!says_yes(value)) continue;
+    const bool is_way = is_one_of(key, ways);
+    if (is_way && !is_one_of(value, kGone)) return Carried::something;
+    const auto past = gone_key(key);
+    if (result == Carried::nothing && (is_way || (past && is_one_of(*past, ways)))) result = Carried::gone;
+  }
+  return result;
 }
 
 /// Whether a tag says how high an object is.
 bool says_its_height(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 4> keys = {"height", "est_height", "building:height", "height:hub"};
-  return std::any_of(keys.begin(), keys.end(),
-                     [&](std::string_view key) { return any_length_m(tags.get(key)).value_or(0) > 0; });
+  return levels_height_m(tags) > 0 || std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+           return any_length_m(tags.get(key)).value_or(0) > 0;
+         });
 }
 
 /// Whether a key says what a thing is.
 bool names_a_kind(std::string_view key) {
-  static constexpr std::array<std::string_view, 24> kinds = {
-      "building",         "building:part", "man_made",         "power",       "aerialway",    "historic",
-      "tourism",          "leisure",       "natural",          "landuse",     "barrier",      "amenity",
-      "generator:source", "memorial",      "bridge",           "advertising", "aeroway",      "attraction",
-      "military",         "railway",       "public_transport", "tower:type",  "seamark:type", "artwork_type"};
+  static constexpr std::array<std::string_view, 30> kinds = {
+      "building",         "building:part", "man_made",         "power",        "aerialway",
+      "historic",         "tourism",       "leisure",          "natural",      "landuse",
+      "barrier",          "amenity",       "generator:source", "memorial",     "bridge",
+      "advertising",      "aeroway",       "attraction",       "military",     "railway",
+      "public_transport", "tower:type",    "seamark:type",     "artwork_type", "shop",
+      "office",           "craft",         "healthcare",       "club",         "roller_coaster"};
   return is_one_of(key, kinds);
 }
 
 /// Not in the open, or not there.
 bool stands_nowhere(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 3> below = {"underground", "indoor", "underwater"};
-  static constexpr std::array<std::string_view, 6> gone = {"demolished", "razed",   "removed",
-                                                           "proposed",   "planned", "destroyed"};
   if (says_yes(tags.get("indoor")) || says_yes(tags.get("tunnel")) || is_one_of(tags.get("location"), below))
     return true;
   const auto sinks = [&](std::string_view key) { return parse_levels(tags.get(key)).value_or(0) < 0; };
@@ -67,13 +86,12 @@ bool stands_nowhere(const osm::Tags& tags) {
   bool is_gone = false, is_something = false;
   for (const auto& [name, value] : tags.all) {
     const std::string_view key = name;
-    const bool is_over = is_one_of(value, gone);
+    const bool is_over = is_one_of(value, kGone);
     if ((key == "status" || key == "state") && is_over) return true;
-    if (is_one_of(key, gone) && value == "yes") return true;
+    if (is_one_of(key, kGone) && value == "yes") return true;
     if (names_a_kind(key)) (is_over ? is_gone : is_something) |= says_yes(value);
-    const std::size_t colon = key.find(':');
-    if (colon == std::string::npos || !is_one_of(key.substr(0, colon), gone)) continue;
-    is_gone |= says_yes(value) && names_a_kind(key.substr(colon + 1));
+    const auto past = gone_key(key);
+    is_gone |= past && says_yes(value) && names_a_kind(*past);
   }
   return is_gone && !is_something;
 }
@@ -142,6 +160,7 @@ struct StandInKind {
 constexpr std::array kStandInKinds = {StandInKind{"natural", "wood", "woods", true},
                                       StandInKind{"natural", "scrub", "woods", true},
                                       StandInKind{"natural", "tree_group", "woods", true},
+                                      StandInKind{"natural", "tree", "woods", true},
                                       StandInKind{"landuse", "forest", "woods", true},
                                       StandInKind{"landuse", "orchard", "woods", true},
                                       StandInKind{"leisure", "stadium", "stadiums", true},
@@ -191,17 +210,26 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   if (says_yes(tags.get("building:part"))) return no_line(ObjectKind::building_part);
   if (says_yes(tags.get("building"))) return no_line(ObjectKind::building);
   if (tower) return ObjectKind::tower;
-  const std::string_view bridge = tags.get("bridge");
-  if (line && says_yes(bridge) && is_carried(tags)) return ObjectKind::bridge;
-  const bool drawn = tags.get("man_made") == "bridge" || (says_yes(bridge) && is_carried(tags));
-  if (area && drawn) return ObjectKind::bridge;
+  const bool is_bridge = says_yes(tags.get("bridge")) && (line || area);
+  if (is_bridge && carried(tags) == Carried::something) return ObjectKind::bridge;
+  if (area && tags.get("man_made") == "bridge") return ObjectKind::bridge;
   // An area that nothing else makes one is the barrier's own.
   const auto is_whole = [&] { return area && (tags.get("area") == "yes" || !osm::means_area(tags)); };
   if (is_wall(tags) && (line || is_whole())) return ObjectKind::wall;
   const std::string_view natural = tags.get("natural");
   if (natural == (line ? "tree_row" : "tree") && !area) return ObjectKind::tree;
   if (line && is_cable(tags)) return std::nullopt;
-  return is_stand_in(tags) ? std::optional(ObjectKind::stand_in) : std::nullopt;
+  if (is_stand_in(tags)) return ObjectKind::stand_in;
+  return is_bridge && carried(tags) == Carried::nothing ? std::optional(ObjectKind::bridge) : std::nullopt;
+}
+
+std::optional<ObjectKind> kind_besides(const osm::Tags& tags) {
+  osm::Tags others = tags;
+  std::erase_if(others.all, [](const auto& tag) { return tag.first == "building" || tag.first == "building:part"; });
+  if (others.all.size() == tags.all.size()) return std::nullopt;
+  const bool has_hub = any_length_m(tags.get("height:hub")).value_or(0) > 0;
+  if (is_tower(tags) ? says_its_height(tags) : !has_hub) return std::nullopt;
+  return kind_of(others, Geometry::area);
 }
 
 std::optional<double> overhead_height_m(const osm::Tags& tags) {

@@ -241,7 +241,7 @@ constexpr double kThinLine = 1;   // metres: width of a line that says none
 constexpr double kMostPipe = 20;  // metres: diameter=* beyond that is in millimetres
 
 BuildingForm stand_in_form(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
-  double height = tagged_height(tags, kMostHeight, remarks).value_or(0);
+  double height = tagged_height(tags, kMostHeight, remarks).value_or(levels_height_m(tags));
   // A hub says how high the axis is; the rotor goes on above it.
   const auto hub = tagged_length(tags, {"height:hub"}, kMostHeight, remarks);
   const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostRotor, remarks);
@@ -271,6 +271,17 @@ std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& p
 }
 
 }  // namespace
+
+double levels_height_m(const osm::Tags& tags) {
+  constexpr double kMostLevels = 300;
+  const BuildingDefaults usual;
+  const auto levels = [&](std::string_view key) {
+    const double count = roughly_levels(tags.get(key)).value_or(0);
+    return count > 0 && count <= kMostLevels ? count : 0;
+  };
+  const double storeys = std::max(levels("building:levels"), levels("building:part:levels"));
+  return storeys == 0 ? 0 : storeys * usual.level_m + levels("roof:levels") * usual.roof_level_m;
+}
 
 void PlanBounds::extend(const Vec2& point) {
   min = min.cwiseMin(point);
@@ -304,7 +315,10 @@ std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>
   std::vector<Shape> shapes;
   if (finite && points.size() >= 2) {
     if (kind == ObjectKind::wall) shapes = walls_along(tags, points, piece_m, defaults, remarks);
-    if (kind == ObjectKind::tree) shapes = trees_along(tags, points, defaults, remarks);
+    if (kind == ObjectKind::tree || (kind == ObjectKind::wall && tags.get("natural") == "tree_row")) {
+      const std::vector<Shape> trees = trees_along(tags, points, defaults, remarks);
+      shapes.insert(shapes.end(), trees.begin(), trees.end());
+    }
     if (kind == ObjectKind::bridge) {
       const bool closed = points.size() > 3 && points.front() == points.back();
       shapes = extruded(widen(points, closed, deck_width(tags, defaults, remarks)), deck_form(tags, defaults, remarks));

@@ -25,6 +25,13 @@ enum class Geometry { point, line, area };
 /// area (unless area=yes says that the barrier itself is drawn, or nothing else is).
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
 
+/// What an area that is a building is besides, and may be higher as: a tower of which no tag says how high it is, a
+/// wind turbine.
+std::optional<ObjectKind> kind_besides(const osm::Tags& tags);
+
+/// Of all levels, in the roof, too; 0: none is said.
+double levels_height_m(const osm::Tags& tags);
+
 /// A stand-in, a wood or a crane, of which no tag says how high it is: it is told of, and nothing is built.
 bool lacks_height(const osm::Tags& tags, Geometry geometry);
 

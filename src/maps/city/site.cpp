@@ -331,9 +331,16 @@ class OccluderSorter {
 
   void sort(const osm::Extract& extract) {
     for (const osm::Area& area : extract.areas) {
-      const std::optional<ObjectKind> kind = kind_of(area.tags, Geometry::area);
-      if (is_building(kind) || !is_switched_on(kind, area.tags, options_.occluders)) continue;
-      add(area, *kind);
+      std::optional<ObjectKind> kind = kind_of(area.tags, Geometry::area);
+      if (is_building(kind)) {
+        kind = kind_besides(area.tags);
+        if (!is_switched_on(kind, area.tags, options_.occluders)) continue;
+        osm::Area other = area;
+        std::erase_if(other.tags.all, [](const auto& tag) { return tag.first.starts_with("building"); });
+        add(other, *kind);
+      } else if (is_switched_on(kind, area.tags, options_.occluders)) {
+        add(area, *kind);
+      }
     }
     for (const osm::Line& line : extract.lines) {
       std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);

@@ -1,6 +1,7 @@
 #include "maps/osm/map_objects.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <osmium/osm/node.hpp>
@@ -275,6 +276,19 @@ Tags to_tags(const osmium::TagList& list) {
   while (!rest.empty()) {
     std::string key = take();
     tags.all.emplace_back(std::move(key), take());
+  }
+  // "abandoned:building=yes" still stands. https://wiki.openstreetmap.org/wiki/Lifecycle_prefix
+  constexpr std::array<std::string_view, 5> kStanding = {
+      "abandoned:", "disused:", "ruins:", "ruined:", "construction:"};
+  for (std::size_t i = 0, count = tags.all.size(); i < count; ++i) {
+    const std::string_view key = tags.all[i].first;
+    const auto* const prefix =
+        std::find_if(kStanding.begin(), kStanding.end(), [&](std::string_view one) { return key.starts_with(one); });
+    if (prefix == kStanding.end()) continue;
+    std::string plain(key.substr(prefix->size()));
+    if (plain.empty() || tags.has(plain)) continue;
+    std::string value = tags.all[i].second;
+    tags.all.emplace_back(std::move(plain), std::move(value));
   }
   return tags;
 }

@@ -83,6 +83,11 @@ bool means_line(const Tags& tags) {
   return tags.get("area") != "yes" && is_linear(tags);
 }
 
+bool has_line_round(const Tags& tags) {
+  const bool is_wall = tags.has("barrier") || tags.get("historic") == "citywalls";
+  return tags.get("area") != "yes" && (tags.get("natural") == "tree_row" || (is_wall && means_area(tags)));
+}
+
 bool is_linear(const Tags& tags) {
   return std::any_of(tags.all.begin(), tags.all.end(), [](const Tag& tag) {
     if (tag.second == "no" || is_areal(tag.first, tag.second)) return false;

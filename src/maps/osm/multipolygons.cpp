@@ -186,6 +186,17 @@ void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Memb
   absorb(relation, area.tags, old_style, members.there);
   add_rings_of_others(relation, area.tags, members.there);
   if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), area.tags, false));
+  if (!old_style && has_line_round(area.tags)) {  // else its ways are lines
+    const auto add_line = [&](const Ring& ring) {
+      Line& line = extract_.lines.emplace_back(Line{area.id, area.tags, ring});
+      line.points.push_back(ring.front());
+    };
+    for (const Polygon& polygon : area.polygons) {
+      if (polygon.incomplete) continue;
+      add_line(polygon.outer);
+      for (const Ring& hole : polygon.holes) add_line(hole);
+    }
+  }
   extract_.areas.push_back(std::move(area));
 }
 
@@ -274,7 +285,9 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
   problem.add_share(Kind::missing_members, missing, named, "outlines and parts", "not in the file");
   const bool empty = building.outlines.empty() && building.parts.empty();
   if (empty && problem.empty()) problem.add(Kind::degenerate, "it has neither an outline nor parts");
-  const bool is_told = wanted_ != nullptr && wanted_(tags) && add_outline(relation, tags, building, problem);
+  Tags own = tags;
+  if (!means_building(own)) own.all.emplace_back("building", "yes");  // its type says so
+  const bool is_told = wanted_ != nullptr && add_outline(relation, std::move(own), building, problem);
   if (!problem.empty() && !is_told) add_problem(problem.build(building.id, tags, empty), members_of(relation));
   if (!empty) extract_.building_relations.push_back(std::move(building));
 }
@@ -300,7 +313,7 @@ bool Multipolygons::is_built(const osmium::Relation& outline) const {
   });
 }
 
-bool Multipolygons::add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building,
+bool Multipolygons::add_outline(const osmium::Relation& relation, Tags tags, BuildingRelation& building,
                                 const ProblemBuilder& problem) {
   Members members;
   for (const ObjectId id : building.outlines.empty() ? building.parts : building.outlines) {
@@ -320,9 +333,8 @@ bool Multipolygons::add_outline(const osmium::Relation& relation, const Tags& ta
   }
   if (members.there.empty()) return false;
   building.outlines.insert(building.outlines.begin(), building.id);
-  Tags own = tags;
-  std::erase_if(own.all, [](const auto& tag) { return tag.first == "type"; });
-  add_area(relation, std::move(own), std::move(members), problem);
+  std::erase_if(tags.all, [](const auto& tag) { return tag.first == "type"; });
+  add_area(relation, std::move(tags), std::move(members), problem);
   return true;
 }
 

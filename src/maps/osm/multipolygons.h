@@ -51,7 +51,7 @@ class Multipolygons {
   void add_building(const osmium::Relation& relation, const Tags& tags);
   /// Of a building relation that alone says that one of its outlines, or else of its parts, is a building: these, but
   /// for those that are built themselves. Returns whether there are any, with its problem told.
-  bool add_outline(const osmium::Relation& relation, const Tags& tags, BuildingRelation& building,
+  bool add_outline(const osmium::Relation& relation, Tags tags, BuildingRelation& building,
                    const ProblemBuilder& problem);
   bool is_part(const osmium::RelationMember& member) const;
   bool is_built(const osmium::Relation& outline) const;  ///< as an area of its own

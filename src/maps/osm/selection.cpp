@@ -33,24 +33,36 @@ Selection::Selection(const MapObjects& objects, const RegionFilter& region) : ob
     bool held = false;
     for_sides(*kept.way, [&](LonLat from, LonLat to) { held = held || region_.meets(from, to); });
     const bool is_whole = kept.closed && kept.missing + kept.off_earth == 0;
-    if (!held && (kept.closed || means_area(to_tags(kept.way->tags())))) {
-      held = region_.meets_box_of(positions(*kept.way), !is_whole);
-    }
+    const std::vector<LonLat> places = held ? std::vector<LonLat>() : positions(*kept.way);
+    if (!held && places.empty()) held = true;  // it may be anywhere
+    if (!held && (kept.closed || means_area(to_tags(kept.way->tags())))) held = region_.meets_box_of(places, !is_whole);
     if (held) ways_.insert(kept.way->id());
   }
   for (const osmium::Relation* const relation : objects_.relations) {
-    bool held = false;
-    std::vector<LonLat> places;
-    for (const osmium::RelationMember& member : relation->members()) {
-      const KeptWay* const kept = member.type() == osmium::item_type::way ? objects_.find_way(member.ref()) : nullptr;
-      if (kept == nullptr) continue;
-      held = held || ways_.contains(member.ref());
-      const std::vector<LonLat> line = positions(*kept->way);
-      places.insert(places.end(), line.begin(), line.end());
-    }
-    if (held || region_.meets_box_of(places, true)) relations_.insert(relation->id());
+    if (meets(*relation)) relations_.insert(relation->id());
   }
   take_buildings_together();
+}
+
+/// Relations in relations are looked into as deeply as they are read. What is known of no place may be anywhere.
+bool Selection::meets(const osmium::Relation& relation) const {
+  std::vector<LonLat> places;
+  const auto meets_way = [&](const osmium::RelationMember& member) {
+    const KeptWay* const kept = member.type() == osmium::item_type::way ? objects_.find_way(member.ref()) : nullptr;
+    if (kept == nullptr) return false;
+    const std::vector<LonLat> line = positions(*kept->way);
+    places.insert(places.end(), line.begin(), line.end());
+    return !line.empty() && ways_.contains(member.ref());
+  };
+  for (const osmium::RelationMember& member : relation.members()) {
+    if (meets_way(member)) return true;
+    const bool is_nested = member.type() == osmium::item_type::relation && member.ref() != relation.id();
+    const osmium::Relation* const nested = is_nested ? objects_.find_relation(member.ref()) : nullptr;
+    if (nested == nullptr) continue;
+    const osmium::RelationMemberList& members = nested->members();
+    if (std::any_of(members.begin(), members.end(), meets_way)) return true;
+  }
+  return places.empty() || region_.meets_box_of(places, true);
 }
 
 void Selection::take_buildings_together() {

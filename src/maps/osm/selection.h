@@ -34,6 +34,7 @@ class Selection {
  private:
   static constexpr double kFarthest = std::numeric_limits<double>::max();
 
+  bool meets(const osmium::Relation& relation) const;
   void take_buildings_together();
   void measure(const osmium::Way& way);
 

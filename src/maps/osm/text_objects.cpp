@@ -228,6 +228,8 @@ class XmlReader {
       if (is_wanted_) begin_object(attributes);
     } else if (is_object_) {
       start_in_object(name, attributes);
+    } else if (type_of(name) != item_type::undefined) {
+      refuse("objects lie in an element of the file that is not of a map: " + printable(open_[1]));
     }
     open_.emplace_back(name);
   }
@@ -541,7 +543,10 @@ class JsonReader {
 
   void end_element() {
     object_.type = type_of(type_);
-    if (object_.type == item_type::undefined) return;  // a count, or what Overpass derives
+    if (object_.type == item_type::undefined) {
+      if (type_ == "count" || type_ == "area" || type_ == "timeline") return;  // of objects that are elsewhere
+      refuse("an element is no node, way or relation: its type is " + (type_.empty() ? "not said" : printable(type_)));
+    }
     const bool is_placed = !std::isnan(own_longitude_) || !std::isnan(own_latitude_);
     if (object_.type == item_type::node && is_placed) object_.location = location(own_longitude_, own_latitude_);
     own_longitude_ = own_latitude_ = std::nan("");
