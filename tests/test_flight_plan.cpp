@@ -998,8 +998,34 @@ TEST(ReadFlightPlan, NamesCurvesOfTheAircraftsOwn) {
   const FlightPlan curved = read("toPointAndPassWithContinuityCurvature", "0");
   ASSERT_EQ(curved.not_judged.size(), 1u);
   expect_wording(curved.not_judged[0]);
-  EXPECT_TRUE(read("toPointAndPassWithContinuityCurvature", "1").not_judged.empty());
+  EXPECT_TRUE(read("toPointAndPassWithContinuityCurvature", "1").not_judged.empty())
+      << "at the ends it is not turned before";
   EXPECT_TRUE(read("toPointAndStopWithDiscontinuityCurvature", "0").not_judged.empty());
+}
+
+// Nobody knows which of the two counts.
+TEST(ReadFlightPlan, RefusesElementsOfDjiThatAreThereTwice) {
+  const std::string point = wayline_point(11, 48, 40);
+  const auto refuse = [](const std::string& text) {
+    expect_code([&] { parsed_plan(text); }, ErrorCode::value_unsupported, "line");
+  };
+  expect_error(
+      [&] {
+        parsed_plan(waylines(wayline(point + wayline_point(11.001, 48, 40,
+                                                           "<wpml:executeHeight>90"
+                                                           "</wpml:executeHeight>"))));
+      },
+      ErrorCode::value_unsupported, "line 4");
+  refuse(waylines(wayline(wayline_point(11, 48, 40, "<Point><coordinates>12,48</coordinates></Point>"))));
+  refuse(waylines(wayline(point),
+                  "</wpml:missionConfig><wpml:missionConfig><wpml:finishAction>goHome"
+                  "</wpml:finishAction>"));
+  const auto ways = [&](int first, int last) {
+    const std::string mode = "relativeToStartPoint";
+    return waylines(wayline(point, mode, first) + wayline(wayline_point(11.001, 48, 40), mode, last));
+  };
+  EXPECT_EQ(parsed_plan(ways(0, 1)).items.size(), 2U);
+  refuse(ways(1, 0));
 }
 
 TEST(ReadFlightPlan, RefusesWaypointsThatAreInNoWayline) {
@@ -1042,6 +1068,17 @@ TEST(ReadFlightPlan, NamesWhatOfDjiIsNotKnown) {
   EXPECT_TRUE(read(mode("coordinateTurn", "<wpml:waypointTurnDampingDist>9</wpml:waypointTurnDampingDist>")).empty());
   expect_told(read("", "<wpml:finishAction>goFishing</wpml:finishAction>"), 1);
   EXPECT_TRUE(read("", "<wpml:finishAction>noAction</wpml:finishAction>").empty());
+  expect_told(read("", "<wpml:finishAction></wpml:finishAction>"), 1);
+  expect_told(read("",
+                   "<wpml:autoRerouteInfo><wpml:missionAutoRerouteMode>1</wpml:missionAutoRerouteMode>"
+                   "</wpml:autoRerouteInfo>"),
+              1);
+  expect_told(read("", "", "<wpml:caliFlightEnable>1</wpml:caliFlightEnable>"), 1);
+  expect_told(read("", "<wpml:takeOffSecurityHeight>0</wpml:takeOffSecurityHeight>"), 1);
+  const std::string straight = "<wpml:useStraightLine>1</wpml:useStraightLine>",
+                    early = "toPointAndPassWithContinuityCurvature";
+  expect_told(read(mode(early) + straight), 1);
+  EXPECT_TRUE(read(mode(early, "<wpml:waypointTurnDampingDist>9</wpml:waypointTurnDampingDist>") + straight).empty());
   const std::string home =
       "<wpml:takeOffSecurityHeight>25</wpml:takeOffSecurityHeight><wpml:takeOffRefPoint>48,11,560"
       "</wpml:takeOffRefPoint><wpml:flyToWaylineMode>";
@@ -1071,6 +1108,8 @@ TEST(ReadFlightPlan, TakesTemplatesOfDji) {
   EXPECT_EQ(read.items[0].position.height_m, 545);
   EXPECT_EQ(read.items[0].position.datum, HeightDatum::sea_level);
   EXPECT_EQ(read.items[1].position.height_m, 70);
+  ASSERT_EQ(read.not_judged.size(), 1U) << "that is above the place of takeoff";
+  expect_wording(read.not_judged[0]);
   EXPECT_EQ(parsed_plan(with("waypoint", "WGS84")).items[0].position.height_m, 590);
   expect_error([&] { parsed_plan(with("mapping2d", "EGM96")); }, ErrorCode::value_unsupported, "line 3");
 }

@@ -271,8 +271,9 @@ TEST(LocateFlight, CutsCornersByArcs) {
       EXPECT_LE(20 - (middle - Vec3(80, 20, 10)).norm(), options.chord_error_m);
     }
   }
-  corner.items[1].hold_s = 1;  // it goes there
+  corner.items[1].hold_s = 1;  // it goes there, or does not stay
   EXPECT_EQ(locate_flight(corner, options).flight.points.size(), 3u);
+  EXPECT_EQ(locate_flight(corner, options).flight.not_judged.size(), 1u);
 }
 
 TEST(LocateFlight, FollowsTheGround) {
@@ -1064,6 +1065,53 @@ TEST(LocateFlight, FliesToTheFirstWaypointAsDjiDoes) {
       EXPECT_EQ(distance_to_flight(way, (above + first) / 2) < 1e-3, true) << how << z;
     }
   }
+}
+
+TEST(LocateFlight, KnowsTheHomeThatAPlanOfDjiDoesNotHave) {
+  const auto plan = [](int drone) {
+    return parsed_plan(waylines(wayline(wayline_point(11.001, 48, 30) + wayline_point(11.002, 48, 30)),
+                                "<wpml:flyToWaylineMode>safely</wpml:flyToWaylineMode><wpml:takeOffSecurityHeight>100"
+                                "</wpml:takeOffSecurityHeight><wpml:droneInfo><wpml:droneEnumValue>" +
+                                    std::to_string(drone) + "</wpml:droneEnumValue></wpml:droneInfo>"));
+  };
+  LocateOptions options = in_munich();
+  options.home_z_m = 500;
+  EXPECT_EQ(locate_flight(plan(67), options).flight.points.size(), 2U) << "nobody knows where it takes off";
+  options.home = Eigen::Vector2d(11, 48);
+  const Flight way = locate_flight(plan(67), options).flight;
+  const Vec3 first = way.points[way.points.size() - 2].position, high(first.x() / 2, 0, 600),
+             low(first.x() / 2, 0, 530);
+  EXPECT_LT(distance_to_flight(way, high), 1e-3);
+  EXPECT_GT(distance_to_flight(way, low), 10);
+  const Flight either = locate_flight(plan(60), options).flight;  // a Matrice 300 flies at the waypoint's height
+  EXPECT_LT(distance_to_flight(either, high), 1e-3);
+  EXPECT_LT(distance_to_flight(either, low), 1e-3);
+}
+
+// DJI: a leg is longer than both turns at its ends. They may go beyond its middle.
+TEST(LocateFlight, TurnsAsFarBeforeAWaypointAsItSays) {
+  const auto turn = [](double metres, double hold_s) {
+    FlightPlan plan;
+    plan.is_in_scene_frame = true;
+    plan.file = "a.csv";
+    for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(100, 0), Eigen::Vector2d(100, 100)}) {
+      PlanItem& item = plan.items.emplace_back();
+      item.position = {at, 50, HeightDatum::scene_z};
+      item.place = "a.csv: line " + std::to_string(plan.items.size());
+    }
+    plan.items[1].cut_m = metres;
+    plan.items[1].hold_s = hold_s;
+    return locate_flight(plan, {}).flight;
+  };
+  EXPECT_LT(distance_to_flight(turn(90, 0), {10, 0, 50}), 1e-6);
+  EXPECT_GT(distance_to_flight(turn(90, 0), {60, 0, 50}), 5);
+  EXPECT_TRUE(turn(90, 0).not_judged.empty());
+  std::vector<std::string> told;
+  for (const Flight& flight : {turn(120, 0), turn(20, 3)}) {
+    ASSERT_EQ(flight.not_judged.size(), 1U);
+    told.push_back(flight.not_judged[0]);
+  }
+  expect_wording(told);
 }
 
 TEST(LocateFlight, HasBounds) {

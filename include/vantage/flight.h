@@ -102,6 +102,7 @@ enum class PlanItemKind {
 enum class PlanWay {
   straight,
   level,   ///< at the higher one of the two heights: it takes off to that, or comes down above the waypoint
+  levels,  ///< the same, or at the lower one of the two
   either,  ///< straight; where the waypoint is the lower one some vehicles come level, and then down
 };
 

@@ -65,7 +65,7 @@ std::vector<Vec3> corner_points(const Vec3& before, const Vec3& corner, const Ve
                                 double error_m) {
   const Vec3 in = before - corner, out = after - corner;
   constexpr double kLeastM = 1e-3;
-  const double reach = std::min({cut_m, in.norm() / 2, out.norm() / 2});
+  const double reach = std::min({cut_m, in.norm(), out.norm()});
   if (!(reach >= kLeastM)) return {corner};
   const Vec3 a = in.normalized(), b = out.normalized();
   const double half = std::atan2(a.cross(b).norm(), a.dot(b)) / 2;  // of the angle between the legs

@@ -380,7 +380,7 @@ void Locator::add_waypoint(std::size_t index) {
 void Locator::add_level_way(const Corner& to, PlanWay way) {
   const Corner from = corners_.back();
   if (to.position.z() >= from.position.z()) {
-    if (way == PlanWay::level) corners_.back().position.z() = to.position.z();
+    if (way != PlanWay::either) corners_.back().position.z() = to.position.z();
     return;
   }
   Corner down = to;
@@ -388,7 +388,14 @@ void Locator::add_level_way(const Corner& to, PlanWay way) {
   Corner above = down;
   above.above_ground_m.reset();
   above.position.z() = from.position.z();
-  if (way == PlanWay::level) return add(above);
+  if (way == PlanWay::levels) {
+    Corner low = from;
+    low.position.z() = to.position.z();
+    add(low, true);
+    add(down, true);
+    add_back_to(from, down);
+  }
+  if (way != PlanWay::either) return add(above);
   add(above, true);
   add(down, true);
   add_back_to(from, down);
@@ -808,15 +815,26 @@ std::vector<Corner> Locator::with_cut_corners() {
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     progress_.tick();
     const Corner& corner = corners_[i];
-    const bool is_cut = corner.cut_m > 0 && corner.hold_s == 0 && i > 0 && i + 1 < corners_.size(),
+    const bool is_turned = corner.cut_m > 0 && i > 0 && i + 1 < corners_.size(),
+               is_cut = is_turned && corner.hold_s == 0,
                follows = is_cut && (corner.follows_ground || corners_[i + 1].follows_ground);
     if (follows) {
       not_judged_.name(place(corner.item),
                        "the vehicle turns before it, and how it follows the ground there is not said");
     }
+    if (is_turned && !is_cut) not_judged_.name(place(corner.item), "the vehicle turns before it, and is to stay there");
     if (!is_cut || follows) {
       corners.push_back(corner);
       continue;
+    }
+    // Plans of DJI must not have such; other vehicles turn as they can.
+    const auto reach = [&](std::size_t other) {
+      const Corner& end = corners_[other];
+      const bool is_end = other == 0 || other + 1 == corners_.size();
+      return (end.position - corner.position).norm() * (1 + 1e-9) - (is_end ? 0 : end.cut_m);
+    };
+    if (corner.cut_m > std::min(reach(i - 1), reach(i + 1))) {
+      not_judged_.name(place(corner.item), "the vehicle turns before it by more than the legs are long");
     }
     for (const Vec3& position : plans::corner_points(corners_[i - 1].position, corner.position,
                                                      corners_[i + 1].position, corner.cut_m, arc_error_m())) {
@@ -1000,7 +1018,8 @@ void Locator::add_lap(const Circle& circle, std::size_t next) {
 /// begins there is not certain: it may be in the air.
 bool Locator::add_start(std::size_t index) {
   const PlanItem& item = plan_.items[index];
-  const bool is_mission = plan_.format == PlanFormat::qgroundcontrol || plan_.format == PlanFormat::waypoints,
+  const bool is_mission = plan_.format == PlanFormat::qgroundcontrol || plan_.format == PlanFormat::waypoints ||
+                          plan_.format == PlanFormat::wpml,
              is_in_air = item.kind == PlanItemKind::waypoint || item.kind == PlanItemKind::loiter;
   const auto home = home_position();
   if (!is_mission || !is_in_air || !corners_.empty() || !home) return false;
@@ -1079,6 +1098,8 @@ LocatedPlan Locator::locate() {
   std::size_t stays = 0;
   for (std::size_t i = 0; i < plan_.items.size(); ++i) {
     const PlanItem& item = plan_.items[i];
+    // DJI's takeoff: nobody knows where.
+    if (i == 0 && plan_.format == PlanFormat::wpml && item.kind == PlanItemKind::takeoff && !home_position()) continue;
     const bool passes = item.hold_s > 0 && !item.is_timed && item.kind != PlanItemKind::land && !may_stop();
     stays += passes ? 1 : 0;
     add_from_any(i);

@@ -29,7 +29,7 @@ class Waylines {
     plan_.file = source_.name;
     plan_.vehicle = PlanVehicle::multirotor;
     const XmlTree::Node document = document_of(xml_);
-    const XmlTree::Node config = xml_.child(document, "missionConfig");
+    const XmlTree::Node config = child(document, "missionConfig");
     if (config != XmlTree::kNone) read_home(config);
     for (XmlTree::Node node = xml_.first_child(document); node != XmlTree::kNone; node = xml_.next(node)) {
       if (xml_.name(node) == "Folder") add_folder(node);
@@ -48,12 +48,25 @@ class Waylines {
   }
 
  private:
+  /// The one of that name. Nobody knows which of several counts.
+  XmlTree::Node child(XmlTree::Node parent, std::string_view name) const {
+    if (parent == XmlTree::kNone) return XmlTree::kNone;
+    const XmlTree::Node node = xml_.child(parent, name);
+    for (XmlTree::Node next = node; next != XmlTree::kNone;) {
+      next = xml_.next(next);
+      if (next == XmlTree::kNone || xml_.name(next) != name) continue;
+      source_.fail(ErrorCode::value_unsupported, line_of(xml_, next), "there is a second " + std::string(name),
+                   "leave one of the two out");
+    }
+    return node;
+  }
   double number(XmlTree::Node parent, const char* name) const {
-    const XmlTree::Node node = parent == XmlTree::kNone ? XmlTree::kNone : xml_.child(parent, name);
+    const XmlTree::Node node = child(parent, name);
     return node == XmlTree::kNone || xml_.text(node).empty() ? kNoValue : number_of(xml_, node, source_);
   }
   std::string_view word(XmlTree::Node parent, const char* name) const {
-    return parent == XmlTree::kNone ? std::string_view() : xml_.child_text(parent, name);
+    const XmlTree::Node node = child(parent, name);
+    return node == XmlTree::kNone ? std::string_view() : xml_.text(node);
   }
 
   /// A waypoint in another place, or without a position of its own, would not be flown to.
@@ -92,7 +105,7 @@ class Waylines {
 
   /// "latitude,longitude,height", the height above the ellipsoid.
   void read_home(XmlTree::Node config) {
-    const XmlTree::Node node = xml_.child(config, "takeOffRefPoint");
+    const XmlTree::Node node = child(config, "takeOffRefPoint");
     if (node == XmlTree::kNone || xml_.text(node).empty()) return;
     const std::string where = source_.place(line_of(xml_, node));
     const std::vector<double> numbers = numbers_of(xml_.text(node), ',', 2, 3, where);
@@ -112,17 +125,17 @@ class Waylines {
 
   Heights heights_of(XmlTree::Node folder) const {
     Heights heights;
-    XmlTree::Node mode = xml_.child(folder, "executeHeightMode");
+    XmlTree::Node mode = child(folder, "executeHeightMode");
     if (mode == XmlTree::kNone) {
       heights.is_template = true;
-      const std::string_view kind = xml_.child_text(folder, "templateType");
+      const std::string_view kind = word(folder, "templateType");
       if (!kind.empty() && kind != "waypoint") {
         source_.fail(ErrorCode::value_unsupported, line_of(xml_, folder),
                      "a template of the type " + in_quotes(kind) + " does not say where the aircraft flies",
                      "give the KMZ file with wpmz/waylines.wpml, as DJI Pilot 2 and FlightHub 2 export it");
       }
-      const XmlTree::Node system = xml_.child(folder, "waylineCoordinateSysParam");
-      mode = system == XmlTree::kNone ? XmlTree::kNone : xml_.child(system, "heightMode");
+      const XmlTree::Node system = child(folder, "waylineCoordinateSysParam");
+      mode = system == XmlTree::kNone ? XmlTree::kNone : child(system, "heightMode");
       heights.global_m = number(folder, "globalHeight");
     }
     const std::string_view name = mode == XmlTree::kNone ? std::string_view() : xml_.text(mode);
@@ -137,11 +150,20 @@ class Waylines {
   void add_folder(XmlTree::Node folder) {
     PlanTrack track;
     track.place = line_of(xml_, folder);
-    track.name = std::string(xml_.child_text(folder, "waylineId"));
+    track.name = std::string(word(folder, "waylineId"));
+    const double id = number(folder, "waylineId");
+    if (id < last_wayline_) {
+      source_.fail(ErrorCode::value_unsupported, line_of(xml_, folder),
+                   "the waylines are not in the order of their 'waylineId'", "write them in the order of the flight");
+    }
+    if (!std::isnan(id)) last_wayline_ = id;
+    if (word(folder, "caliFlightEnable") == "1") {
+      not_judged_.name(source_.place(track.place), "the aircraft flies a calibration first (caliFlightEnable)");
+    }
     const Heights heights = heights_of(folder);
     const double folder_speed = number(folder, "autoFlightSpeed");
-    const std::string_view folder_turn = xml_.child_text(folder, "globalWaypointTurnMode");
-    const std::string_view type = xml_.child_text(folder, "waylineType");
+    const std::string_view folder_turn = word(folder, "globalWaypointTurnMode");
+    const std::string_view type = word(folder, "waylineType");
     if (!type.empty() && type != "waypoint") {
       not_judged_.name(source_.place(track.place),
                        "it is a wayline of the type " + in_quotes(type) + ", which is not followed here");
@@ -152,7 +174,7 @@ class Waylines {
     camera_ = {};
     for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
       source_.progress.tick();
-      if (xml_.name(node) != "Placemark" || xml_.child(node, "Point") == XmlTree::kNone) continue;
+      if (xml_.name(node) != "Placemark" || child(node, "Point") == XmlTree::kNone) continue;
       placemarks_.push_back(node);
       const double index = number(node, "index");
       if (index < last_index) {
@@ -165,8 +187,7 @@ class Waylines {
       read_position(node, heights, item);
       item.follows_ground = heights.follows_ground && track.items.size() > 1;
       item.speed_m_s = speed;
-      const double own_speed =
-          xml_.child_text(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
+      const double own_speed = word(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
       speed = own_speed > 0 ? own_speed : folder_speed > 0 ? folder_speed : kNoValue;
       if (turns_somewhere) {
         not_judged_.name(track.items[track.items.size() - 2].place,
@@ -178,15 +199,20 @@ class Waylines {
     if (!track.items.empty()) tracks_.push_back(std::move(track));
   }
 
-  void read_position(XmlTree::Node placemark, const Heights& heights, PlanItem& item) const {
-    const XmlTree::Node point = xml_.child(placemark, "Point");
-    const std::vector<double> numbers = numbers_of(xml_.child_text(point, "coordinates"), ',', 2, 3, item.place);
+  void read_position(XmlTree::Node placemark, const Heights& heights, PlanItem& item) {
+    const XmlTree::Node point = child(placemark, "Point");
+    const std::vector<double> numbers = numbers_of(word(point, "coordinates"), ',', 2, 3, item.place);
     item.position.horizontal = checked_lonlat(numbers[0], numbers[1], item.place);
     item.position.datum = heights.datum;
     if (!heights.is_template) {
       item.position.height_m = number(placemark, "executeHeight");
-    } else if (xml_.child_text(placemark, "useGlobalHeight") == "1") {
+    } else if (word(placemark, "useGlobalHeight") == "1") {
       item.position.height_m = heights.global_m;
+      if (heights.datum != HeightDatum::home) {
+        not_judged_.name(item.place,
+                         "its height is the globalHeight of a template, which is above the place of takeoff: give the "
+                         "KMZ file with wpmz/waylines.wpml");
+      }
     } else {
       item.position.height_m =
           number(placemark, heights.datum == HeightDatum::ellipsoid ? "ellipsoidHeight" : "height");
@@ -195,16 +221,17 @@ class Waylines {
 
   /// Whether it turns before the waypoint, and does not say how far.
   bool read_turn(XmlTree::Node placemark, std::string_view folder_turn, PlanItem& item) {
-    const XmlTree::Node turn = xml_.child(placemark, "waypointTurnParam");
-    const bool is_global = turn == XmlTree::kNone || xml_.child_text(placemark, "useGlobalTurnParam") == "1";
-    const std::string_view mode = is_global ? folder_turn : xml_.child_text(turn, "waypointTurnMode");
-    if (mode == "coordinateTurn") {
+    const XmlTree::Node turn = child(placemark, "waypointTurnParam");
+    const bool is_global = turn == XmlTree::kNone || word(placemark, "useGlobalTurnParam") == "1";
+    const std::string_view mode = is_global ? folder_turn : word(turn, "waypointTurnMode");
+    const bool is_straight = word(placemark, "useStraightLine") == "1";
+    if (mode == "coordinateTurn" || (mode == "toPointAndPassWithContinuityCurvature" && is_straight)) {
       const double distance = number(turn, "waypointTurnDampingDist");
       item.cut_m = distance > 0 ? distance : 0;
       return !(distance > 0);
     }
     const bool is_curve = mode.find("ContinuityCurvature") != std::string_view::npos;  // not "Discontinuity..."
-    if (is_curve && xml_.child_text(placemark, "useStraightLine") != "1" && ++curves_ == 1) first_curve_ = item.place;
+    if (is_curve && !is_straight && ++curves_ == 1) first_curve_ = item.place;
     if (!is_curve && !mode.empty() && mode != "toPointAndStopWithDiscontinuityCurvature") {
       not_judged_.name(item.place, "how it is turned there is not known here: " + in_quotes(mode));
     }
@@ -219,12 +246,12 @@ class Waylines {
 
   void read_camera(XmlTree::Node placemark, PlanItem& item) {
     const auto given = [](double angle) { return std::isnan(angle) ? std::nullopt : std::optional(angle); };
-    const XmlTree::Node heading = xml_.child(placemark, "waypointHeadingParam");
+    const XmlTree::Node heading = child(placemark, "waypointHeadingParam");
     const std::string_view mode = word(heading, "waypointHeadingMode");
     if (mode == "smoothTransition" || mode == "fixed") camera_.yaw_deg = given(number(heading, "waypointHeadingAngle"));
     for (XmlTree::Node group = xml_.first_child(placemark); group != XmlTree::kNone; group = xml_.next(group)) {
       if (xml_.name(group) != "actionGroup") continue;
-      const XmlTree::Node trigger = xml_.child(group, "actionTrigger");
+      const XmlTree::Node trigger = child(group, "actionTrigger");
       if (word(trigger, "actionTriggerType") != "reachPoint") continue;
       for (XmlTree::Node action = xml_.first_child(group); action != XmlTree::kNone; action = xml_.next(action)) {
         if (xml_.name(action) == "action") act(action, item);
@@ -234,14 +261,14 @@ class Waylines {
     item.gimbal_yaw_deg = camera_.gimbal_yaw_deg;
     item.gimbal_yaw_from_north = camera_.from_north;
     // What an action says counts: writers put a 0 into the parameter where they mean nothing.
-    const XmlTree::Node gimbal = xml_.child(placemark, "waypointGimbalHeadingParam");
+    const XmlTree::Node gimbal = child(placemark, "waypointGimbalHeadingParam");
     item.gimbal_pitch_deg =
         camera_.gimbal_pitch_deg ? camera_.gimbal_pitch_deg : given(number(gimbal, "waypointGimbalPitchAngle"));
   }
 
   void act(XmlTree::Node action, PlanItem& item) {
     const std::string_view what = word(action, "actionActuatorFunc");
-    const XmlTree::Node how = xml_.child(action, "actionActuatorFuncParam");
+    const XmlTree::Node how = child(action, "actionActuatorFuncParam");
     if (what == "hover") {
       const double time_s = number(how, "hoverTime");
       if (!std::isnan(time_s)) item.hold_s += time_s;
@@ -263,7 +290,7 @@ class Waylines {
   void add_ends(XmlTree::Node config) {
     const double transit = number(config, "globalTransitionalSpeed");
     if (transit > 0) plan_.items.front().speed_m_s = transit;
-    const std::string_view finish = xml_.child_text(config, "finishAction");
+    const std::string_view finish = word(config, "finishAction");
     PlanItem last = plan_.items.back();
     last.hold_s = last.cut_m = 0;
     last.place = source_.place("finishAction");
@@ -282,21 +309,38 @@ class Waylines {
     } else if (finish == "gotoFirstWaypoint") {
       last.position = plan_.items.front().position;
       plan_.items.push_back(last);
-    } else if (!finish.empty() && finish != "noAction") {
+    } else if (child(config, "finishAction") != XmlTree::kNone && finish != "noAction") {
       not_judged_.name(last.place, "what the vehicle does at the end is not known here: " + in_quotes(finish));
     }
+    const XmlTree::Node reroute = child(config, "autoRerouteInfo");
+    if (word(reroute, "missionAutoRerouteMode") == "1" || word(reroute, "transitionalAutoRerouteMode") == "1") {
+      not_judged_.name(source_.place("autoRerouteInfo"),
+                       "the aircraft may fly round obstacles, on ways of its own: turn that off");
+    }
+    add_takeoff(config);
+  }
+
+  /// Where the file does not say it, the place may be known to who locates the plan.
+  void add_takeoff(XmlTree::Node config) {
+    constexpr double kMatrice300 = 60;
     const double security = number(config, "takeOffSecurityHeight");
-    if (!plan_.home || !(security > 0)) return;
-    PlanItem takeoff;
-    takeoff.kind = PlanItemKind::takeoff;
-    takeoff.place = source_.place("takeOffRefPoint");
-    takeoff.position = {plan_.home->horizontal, security, HeightDatum::home};
-    const std::string_view mode = xml_.child_text(config, "flyToWaylineMode");
-    if (mode != "safely" && mode != "pointToPoint") {
+    if (std::isnan(security)) return;
+    const std::string_view mode = word(config, "flyToWaylineMode");
+    const bool is_300 = number(child(config, "droneInfo"), "droneEnumValue") == kMatrice300, is_safe = mode == "safely";
+    if (!(security > 0)) {
+      not_judged_.name(source_.place("takeOffSecurityHeight"),
+                       "how high the aircraft climbs before it flies to the first waypoint is not said");
+    } else if (!is_safe && (mode != "pointToPoint" || is_300)) {
       not_judged_.name(source_.place("flyToWaylineMode"),
                        "how the aircraft flies to the first waypoint is not known here: " + in_quotes(mode));
     }
-    plan_.items.front().way = mode == "safely" ? PlanWay::level : PlanWay::either;
+    PlanItem takeoff;
+    takeoff.kind = PlanItemKind::takeoff;
+    takeoff.place = source_.place("takeOffRefPoint");
+    takeoff.position.height_m = std::max(security, 0.0);
+    takeoff.position.datum = HeightDatum::home;
+    if (plan_.home) takeoff.position.horizontal = plan_.home->horizontal;
+    plan_.items.front().way = !is_safe ? PlanWay::either : is_300 ? PlanWay::levels : PlanWay::level;
     plan_.items.front().cut_m = 0;  // it is not turned before the first waypoint
     plan_.items.insert(plan_.items.begin(), takeoff);
   }
@@ -310,6 +354,7 @@ class Waylines {
   Camera camera_;
   std::string first_curve_;
   std::size_t curves_ = 0, total_ = 0;
+  double last_wayline_ = kNoValue;
 };
 
 }  // namespace
