@@ -465,7 +465,38 @@ TEST(ReadCityJson, PartsStandForTheirWholeIfAllAreThereAndHaveABody) {
   EXPECT_TRUE(is_held({"part", "gone"}, "BuildingPart", body));
   EXPECT_TRUE(is_held({"part"}, "BuildingInstallation", body));
   EXPECT_TRUE(is_held({"part"}, "BuildingPart", json::array()));
+  const json flat = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
+  const json nothing = json::array({geometry("MultiSurface", "1", json::array({json::array({{0, 0, 0}})}))});
+  const json shell = json::array({geometry("Solid", "1", json::array({json::array()}))});
+  for (const json& none : {flat, nothing, shell}) EXPECT_TRUE(is_held({"part"}, "BuildingPart", none)) << none;
   EXPECT_TRUE(is_held({"whole"}, "BuildingPart", body));
+}
+
+// Of several heights that a file states the highest counts.
+TEST(ReadCityJson, StandInsAreAsHighAsAnythingSays) {
+  const auto top = [](const json& extent, const json& height, const json& shape) {
+    json file = document();
+    json object = file["CityObjects"]["b1"];
+    object["geometry"] = shape;
+    if (!extent.is_null()) object["geographicalExtent"] = extent;
+    if (!height.is_null()) object["attributes"]["measuredHeight"] = height;
+    file["CityObjects"]["other"] = object;
+    const RawMesh mesh = read(file);
+    const auto& missing = mesh.ledger.at(0);
+    EXPECT_EQ(missing.entry.box->max.z(), missing.holder.triangles.empty() ? 0 : bounding_box(missing.holder).max.z());
+    return missing.entry.box->max.z();
+  };
+  const json none = json::array(), low = {0, 0, 30, 9, 9, 35}, thin = {0, 0, 30, 9, 9, 30};
+  const json flat = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
+  const json level = json::array({geometry("MultiSurface", "2", json::array({json::array({{0, 1, 3, 2}})}))});
+  const json points = json::array({geometry("MultiPoint", "1", json::array({0, 1, 2, 3}))});
+  EXPECT_EQ(top(low, 20, none), 50);
+  EXPECT_EQ(top(thin, 20, none), 50);
+  EXPECT_EQ(top(low, 2, none), 35);
+  EXPECT_EQ(top(low, 2, flat), 35);
+  EXPECT_EQ(top(low, {}, flat), 35);
+  EXPECT_EQ(top({}, 20, points), 50);
+  EXPECT_EQ(top({}, 20, level), 50);
 }
 
 TEST(ReadCityJson, AnEmptyGeometryDoesNotTakeTheBodyOfAnotherLevel) {

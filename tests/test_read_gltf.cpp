@@ -410,6 +410,10 @@ TEST(ReadGltf, PutsWhatIsNotBuiltIntoTheLedger) {
   EXPECT_EQ(mesh.ledger[3].entry.box->max, Vec3(51, 1, 0));
   gltf["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = json::array({2});  // a coarser form of what is built
   EXPECT_EQ(read(gltf).ledger.size(), 3u);
+  json levels = std::exchange(gltf["nodes"][0]["extensions"], json::object());
+  gltf["scenes"][0]["nodes"].push_back(gltf["nodes"].size());
+  gltf["nodes"].push_back({{"extensions", std::move(levels)}});
+  EXPECT_EQ(read(gltf).ledger.size(), 4u) << "there is no finer form of it";
 }
 
 // A box about a part of what is missing would say that the rest is nowhere.

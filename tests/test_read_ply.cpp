@@ -199,20 +199,36 @@ TEST(ReadPly, PutsElementsThatReferToVerticesIntoTheLedger) {
   EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 1, 9));
 }
 
-// Lists of whole numbers may be polygons, whatever they are called.
+// Lists, and three numbers, may be polygons, whatever they are called. Colours are bytes.
 TEST(ReadPly, PutsElementsWithListsIntoTheLedger) {
   const RawMesh mesh = read_as(
       "a.ply",
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nelement polygon 1\nproperty list uchar int vertices\n"
       "element patch 2\nproperty list uchar int numbers\nelement camera 1\nproperty list uchar float weights\n"
-      "element none 0\nproperty list uchar int indices\nend_header\n"
-      "0 0 0\n1 0 0\n0 1 0\n1 1 9\n3 0 1 2\n3 0 1 3\n3 0 1 3\n1 2\n1 0.5\n");
-  ASSERT_EQ(mesh.ledger.size(), 2u);
+      "element none 0\nproperty list uchar int indices\nelement triangle 1\nproperty int a\nproperty int b\n"
+      "property int c\nelement material 1\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 9\n3 0 1 2\n3 0 1 3\n3 0 1 3\n1 2\n1 0.5\n0 1 3\n9 9 9\n");
+  ASSERT_EQ(mesh.ledger.size(), 4u);
+  EXPECT_EQ(mesh.ledger[2].entry.what, "1 of \"camera\"");
+  EXPECT_EQ(mesh.ledger[3].entry.what, "1 of \"triangle\"");
   EXPECT_EQ(mesh.ledger[0].entry.what, "1 of \"polygon\"");
   EXPECT_EQ(mesh.ledger[0].entry.box->max, Vec3(1, 1, 9));
   EXPECT_EQ(mesh.ledger[1].entry.what, "2 of \"patch\"");
   EXPECT_FALSE(mesh.ledger[1].entry.box);
+}
+
+TEST(ReadPly, RefusesFacesThatItWouldNotRead) {
+  const std::string vertices =
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\n";
+  const std::string rows = "0 0 0\n1 0 0\n0 1 0\n1 1 9\n3 0 1 2\n";
+  const std::string header = "ply\nformat ascii 1.0\n" + vertices;
+  EXPECT_EQ(read_as("a.ply", header + "end_header\n" + rows + " \n\n").triangles.size(), 1u);
+  testing::expect_error([&] { read_as("a.ply", header + "end_header\n" + rows + "3 0 1 3\n"); }, ErrorCode::mesh_syntax,
+                        "a.ply");
+  testing::expect_error([&] { read_as("a.ply", header + "property list uchar int vertex_index\nend_header\n" + rows); },
+                        ErrorCode::mesh_syntax, "a.ply");
 }
 
 }  // namespace

@@ -74,14 +74,26 @@ TEST(Tileset, ReplacesParentsAndAddsToThem) {
       return tiles.read(options);
     };
     using Ids = std::set<std::string>;
-    EXPECT_EQ(ids_of(at(50)), Ids{"coarse.glb"});
-    EXPECT_EQ(at(50).report.largest_error_m, 50);
-    EXPECT_EQ(ids_of(at(5)), is_add ? (Ids{"coarse.glb", "fine.glb", "other.glb"}) : (Ids{"fine.glb", "other.glb"}));
-    EXPECT_EQ(at(5).report.largest_error_m, 5);
-    EXPECT_EQ(ids_of(at(1)),
-              is_add ? (Ids{"coarse.glb", "fine.glb", "finest.glb", "other.glb"}) : (Ids{"finest.glb", "other.glb"}));
+    const Ids all = {"coarse.glb", "fine.glb", "finest.glb", "other.glb"};
+    EXPECT_EQ(ids_of(at(50)), is_add ? all : Ids{"coarse.glb"}) << "what is added is nothing finer";
+    EXPECT_EQ(at(50).report.largest_error_m, is_add ? 0 : 50);
+    EXPECT_EQ(ids_of(at(5)), is_add ? all : (Ids{"fine.glb", "other.glb"}));
+    EXPECT_EQ(at(5).report.largest_error_m, is_add ? 0 : 5);
+    EXPECT_EQ(ids_of(at(1)), is_add ? all : (Ids{"finest.glb", "other.glb"}));
     EXPECT_EQ(at(1).report.largest_error_m, 0);
     EXPECT_EQ(at(1).report.coarse, 0u);
+  }
+}
+
+TEST(Tileset, ChildrenThatHoldNothingReplaceNothing) {
+  json root = tile_json(50, "coarse.glb"), empty = tile_json(5, ""), full = tile_json(0, "fine.glb");
+  empty.erase("content");
+  for (const bool has_fine : {false, true}) {
+    root["children"] = json::array({empty});
+    if (has_fine) root["children"][0]["children"] = json::array({full});
+    Tileset tiles(tileset_json(root));
+    for (const char* name : {"coarse.glb", "fine.glb"}) tiles.add(name, box_glb({{}}));
+    EXPECT_EQ(ids_of(tiles.read()), std::set<std::string>{has_fine ? "fine.glb" : "coarse.glb"});
   }
 }
 

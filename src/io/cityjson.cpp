@@ -126,23 +126,36 @@ class CityJsonReader {
       progress_.tick(done++, objects.size());
       trail_.set_object(id.empty() ? "(no id)" : id);
       if (!object.is_object()) trail_.fail("it is not an object");
-      read_object(id, object, objects, vertices);
+      read_object(id, object, vertices);
+    }
+    for (const Bodiless& one : std::exchange(bodiless_, {})) {
+      const Json& object = objects[one.id];
+      trail_.set_object(one.id.empty() ? "(no id)" : one.id);
+      if (!one.reason.empty()) {
+        tell_missing(one.id, object, one.box, one.reason);
+        continue;
+      }
+      if (parts_stand_for_it(one.id, object, objects)) continue;
+      if (one.footprint_end > 0) {
+        tell_footprint(one, object);
+        continue;
+      }
+      empty_.add(one.id);
+      tell_missing(one.id, object, {},
+                   object.contains("children") ? "it has no surfaces, and its parts are not all there, or have none"
+                                               : "it has neither surfaces nor parts");
     }
     trail_.set_object("");
     objects_ += objects.size();
   }
 
-  void read_object(const std::string& id, const Json& object, const Json& objects, Vertices& vertices) {
+  void read_object(const std::string& id, const Json& object, Vertices& vertices) {
     type_of(object, trail_);  // any type that has surfaces may hide something
     const auto geometry = object.find("geometry");
     const bool has_geometry = geometry != object.end() && !geometry->is_null();
     if (has_geometry && !geometry->is_array()) trail_.fail("\"geometry\" is not an array");
     if (!has_geometry || geometry->empty()) {
-      if (parts_stand_for_it(id, object, objects)) return;
-      empty_.add(id);
-      tell_missing(id, object, {},
-                   object.contains("children") ? "it has no surfaces, and its parts are not all there, or have none"
-                                               : "it has neither surfaces nor parts");
+      bodiless_.push_back({id, 0, 0, {}, kNoLod});
       return;
     }
     std::vector<std::pair<std::size_t, double>> candidates;  // which of them hold surfaces, and their levels
@@ -156,7 +169,8 @@ class CityJsonReader {
       candidates.emplace_back(i, levels.back());
     }
     if (levels.empty()) {
-      tell_missing(id, object, box_of_points(*geometry, vertices), "it has points or lines, and no surfaces");
+      bodiless_.push_back(
+          {id, 0, 0, box_of_points(*geometry, vertices), kNoLod, "it has points or lines, and no surfaces"});
       return;
     }
     found_lods_.insert(levels.begin(), levels.end());
@@ -174,7 +188,7 @@ class CityJsonReader {
     }
     if (builder_.triangle_count() == before) {
       empty_.add(id);
-      tell_missing(id, object, {}, "its surfaces have no extent");
+      bodiless_.push_back({id, 0, 0, {}, kNoLod, "its surfaces have no extent"});
       return;
     }
     Box box;
@@ -191,19 +205,33 @@ class CityJsonReader {
       own_faults_.push_back(
           {id, "geometry of LoD " + lod_text(*asked_), "it has none", "its geometry of LoD " + lod_text(chosen), box});
     }
-    if (chosen < 0 || chosen >= 1 || parts_stand_for_it(id, object, objects)) return;
-    tell_footprint(id, object, before, box, chosen > 0);
+    // What lies flat is no body either, of whatever level, where the file says that there is one.
+    const bool is_flat_body = box.min.z() == box.max.z() && (height_of(object) || has_height(extent_of(object)));
+    if ((chosen < 0 || chosen >= 1) && !is_flat_body) {
+      bodies_.insert(id);
+    } else {
+      bodiless_.push_back({id, before, builder_.triangle_count(), box, chosen});
+    }
   }
 
+  /// An object of which no body is read yet: without geometry, or with a footprint alone, which is in these triangles.
+  struct Bodiless {
+    std::string id;
+    std::size_t footprint_begin = 0, footprint_end = 0;
+    Box box;  ///< of that, or of its points
+    double lod = 0;
+    std::string reason = {};  ///< why it is told whatever its parts are
+  };
+
   /// Whether all of what an object consists of is in the file, and some of it is no mere fitting, and has a body.
-  static bool parts_stand_for_it(const std::string& id, const Json& object, const Json& objects) {
+  bool parts_stand_for_it(const std::string& id, const Json& object, const Json& objects) const {
     const auto children = object.find("children");
     if (children == object.end() || !children->is_array()) return false;
     bool has_body = false;
     for (const Json& child : *children) {
       const auto part = child.is_string() ? objects.find(child.get_ref<const std::string&>()) : objects.end();
       if (part == objects.end() || child == Json(id) || !part->is_object()) return false;
-      has_body |= is_part(text_in(*part, "type"), text_in(object, "type")) && has_body_of_its_own(*part);
+      has_body |= is_part(text_in(*part, "type"), text_in(object, "type")) && bodies_.contains(part.key());
     }
     return has_body;
   }
@@ -216,16 +244,6 @@ class CityJsonReader {
   /// Installations and furniture are in or on a thing and not what it consists of. A group has members of all types.
   static bool is_part(std::string_view type, std::string_view whole) {
     return whole == "CityObjectGroup" || type.ends_with("Part") || type.ends_with("ConstructiveElement");
-  }
-
-  static bool has_body_of_its_own(const Json& object) {
-    const auto geometry = object.find("geometry");
-    return geometry != object.end() && geometry->is_array() &&
-           std::any_of(geometry->begin(), geometry->end(), [](const Json& one) {
-             const auto boundaries = one.is_object() ? one.find("boundaries") : one.end();
-             const std::string_view type = text_in(one, "type");
-             return (find_type(type) || type == "GeometryInstance") && boundaries != one.end() && !boundaries->empty();
-           });
   }
 
   /// "measuredHeight", in metres: also where it is a text.
@@ -287,6 +305,8 @@ class CityJsonReader {
     return box;
   }
 
+  static bool has_height(const Box& box) { return !box.empty() && box.max.z() > box.min.z(); }
+
   LedgerEntry entry_of(const std::string& id, const Json& object, std::string reason) const {
     LedgerEntry entry;
     entry.object = identity_of(id, object);
@@ -296,19 +316,38 @@ class CityJsonReader {
     return entry;
   }
 
-  /// An object without surfaces: its stated extent holds its place. `points`: where it has points.
+  /// An object without surfaces: a box of its points and its stated extent holds its place, up to all of the heights
+  /// that are stated. `points`: where it has points.
   void tell_missing(const std::string& id, const Json& object, const Box& points, std::string reason) {
     LedgerEntry entry = entry_of(id, object, std::move(reason));
-    const Box extent = extent_of(object);
-    if (extent.empty()) {
-      if (!points.empty()) entry.box = points;
+    Box place = extent_of(object);
+    const bool has_extent = !place.empty();
+    if (!points.empty()) {
+      place.extend(points.min);
+      place.extend(points.max);
+    }
+    if (!place.empty() && entry.height_m) raise(place, *entry.height_m);
+    const bool has_width = !place.empty() && (place.max - place.min).head<2>().minCoeff() > 0;
+    if (!has_width || !(has_extent || entry.height_m)) {
+      if (!place.empty()) entry.box = place;
       ledger_.push_back({std::move(entry), {}});
       return;
     }
-    if (!entry.height_m) entry.height_m = std::abs((extent.max.z() - extent.min.z()) * unit_m());
-    Missing missing = held_by_box(std::move(entry), extent);
-    missing.entry.instead = "the box of its extent";
+    entry.height_m = std::abs((place.max.z() - place.min.z()) * unit_m());
+    entry.may_be_larger = !has_extent;
+    Missing missing = held_by_box(std::move(entry), place);
+    missing.entry.instead = has_extent ? "the box of its extent" : "the box of its points";
     ledger_.push_back(std::move(missing));
+  }
+
+  /// To a height, from the lowest place of a box on.
+  void raise(Box& box, double height_m) {
+    const double height = height_m / unit_m();
+    if (height > 0) {
+      box.max.z() = std::max(box.max.z(), box.min.z() + height);
+    } else {
+      box.min.z() = std::min(box.min.z(), box.max.z() + height);
+    }
   }
 
   /// Whether a type lies on the ground, so that its footprint is all of it (CityJSON 2.0, chapter 2).
@@ -318,10 +357,18 @@ class CityJsonReader {
     return std::find(kFlat.begin(), kFlat.end(), type) != kFlat.end();
   }
 
-  /// An object of which the file has only the footprint: raised to its height, where that is stated. Above LoD 0 it may
-  /// be the edge of the roof, so that the body is below.
-  void tell_footprint(const std::string& id, const Json& object, std::size_t first, Box box, bool may_be_roof) {
-    LedgerEntry entry = entry_of(id, object, "the file has only its footprint (LoD 0)");
+  /// An object of which the file has only the footprint: raised to its height, where that or its extent is stated.
+  /// Above LoD 0 it may be the edge of the roof, so that the body is below.
+  void tell_footprint(const Bodiless& one, const Json& object) {
+    Box box = one.box;
+    LedgerEntry entry = entry_of(one.id, object, "the file has only its footprint");
+    if (one.lod == 0) entry.reason += " (LoD 0)";
+    const Box extent = extent_of(object);
+    if (!extent.empty() && (entry.height_m || !is_flat(entry.what))) {
+      const double up = unit_m() > 0 ? extent.max.z() - box.min.z() : extent.min.z() - box.max.z();
+      const double height_m = up * unit_m();
+      if (height_m > entry.height_m.value_or(0)) entry.height_m = height_m;
+    }
     if (!entry.height_m && is_flat(entry.what)) return;
     if (!entry.height_m) {
       entry.reason += ", and no measuredHeight";
@@ -330,13 +377,13 @@ class CityJsonReader {
       return;
     }
     const double height = *entry.height_m / unit_m();
-    double foot = may_be_roof ? -height : 0;
-    if (const Box extent = extent_of(object); !extent.empty()) {
+    double foot = one.lod == 0 ? 0 : -height;
+    if (!extent.empty()) {
       foot = height > 0 ? std::min(0.0, extent.min.z() - box.min.z()) : std::max(0.0, extent.max.z() - box.max.z());
     }
     Missing missing{std::move(entry), {}};
     auto& [vertices, triangles] = missing.holder;
-    for (std::size_t i = first; i < builder_.triangle_count(); ++i) {
+    for (std::size_t i = one.footprint_begin; i < one.footprint_end; ++i) {
       progress_.tick();
       const auto at = static_cast<std::uint32_t>(vertices.size());
       for (const double up : {foot, height}) {
@@ -563,6 +610,8 @@ class CityJsonReader {
   Finding other_lod_, empty_, no_surfaces_;
   std::vector<cityjson::SurfaceBuilder::Fault> own_faults_;
   std::vector<Missing> ledger_;
+  std::vector<Bodiless> bodiless_;  // of the objects that are being read
+  std::set<std::string> bodies_;    // objects that have one
 
   // For the geometry that is being read.
   Vertices* vertices_ = nullptr;

@@ -651,7 +651,16 @@ class GltfReader {
     return box;
   }
 
-  /// Marks the nodes, and all below, that are coarser forms of nodes that are seen (MSFT_lod).
+  /// Of a node and all below. Children are nodes of a tree: check_nodes.
+  bool has_mesh(std::uint64_t index) const {
+    const Json& node = document_.item("nodes", index);
+    const Json& children = document_.array(node, "children");
+    return node.contains("mesh") || std::any_of(children.begin(), children.end(), [&](const Json& child) {
+             return has_mesh(document_.as_whole(child, "children"));
+           });
+  }
+
+  /// Marks the nodes, and all below, that are coarser forms of nodes that are seen and have any form (MSFT_lod).
   void pass_coarser(std::vector<bool>& seen) const {
     std::vector<std::uint64_t> waiting;
     const auto wait_for = [&](const Json& holder, const char* key) {
@@ -659,7 +668,7 @@ class GltfReader {
     };
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const Json* const levels = seen[i] ? document_.extension(document_.item("nodes", i), "MSFT_lod") : nullptr;
-      if (levels) wait_for(*levels, "ids");
+      if (levels && has_mesh(i)) wait_for(*levels, "ids");
     }
     while (!waiting.empty()) {
       const std::uint64_t index = waiting.back();

@@ -171,6 +171,7 @@ class PlyReader {
       source_.fail(ErrorCode::mesh_empty, "the PLY file has no element \"face\"",
                    "export a surface mesh, not a point cloud");
     }
+    check_end();
     RawMesh mesh = builder_.finish();
     mesh.georeference = header_.georeference;
     mesh.rounding_m = header_.rounding_m;
@@ -188,6 +189,15 @@ class PlyReader {
     if (element.count <= left / element.smallest_row(header_.encoding)) return;
     values_.fail("the header announces " + std::to_string(element.count) + " rows of \"" + printable(element.name) +
                  "\", but only " + std::to_string(values_.left()) + " bytes follow");
+  }
+
+  /// A line end that an editor added is no row.
+  void check_end() {
+    constexpr std::uint64_t kLineEnd = 2;  // bytes
+    const bool ascii = header_.encoding == Encoding::ascii;
+    if (ascii) values_.place();  // past spaces
+    if (values_.left() <= (ascii ? 0 : kLineEnd)) return;
+    values_.fail(std::to_string(values_.left()) + " bytes follow the last row that the header announces");
   }
 
   static std::string printable(const std::string& name) {
@@ -254,7 +264,13 @@ class PlyReader {
   template <class Read>
   void lists(const Element& element, const std::string& what, const Read& read) {
     int corners = element.find("vertex_indices");
-    if (corners < 0) corners = element.find("vertex_index");
+    const int others = element.find("vertex_index");
+    if (corners >= 0 && others >= 0) {
+      source_.fail(ErrorCode::mesh_syntax,
+                   "the PLY file's " + what + " have two lists, \"vertex_indices\" and \"vertex_index\"",
+                   "export the mesh with one of them");
+    }
+    if (corners < 0) corners = others;
     if (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].is_list ||
         !ply::is_integer(element.properties[static_cast<std::size_t>(corners)].type)) {
       source_.fail(ErrorCode::mesh_syntax,
@@ -310,7 +326,12 @@ class PlyReader {
     return (is_list_of_them || name.starts_with("vertex")) && ply::is_integer(property.type);
   }
 
-  /// An element that is not built: in the ledger where it refers to vertices, or has lists that may.
+  /// Whether a property may be the number of a vertex, whatever its name is. Colours are bytes.
+  static bool is_wide_integer(const Property& property) {
+    return ply::is_integer(property.type) && ply::size_of(property.type) > 1;
+  }
+
+  /// An element that is not built: in the ledger where it refers to vertices, or has lists or three numbers that may.
   void other(const Element& element) {
     std::vector<std::int64_t> corners;
     rows(element, [&](const Property& property, std::size_t) {
@@ -324,10 +345,11 @@ class PlyReader {
         corners.push_back(values_.integer(property.type));
       }
     });
-    const bool may_refer =
-        std::any_of(element.properties.begin(), element.properties.end(), [](const Property& property) {
-          return refers_to_vertices(property) || (property.is_list && ply::is_integer(property.type));
-        });
+    const std::vector<Property>& all = element.properties;
+    const bool may_refer = std::count_if(all.begin(), all.end(), is_wide_integer) >= 3 ||
+                           std::any_of(all.begin(), all.end(), [](const Property& property) {
+                             return property.is_list || refers_to_vertices(property);
+                           });
     if (element.count > 0 && may_refer) others_.emplace_back(&element, std::move(corners));
   }
 

@@ -48,6 +48,16 @@ bool is_named_json(const std::string& uri) {
   return path.size() >= 5 && path.compare(path.size() - 5, 5, ".json") == 0;
 }
 
+/// Whether there is a finer form of what their parent holds.
+bool hold_anything(const nlohmann::json& tiles, int depth = 0) {
+  return std::any_of(tiles.begin(), tiles.end(), [depth](const nlohmann::json& tile) {
+    if (!tile.is_object() || depth > kDeepest) return true;  // told when it is read
+    const auto children = tile.find("children");
+    return tile.contains("content") || tile.contains("contents") || tile.contains("implicitTiling") ||
+           (children != tile.end() && hold_anything(*children, depth + 1));
+  });
+}
+
 }  // namespace
 
 Walk::Walk(TileSource& source, Collector& collector, const Wanted& wanted, TilesetReport& report,
@@ -224,7 +234,7 @@ void Walk::visit_explicit(Visit& visit) {
   }
   here.contents = tile.contents;
   ++report_.tiles;
-  if (!take(visit, here, tile.children != nullptr)) return;
+  if (!take(visit, here, tile.children != nullptr && (tile.contents.empty() || hold_anything(*tile.children)))) return;
   for (auto child = tile.children->rbegin(); child != tile.children->rend(); ++child) {
     Visit next;
     next.trail = visit.trail;
@@ -244,8 +254,8 @@ bool Walk::take(const Visit& visit, Here& here, bool has_children) {
   const auto is_document = [](const ContentName& content) { return is_named_json(content.uri); };
   const bool has_own = std::any_of(here.contents.begin(), here.contents.end(),
                                    [&](const ContentName& content) { return !is_document(content); });
-  // A tile without content is finer only in its children, whatever it says.
-  const bool goes_on = has_children && (here.error_m > detail_m_ || !has_own);
+  // A tile without content is finer only in its children, whatever it says. Children that are added are no finer forms.
+  const bool goes_on = has_children && (here.error_m > detail_m_ || !has_own || here.refinement == Refinement::add);
   const bool is_taken = !goes_on || here.refinement == Refinement::add;
   if (has_own && !goes_on) {
     report_.largest_error_m = std::max(report_.largest_error_m, here.error_m);

@@ -20,6 +20,7 @@ namespace vantage::internal::terrain {
   X(void, GDALClose, (void*))                                                                               \
   X(void*, GDALGetDatasetDriver, (void*))                                                                   \
   X(const char*, GDALGetDriverShortName, (void*))                                                           \
+  X(const char*, GDALGetMetadataItem, (void*, const char*, const char*))                                    \
   X(int, GDALGetRasterCount, (void*))                                                                       \
   X(int, GDALGetRasterXSize, (void*))                                                                       \
   X(int, GDALGetRasterYSize, (void*))                                                                       \

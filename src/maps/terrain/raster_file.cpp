@@ -219,6 +219,10 @@ void RasterFile::check_bands() const {
   const auto colour = [&](int band) {
     return library_.GDALGetRasterColorInterpretation(library_.GDALGetRasterBand(dataset_.get(), band));
   };
+  if (library_.GDALGetMetadataItem(dataset_.get(), "SUBDATASET_2_NAME", "SUBDATASETS") != nullptr) {
+    fail(ErrorCode::raster_not_heights, "the file has several rasters, and the first alone would be read",
+         "take one of them out: gdal_translate GTIFF_DIR:1:in.tif out.tif");
+  }
   if (count == 0) {
     fail(ErrorCode::raster_not_heights, "the raster has no band",
          "give a file with one band of heights; convert it with gdal_translate");
