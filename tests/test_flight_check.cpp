@@ -132,7 +132,7 @@ TEST(FlightCheck, NoFlightMeetsTheScene) {
   expect_wording(plan_texts::joined(failures(through), "\n"));
   EXPECT_EQ(failures(beside), std::vector<std::string>());
   EXPECT_EQ(failures(beside, 9), std::vector<std::string>());
-  EXPECT_NE(plan_texts::joined(failures(beside, 11), "\n").find("the flight meets wall"), std::string::npos);
+  EXPECT_EQ(failures(beside, 11).size(), 1U);
   // Inside of it from end to end, and far from its faces. A building may have no floor.
   SceneBuilder block;
   block.ground("ground", 200, -0.5).box("block", {-30, -30, -0.5}, {30, 30, 60});
@@ -149,8 +149,9 @@ TEST(FlightCheck, NoFlightMeetsTheScene) {
     }
     const Mission inside = mission_in(std::move(scene), checked_square(), 100);
     const FlightCheck check = check_flight(inside, flight_along({{-9, 0, 30}, {9, 0, 30}}), {.clearance_m = 5});
-    EXPECT_EQ(check.failures, std::vector<std::string>{"the flight meets block, 0 m along it"}) << has_floor;
+    EXPECT_EQ(check.failures.size(), 1U) << has_floor;
     EXPECT_EQ(check.nearest.distance_m, 0);
+    EXPECT_EQ(check.nearest.object, "block");
   }
 }
 

@@ -305,6 +305,26 @@ TEST(RasterFiles, PathsAreNoNamesOfGdal) {
   EXPECT_EQ(path_on_disk("/home/vsi/dem.tif"), "/home/vsi/dem.tif");
 }
 
+// The first alone would be read. A second directory of the file, with all that the first one has.
+TEST(RasterFiles, AGeoTiffHasOneImage) {
+  const TemporaryDirectory folder;
+  const fs::path file = write_raster(folder.path(), "dsm", small_raster());
+  std::string bytes = testing::read_bytes(file);
+  const auto number_at = [&](std::size_t at, int size) {
+    std::size_t number = 0;
+    for (int i = size; i-- > 0;)
+      number = number << 8 | static_cast<unsigned char>(bytes.at(at + static_cast<std::size_t>(i)));
+    return number;
+  };
+  const std::size_t first = number_at(4, 4), next = first + 2 + 12 * number_at(first, 2);
+  ASSERT_EQ(bytes.substr(0, 2), "II");
+  ASSERT_EQ(number_at(next, 4), 0U);
+  const std::string directory = bytes.substr(first, next + 4 - first);
+  for (std::size_t i = 0; i < 4; ++i) bytes[next + i] = static_cast<char>(bytes.size() >> 8 * i & 0xFF);
+  write_bytes(file, bytes + directory);
+  testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_not_heights, "dsm.tif");
+}
+
 TEST(RasterFiles, AHeaderAloneIsNoRaster) {
   const TemporaryDirectory folder;
   // Sparse: GDAL gives zeros for what the file does not hold.

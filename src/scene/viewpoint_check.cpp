@@ -56,7 +56,7 @@ ViewpointCheck::ViewpointCheck(const Scene& scene) : scene_(scene) {
 }
 
 ViewpointCheck::Place ViewpointCheck::look(const Vec3& viewpoint) const {
-  std::vector<double> angle(pieces_, 0.0);
+  std::vector<double> angle(pieces_, 0.0), of_object(scene_.objects.size(), 0.0);
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
@@ -64,11 +64,14 @@ ViewpointCheck::Place ViewpointCheck::look(const Vec3& viewpoint) const {
         kOnSurface * kOnSurface) {
       return {scene_.object_of[t], {}};
     }
-    angle[piece_of_[t]] += solid_angle(corners);
+    const double seen = solid_angle(corners);
+    angle[piece_of_[t]] += seen;
+    of_object[scene_.object_of[t]] += seen;
   }
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     const double winding = angle[piece_of_[t]] / (4 * std::numbers::pi);
-    if (!(winding <= kInside && winding >= kInsideOut)) return {{}, scene_.object_of[t]};
+    const double whole = of_object[scene_.object_of[t]] / (4 * std::numbers::pi);
+    if (!(winding <= kInside && winding >= kInsideOut && whole <= kInside)) return {{}, scene_.object_of[t]};
   }
   return {};
 }

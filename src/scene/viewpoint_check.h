@@ -16,10 +16,11 @@ inline constexpr double kOnSurface = 1e-3;
 
 /// Checks viewpoints against one scene, which must outlive this.
 ///
-/// Inside a solid is told by the winding number (the solid angle that a surface spans around the viewpoint, over 4 pi)
-/// of each connected piece of the mesh: 1 inside a closed surface, above 1/2 above the missing floor of a building
-/// that has none, -1 inside one whose normals point inward. An open ground spans 1/2 from below and -1/2 from above.
-/// Pieces whose triangles are turned at random are not noticed. Cost: linear in the triangles, each time.
+/// Inside a solid is told by the winding number (the solid angle that a surface spans around the viewpoint, over 4
+/// pi) of each connected piece of the mesh, and of each object, whose faces may not meet: 1 inside a closed surface,
+/// above 1/2 above the missing floor of a building that has none, -1 inside one whose normals point inward. An open
+/// ground spans 1/2 from below and -1/2 from above. Pieces whose triangles are turned at random are not noticed.
+/// Cost: linear in the triangles, each time.
 class ViewpointCheck {
  public:
   VANTAGE_INTERNAL_API explicit ViewpointCheck(const Scene& scene);
@@ -28,7 +29,7 @@ class ViewpointCheck {
   struct Place {
     std::optional<std::uint32_t> on, inside;
   };
-  VANTAGE_INTERNAL_API Place look(const Vec3& viewpoint) const;
+  Place look(const Vec3& viewpoint) const;
 
   /// Throws Error(input) that names the object. `name` begins the message: "the viewpoint of volume 2".
   VANTAGE_INTERNAL_API void check(const Vec3& viewpoint, const std::string& name) const;

@@ -1,5 +1,8 @@
 #include "judge_flight.h"
 
+#include <array>
+#include <numbers>
+
 #include "vantage/error.h"
 
 namespace attack {
@@ -132,6 +135,22 @@ std::vector<std::uint32_t> FlightJudge::ground_objects() const {
   return left_out;
 }
 
+double FlightJudge::most_wound(const Vec3& place, const std::vector<std::uint32_t>& ground) const {
+  const vantage::Scene& scene = drawn_.mission.scene();
+  std::vector<double> angles(scene.objects.size(), 0);
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    std::array<Vec3, 3> c;
+    for (std::size_t k = 0; k < 3; ++k) c[k] = (scene.mesh.vertices[scene.mesh.triangles[t][k]] - place).normalized();
+    // A. van Oosterom and J. Strackee, 1983, of directions.
+    angles[scene.object_of[t]] +=
+        2 * std::atan2(c[0].dot(c[1].cross(c[2])), 1 + c[0].dot(c[1]) + c[1].dot(c[2]) + c[2].dot(c[0]));
+  }
+  for (const std::uint32_t object : ground) angles[object] = 0;
+  double most = 0;
+  for (const double angle : angles) most = std::max(most, std::abs(angle) / (4 * std::numbers::pi));
+  return most;
+}
+
 void FlightJudge::judge_nearest() {
   const vantage::Scene& scene = drawn_.mission.scene();
   const std::vector<std::uint32_t> ground = ground_objects();
@@ -150,6 +169,9 @@ void FlightJudge::judge_nearest() {
   // LegDistances: twice what rounding may do. Merging: blockers.merging is twice that of half the scene's size.
   const double rounding = 4 * rounding_ + 1e-12 * (std::isfinite(least) ? least : 0) + 4 * blockers.merging;
   if (std::isinf(expected) && std::isinf(told)) return;
+  const double wound = least > rounding ? most_wound(leg(0).from, ground) : 0;
+  if (told == 0 && wound > 0.25) return;  // inside; several pieces of one object may be wound the other way round
+  if (told > 0 && wound > 0.999 && wound < 1.001) wrong("nearest", "the flight is inside of an object");
   if (told > expected + 1e-14 * expected + kRoundoff * rounding_) {
     // Merging may move corners, and triangles as narrow as rounding are dropped: within that either is right.
     if (told > expected + rounding)
@@ -182,7 +204,7 @@ void FlightJudge::judge_failures() {
     fails = fails || !target.followed || target.followed->duration_s() < dwell;
     judge_followed(target, longest);
   }
-  fails = fails || check_.nearest.distance_m < drawn_.options.clearance_m.value_or(0);
+  fails = fails || check_.nearest.distance_m == 0 || check_.nearest.distance_m < drawn_.options.clearance_m.value_or(0);
   if (fails == check_.passes()) wrong("verdict", fails ? "it passes" : check_.failures[0]);
 }
 

@@ -131,12 +131,17 @@ class FlightJudge {
 
   void judge_navigation();
 
+  void judge_ground(const vantage::BrokenLimit* told);
+
   /// It is what the place says, and hardly less than elsewhere.
   void judge_worst(const vantage::BrokenLimit& limit, const MarginsAt& margins, bool is_measured);
 
   // ---- the rest ----
 
   std::vector<std::uint32_t> ground_objects() const;
+
+  /// Of the objects but the ground the largest of how often one is wound round a place: 1 inside of a closed one.
+  double most_wound(const Vec3& place, const std::vector<std::uint32_t>& ground) const;
 
   void judge_nearest();
 

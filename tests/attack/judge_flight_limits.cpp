@@ -1,7 +1,10 @@
 // Where limits are broken along a flight.
 #include <map>
+#include <optional>
 
 #include "judge_flight.h"
+#include "vantage/error.h"
+#include "vantage/ground.h"
 
 namespace attack {
 
@@ -52,7 +55,44 @@ void FlightJudge::judge_navigation() {
     if (found != told.end()) judge_worst(*found->second, margins, margin.is_measured);
     told.erase(margin.limit);
   }
+  judge_ground(told.contains("ground") ? told["ground"] : nullptr);
+  told.erase("ground");
   for (const auto& [name, limit] : told) wrong("limit", "there is none of the name " + name);
+}
+
+/// No middle of a leg is below the ground, but for 1 m where it takes off or lands. That is a limit of heights above
+/// ground from 0 on.
+void FlightJudge::judge_ground(const vantage::BrokenLimit* told) {
+  const auto& asked = drawn_.mission.navigation.above_ground;
+  std::optional<vantage::Ground> ground;
+  try {
+    if (!asked || asked->min_m < 0) ground = ground_of(drawn_.mission);
+  } catch (const vantage::Error&) {  // the scene does not say what of it is ground
+  }
+  if (!ground) {
+    if (told) wrong("ground", "there is none");
+    return;
+  }
+  vantage::Navigation above;
+  above.above_ground = vantage::AboveGround{0, 1e9, *ground};
+  const NavigationMargins margins(above);
+  const auto depth_at = [&](const Vec3& p) {
+    for (const Margin& margin : margins.at(p)) {
+      if (margin.limit == "agl min") return margin;
+    }
+    return Margin{"agl min", 0, 0};
+  };
+  bool is_sure = false;
+  for (const FlightPlace& at : places({}, 4, 4)) {
+    const Vec3 way = leg(at.leg).to - leg(at.leg).from;
+    const bool is_end = at.leg == 0 || at.leg + 1 == leg_count();
+    const bool may_touch = std::abs(way.z()) > 1 && (is_end || way.head<2>().norm() < 1);
+    is_sure = is_sure || -depth_at(at.position).high > (may_touch ? 1 : 1e-3) + rounding_of(at.position);
+  }
+  if (is_sure && !told) wrong("ground", "it is not told that the flight is below");
+  if (told && -depth_at(told->worst_at).low < 1e-3 - 8 * rounding_of(told->worst_at)) {
+    wrong("ground", "told at " + place_text(told->worst_at));
+  }
 }
 
 void FlightJudge::judge_worst(const vantage::BrokenLimit& limit, const MarginsAt& margins, bool is_measured) {
