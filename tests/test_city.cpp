@@ -524,6 +524,12 @@ TEST_F(CityTest, DefaultsCanBeSet) {
   EXPECT_NEAR(record_of(set, "way/1").top_m, 8, 1e-9);
   EXPECT_NEAR(record_of(set, "way/2").top_m, 4, 1e-9);
   EXPECT_NEAR(record_of(set, "way/3").top_m, 20, 1e-9);
+  MapText levels;
+  levels.box(0, 0, 20, 20, {{"amenity", "parking"}, {"building:levels", "5"}});
+  levels.box(30, 0, 50, 20, {{"building:levels", "5"}, {"roof:shape", "gabled"}});
+  const City stand_ins = build(levels, options);
+  EXPECT_NEAR(record_of(stand_ins, "way/1").top_m, 20, 1e-9) << "of stand-ins, too";
+  EXPECT_GT(record_of(stand_ins, "way/2").top_m, 24) << "its roof is on top of its levels";
 }
 
 TEST_F(CityTest, TakesWhatHasACornerInTheRegionWhole) {
@@ -847,6 +853,20 @@ TEST_F(CityTest, WallsFollowTheGround) {
     EXPECT_LE(above, 1.5 + 3.1) << north;
   }
   EXPECT_TRUE(city.scene.ledger.empty());
+}
+
+TEST_F(CityTest, TreesOfAHedgeStandOnTheGround) {
+  MapText map;
+  map.line({{20, -50}, {20, 50}}, {{"barrier", "hedge"}, {"natural", "tree_row"}});
+  CityOptions options;
+  options.terrain = slope(0.3);
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 400;
+  const City city = build(map, options);
+  const Mesh ground = object_mesh(city.scene, "ground"), row = object_mesh(city.scene, "way/1");
+  const double south = highest_over(ground, 20, -50), north = highest_over(ground, 20, 50);
+  EXPECT_NEAR(bounding_box(row).max.z(), north + OccluderDefaults().tree_m, 0.5);
+  EXPECT_NEAR(bounding_box(row).min.z(), south, 0.5);
 }
 
 TEST_F(CityTest, NoNeedleOfAWoodIsCutOff) {

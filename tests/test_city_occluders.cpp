@@ -51,7 +51,7 @@ void expect_sound(const Built& built) {
 Built line(std::initializer_list<std::pair<std::string, std::string>> tags, const std::vector<Vec2>& points,
            double piece_m = 0) {
   Built built;
-  built.shapes = shapes_of_line(tagged(tags), points, piece_m, OccluderDefaults(), built.remarks);
+  built.shapes = shapes_of_line(tagged(tags), points, piece_m, OccluderDefaults(), BuildingDefaults(), built.remarks);
   expect_sound(built);
   return built;
 }
@@ -163,7 +163,7 @@ TEST(CityOccluders, Towers) {
   EXPECT_EQ(point({{"man_made", "mast"}, {"diameter", "0.01"}}).shapes.size(), 1u);
   Built area;
   area.shapes = shapes_of_area(tagged({{"man_made", "gasometer"}}), {{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {}}},
-                               OccluderDefaults(), area.remarks);
+                               OccluderDefaults(), BuildingDefaults(), area.remarks);
   EXPECT_NEAR(area.volume(), 81 * 30, 1e-6);
 }
 
@@ -183,6 +183,23 @@ TEST(CityOccluders, BridgesCanBeLookedUnder) {
   EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary_link"}}, kStraight).volume(), 100, 0.05);
 }
 
+TEST(CityOccluders, BridgesAreAsWideAsWhatTheyCarry) {
+  const OccluderDefaults usual;
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"aeroway", "taxiway"}}, kStraight).volume(), 20 * usual.ways.at("taxiway"),
+              0.1);
+  EXPECT_NEAR(line({{"bridge", "aqueduct"}, {"waterway", "canal"}, {"highway", "path"}}, kStraight).volume(),
+              20 * usual.ways.at("canal"), 0.1);
+}
+
+TEST(CityOccluders, WallsOnBridgesStandAboveTheDeck) {
+  const double deck = line({{"bridge", "yes"}, {"highway", "path"}}, kStraight).box().max.z();
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"barrier", "fence"}, {"height", "2"}}, kStraight).box().max.z(), deck + 2,
+              1e-9);
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "path"}, {"barrier", "wall"}}, kStraight).box().max.z(), deck + 2,
+              1e-9);
+  EXPECT_NEAR(line({{"bridge", "no"}, {"barrier", "wall"}}, kStraight).box().max.z(), 2, 1e-9);
+}
+
 TEST(CityOccluders, BuildingHeightIsAHeightOfAnything) {
   const std::pair<std::string, std::string> height = {"building:height", "48"};
   EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary"}, height}, kStraight).box().max.z(), 48, 1e-9);
@@ -195,7 +212,7 @@ TEST(CityOccluders, BridgesAreHeldWhereverTheyMayBe) {
     osm::Tags tags = tagged({{"bridge", "yes"}, {"highway", "primary"}});
     for (const auto& tag : more) tags.all.push_back(tag);
     Built built;
-    built.shapes = shapes_of_line(tags, kStraight, 0, OccluderDefaults(), built.remarks);
+    built.shapes = shapes_of_line(tags, kStraight, 0, OccluderDefaults(), BuildingDefaults(), built.remarks);
     return built;
   };
   const auto expect = [](const Built& built, double bottom_m, double top_m) {
@@ -256,7 +273,8 @@ TEST(CityOccluders, RandomTagsAndLines) {
     for (int i = random.integer(2, 9); i > 0; --i) points.emplace_back(random.uniform(0, 40), random.uniform(0, 40));
     if (random.chance(0.3)) points.push_back(points.front());
     Built built;
-    built.shapes = shapes_of_line(tags, points, random.chance(0.5) ? 7 : 0, OccluderDefaults(), built.remarks);
+    built.shapes =
+        shapes_of_line(tags, points, random.chance(0.5) ? 7 : 0, OccluderDefaults(), BuildingDefaults(), built.remarks);
     for (Shape& shape : shapes_of_point(tags, points[0], OccluderDefaults(), BuildingDefaults(), built.remarks))
       built.shapes.push_back(shape);
     expect_sound(built);

@@ -80,6 +80,21 @@ TEST_F(GroundTargetTest, HolesAreNoPartOfIt) {
       << "the building in the middle hides some of it from everywhere within range";
 }
 
+TEST_F(GroundTargetTest, AWallRoundItFillsNoHole) {
+  MapText map(kOrigin);
+  const long outer = map.box(-40, -40, 40, 40, {}), inner = map.box(-10, -10, 10, 10, {});
+  map.relation({{"way", outer, "outer"}, {"way", inner, "inner"}},
+               {{"type", "multipolygon"}, {"leisure", "park"}, {"barrier", "fence"}});
+  map.box(100, -5, 120, 5, {{"building", "yes"}});
+  write_bytes(folder_ / "park.osm", map.text());
+  write_bytes(folder_ / "mission.yaml",
+              "scene: {osm: park.osm, without: [walls]}\nsensor: {max_range: 90}\ntarget: {osm: relation/1}\n");
+  const Mission park = resolve_mission(read_mission(folder_ / "mission.yaml"));
+  double area = 0;
+  for (std::size_t i = 0; i < park.target.parts.size(); ++i) area += area_of(park.target.part(i));
+  EXPECT_NEAR(area, 80 * 80 - 20 * 20, 2);
+}
+
 // ---- areas by their names
 
 class NamedAreaTest : public ::testing::Test {

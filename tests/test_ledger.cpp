@@ -300,13 +300,15 @@ TEST_F(LedgerTest, BuildingsThatAreNoLongerUsedStand) {
   MapText map;
   const std::vector<std::string> standing = {"abandoned:building", "disused:building", "ruins:building",
                                              "construction:building", "abandoned:building:part"};
+  map.box(0, -90, 60, -70, {{"building", "no"}, {"abandoned:building", "yes"}, {"name", "Old"}});
   for (std::size_t i = 0; i < standing.size(); ++i) {
     const double east = 100.0 * static_cast<double>(i);
     map.area({{east, 0}, {east + 60, 0}, {east + 60, 60}, {east, 60}}, {{standing[i], "yes"}, {"height", "40"}});
   }
   map.area({{0, 90}, {60, 90}, {60, 150}, {0, 150}}, {{"razed:building", "yes"}, {"building:levels", "9"}});
   const Scene scene = build(map);
-  for (std::size_t i = 0; i < standing.size(); ++i) expect_block(scene, "way/" + std::to_string(i + 1));
+  for (std::size_t i = 0; i < standing.size(); ++i) expect_block(scene, "way/" + std::to_string(i + 2));
+  EXPECT_FALSE(box_of(scene, "way/1").empty()) << "as a building it is none";
   EXPECT_TRUE(scene.ledger.empty());
 }
 
@@ -323,6 +325,9 @@ TEST_F(LedgerTest, OfTwoThingsInOneObjectTheHigherIsBuilt) {
   EXPECT_NEAR(box_of(scene, "way/2").max.z(), 110, 1e-6);
   EXPECT_NEAR(box_of(scene, "way/3").max.z(), 5, 1e-6) << "its height is known";
   EXPECT_NEAR(box_of(scene, "way/4").max.z(), usual.tree_m, 1e-6);
+  MapText turbine;
+  turbine.box(0, 0, 20, 20, {{"building", "yes"}, {"man_made", "tower"}, {"height:hub", "80"}});
+  EXPECT_GT(box_of(build(turbine), "way/1").max.z(), 80) << "a tower is lower than its hub";
 }
 
 TEST_F(LedgerTest, AMultipolygonHasItsWallWhateverItBounds) {
@@ -340,6 +345,24 @@ TEST_F(LedgerTest, AMultipolygonHasItsWallWhateverItBounds) {
   EXPECT_TRUE(covers(scene, "relation/1", 9.05, 5)) << "along its inner ring";
   EXPECT_FALSE(covers(scene, "relation/1", 20, 0));
   EXPECT_NEAR(box_of(scene, "relation/2").max.z(), OccluderDefaults().tree_m, 1e-6);
+}
+
+// Its ring need not be whole for that.
+TEST_F(LedgerTest, AWallOfARingThatIsNotWholeIsBuilt) {
+  for (const bool is_open : {true, false}) {
+    for (const auto& [key, value] : {std::pair("barrier", "wall"), std::pair("natural", "tree_row")}) {
+      MapText map;
+      const long a = map.node(-30, -30), b = map.node(30, -30), c = map.node(30, 30);
+      const long ring = is_open ? map.way({a, b, c}, {}) : map.way({a, b, c, 99, a}, {});
+      map.relation({{"way", ring, "outer"}}, {{"type", "multipolygon"}, {"leisure", "park"}, {key, value}});
+      map.box(200, -5, 210, 5, {{"building", "yes"}});
+      const Scene scene = build(map);
+      const Box box = box_of(scene, "relation/1");
+      ASSERT_FALSE(box.empty()) << value;
+      EXPECT_GT(box.max.x() - box.min.x(), 59) << value;
+      EXPECT_NE(entry_of(scene, "relation/1").reason, "");
+    }
+  }
 }
 
 TEST_F(LedgerTest, WhatMayBeAnywhereIsToldInEveryRegion) {
@@ -509,6 +532,7 @@ TEST_F(LedgerTest, WhatIsNotInTheOpenOrOnlyFurnitureIsNot) {
                                                 {{"man_made", "obelisk"}, {"layer", "-1"}},
                                                 {{"historic", "monument"}, {"level", "-2"}},
                                                 {{"demolished:man_made", "crane"}},
+                                                {{"demolished:building", "yes"}, {"nycdoitt:bin", "1"}},
                                                 {{"man_made", "crane"}, {"proposed", "yes"}}};
   for (MapText::TagList tags : things) {
     tags.emplace_back("height", "9");
@@ -533,6 +557,8 @@ TEST_F(LedgerTest, WhatSaysAnythingThatStandsIsABlocker) {
                                                 {{"aeroway", "tower"}, {"demolished:building", "yes"}},
                                                 {{"shop", "mall"}, {"razed:building", "yes"}},
                                                 {{"office", "company"}, {"demolished:building", "yes"}},
+                                                {{"telecom", "data_center"}, {"razed:building", "yes"}},
+                                                {{"name", "Old Mill"}, {"disused:waterway", "watermill"}},
                                                 {{"tourism", "artwork"}, {"indoor", "false"}}};
   MapText map;
   for (std::size_t i = 0; i < things.size(); ++i) {

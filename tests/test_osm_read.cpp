@@ -227,7 +227,16 @@ TEST(OsmRead, RefusesObjectsThatAreInNoMap) {
     std::string text = osm_xml(kHouse);
     text.insert(text.find("<node"), "<" + element + ">");
     text.insert(text.find("</osm>"), "</" + element + ">");
-    refused(text, "objects lie in an element of the file that is not of a map: " + element);
+    refused(text, "an element of the file is not of a map: " + element);
+  }
+  refused(osm_xml(kHouse + "<Way id='11'><nd ref='1'/></Way>"), "an element of the file is not of a map: Way");
+  refused(osm_xml("<meta><way id='11'/></meta>" + kHouse),
+          "objects lie in an element of the file that is not of a map");
+  EXPECT_EQ(read_bytes_as_map(osm_xml("<note>free</note><meta osm_base='x'/>" + kHouse)).areas.size(), 1u);
+  for (const std::string member : {R"("actions": [{"type": "way"}])", R"("actions": {"elements": []})"}) {
+    std::string more = kJsonHouse;
+    more.insert(more.rfind('}'), ", " + member);
+    refused(more, "a member of the file is not of a map: actions");
   }
   std::string derived = kJsonHouse;
   derived.replace(derived.find("\"way\""), 5, "\"house\"");

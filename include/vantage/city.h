@@ -64,12 +64,12 @@ struct OccluderDefaults {
   double deck_m = 1;     ///< thickness of a bridge's deck
   double lane_m = 3.5;   ///< width of a lane (lanes=*)
   double track_m = 4.5;  ///< width of a railway track (tracks=*)
-  /// Width of a bridge by highway=*; of others `other_way_m`.
+  /// Width of a bridge by highway=*, aeroway=* or waterway=*; of others `other_way_m`.
   std::map<std::string, double, std::less<>> ways = {
-      {"motorway", 11}, {"trunk", 11},      {"primary", 8},      {"secondary", 7},
-      {"tertiary", 7},  {"residential", 6}, {"unclassified", 6}, {"service", 4},
-      {"track", 3},     {"pedestrian", 4},  {"footway", 2.5},    {"cycleway", 2.5},
-      {"path", 2},      {"steps", 2.5},     {"bridleway", 2.5},  {"living_street", 5}};
+      {"motorway", 11},     {"trunk", 11},       {"primary", 8}, {"secondary", 7}, {"tertiary", 7},
+      {"residential", 6},   {"unclassified", 6}, {"service", 4}, {"track", 3},     {"pedestrian", 4},
+      {"footway", 2.5},     {"cycleway", 2.5},   {"path", 2},    {"steps", 2.5},   {"bridleway", 2.5},
+      {"living_street", 5}, {"taxiway", 25},     {"runway", 45}, {"canal", 15}};
   double other_way_m = 5;
   double tree_m = 10;              ///< height of a tree
   double crown_share = 0.5;        ///< diameter of its crown by its height

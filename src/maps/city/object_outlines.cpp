@@ -39,7 +39,7 @@ MapObjects read_objects(const std::filesystem::path& file, const CityRegion& reg
     std::move(area.polygons.begin(), area.polygons.end(), std::back_inserter(object.area.polygons));
   }
   for (const osm::Line& line : extract.lines) {
-    if (!line.is_closed()) continue;
+    if (!line.is_closed() || line.id.type != osm::ObjectType::way) continue;  // a wall round an area is not it
     of(line.id, line.tags).area.polygons.push_back({{line.points.begin(), line.points.end() - 1}, {}});
   }
   return objects;

@@ -14,17 +14,12 @@ bool is_one_of(std::string_view value, const std::array<std::string_view, N>& kn
 
 bool says_yes(std::string_view value) { return !value.empty() && value != "no" && value != "false"; }
 
-bool is_wall(const osm::Tags& tags) {
-  static constexpr std::array<std::string_view, 6> barriers = {"wall",  "city_wall",  "fence",
-                                                               "hedge", "wire_fence", "retaining_wall"};
-  return is_one_of(tags.get("barrier"), barriers) || tags.get("historic") == "citywalls";
-}
-
+/// Not what says how high its hub is: a tower would be as high as a tower, without the rotor.
 bool is_tower(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 10> towers = {
       "tower",     "communications_tower", "mast",         "chimney", "water_tower", "storage_tank", "silo",
       "gasometer", "lighthouse",           "cooling_tower"};
-  return is_one_of(tags.get("man_made"), towers);
+  return is_one_of(tags.get("man_made"), towers) && any_length_m(tags.get("height:hub")).value_or(0) <= 0;
 }
 
 constexpr std::array<std::string_view, 7> kGone = {"demolished", "razed",     "removed",   "proposed",
@@ -56,7 +51,7 @@ Carried carried(const osm::Tags& tags) {
 /// Whether a tag says how high an object is.
 bool says_its_height(const osm::Tags& tags) {
   static constexpr std::array<std::string_view, 4> keys = {"height", "est_height", "building:height", "height:hub"};
-  return levels_height_m(tags) > 0 || std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+  return says_levels(tags) || std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
            return any_length_m(tags.get(key)).value_or(0) > 0;
          });
 }
@@ -71,6 +66,18 @@ bool names_a_kind(std::string_view key) {
       "public_transport", "tower:type",    "seamark:type",     "artwork_type", "shop",
       "office",           "craft",         "healthcare",       "club",         "roller_coaster"};
   return is_one_of(key, kinds);
+}
+
+/// Whether a key may say what a thing is: all but those that say something about it, or about what was there.
+bool may_name_a_kind(std::string_view key) {
+  static constexpr std::array<std::string_view, 34> about = {
+      "name", "source",   "note",  "fixme",     "FIXME",   "description", "wikidata", "wikipedia", "image",
+      "url",  "website",  "ref",   "start",     "end",     "date",        "height",   "est",       "min",
+      "max",  "levels",   "level", "layer",     "width",   "length",      "material", "colour",    "old",
+      "alt",  "operator", "owner", "architect", "created", "check",       "type"};
+  if (names_a_kind(key)) return true;
+  if (key.find(':') != std::string_view::npos) return false;  // "addr:street", "roof:shape"
+  return !is_one_of(key.substr(0, key.find('_')), about) && !is_one_of(key, kGone);
 }
 
 /// Not in the open, or not there.
@@ -89,7 +96,8 @@ bool stands_nowhere(const osm::Tags& tags) {
     const bool is_over = is_one_of(value, kGone);
     if ((key == "status" || key == "state") && is_over) return true;
     if (is_one_of(key, kGone) && value == "yes") return true;
-    if (names_a_kind(key)) (is_over ? is_gone : is_something) |= says_yes(value);
+    if (is_over && names_a_kind(key)) is_gone = true;
+    if (!is_over && may_name_a_kind(key)) is_something |= says_yes(value);
     const auto past = gone_key(key);
     is_gone |= past && says_yes(value) && names_a_kind(*past);
   }
@@ -201,6 +209,12 @@ bool is_stand_in(const osm::Tags& tags) {
 
 }  // namespace
 
+bool is_wall(const osm::Tags& tags) {
+  static constexpr std::array<std::string_view, 6> barriers = {"wall",  "city_wall",  "fence",
+                                                               "hedge", "wire_fence", "retaining_wall"};
+  return is_one_of(tags.get("barrier"), barriers) || tags.get("historic") == "citywalls";
+}
+
 std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   const bool line = geometry == Geometry::line, area = geometry == Geometry::area;
   const auto no_line = [&](ObjectKind kind) { return line ? std::nullopt : std::optional(kind); };
@@ -222,6 +236,13 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   if (is_stand_in(tags)) return ObjectKind::stand_in;
   return is_bridge && carried(tags) == Carried::nothing ? std::optional(ObjectKind::bridge) : std::nullopt;
 }
+
+bool says_levels(const osm::Tags& tags) {
+  return std::max(roughly_levels(tags.get("building:levels")).value_or(0),
+                  roughly_levels(tags.get("building:part:levels")).value_or(0)) > 0;
+}
+
+bool is_on_bridge(const osm::Tags& tags) { return says_yes(tags.get("bridge")) && carried(tags) != Carried::gone; }
 
 std::optional<ObjectKind> kind_besides(const osm::Tags& tags) {
   osm::Tags others = tags;

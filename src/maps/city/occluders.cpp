@@ -103,6 +103,8 @@ std::vector<std::vector<Vec2>> pieces_of(const std::vector<Vec2>& line, double p
 
 // ---- walls ----
 
+BuildingForm bridge_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
+
 OccluderDefaults::Size wall_size(const osm::Tags& tags, const OccluderDefaults& defaults,
                                  std::vector<TagRemark>& remarks) {
   const std::string_view barrier = tags.get("barrier");
@@ -128,10 +130,17 @@ BuildingForm upright(const osm::Tags& tags, double height_m, std::vector<TagRema
   return form;
 }
 
+/// On a bridge from the ground to above its deck.
+BuildingForm wall_form(const osm::Tags& tags, double height_m, const OccluderDefaults& defaults,
+                       std::vector<TagRemark>& remarks) {
+  std::vector<TagRemark> unheard;
+  return upright(tags, is_on_bridge(tags) ? bridge_form(tags, defaults, unheard).top_m : height_m, remarks);
+}
+
 std::vector<Shape> walls_along(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   const OccluderDefaults::Size size = wall_size(tags, defaults, remarks);
-  const BuildingForm form = upright(tags, size.height_m, remarks);
+  const BuildingForm form = wall_form(tags, size.height_m, defaults, remarks);
   std::vector<Shape> shapes;
   const std::vector<std::vector<Vec2>> pieces = pieces_of(points, piece_m);
   for (const std::vector<Vec2>& piece : pieces) {
@@ -201,18 +210,28 @@ BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, 
   return form;
 }
 
+/// With the wall that is drawn as one with it.
+BuildingForm bridge_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  BuildingForm form = deck_form(tags, defaults, remarks);
+  if (is_wall(tags)) form.top_m += wall_size(tags, defaults, remarks).height_m;
+  return form;
+}
+
 double deck_width(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   if (const auto width = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks)) return *width;
   const auto count = [&](std::string_view key, double most) {
     const std::optional<double> number = parse_levels(tags.get(key));
     return number && *number >= 1 && *number <= most ? *number : 0;
   };
-  std::string_view highway = tags.get("highway");
-  if (highway.empty()) return defaults.track_m * std::max(1.0, count("tracks", 20));
-  if (const double lanes = count("lanes", 20); lanes > 0) return defaults.lane_m * lanes;
-  if (highway.ends_with("_link")) return defaults.other_way_m;
-  const auto found = defaults.ways.find(highway);
-  return found == defaults.ways.end() ? defaults.other_way_m : found->second;
+  const double lanes = count("lanes", 20);
+  double width = 0;
+  for (const std::string_view key : {"highway", "aeroway", "waterway"}) {
+    if (!tags.has(key)) continue;
+    const auto found = defaults.ways.find(tags.get(key));
+    const double usual = found == defaults.ways.end() ? defaults.other_way_m : found->second;
+    width = std::max(width, key == "highway" && lanes > 0 ? defaults.lane_m * lanes : usual);
+  }
+  return width > 0 ? width : defaults.track_m * std::max(1.0, count("tracks", 20));
 }
 
 // ---- trees ----
@@ -240,10 +259,17 @@ Tree tree_of(const osm::Tags& tags, const OccluderDefaults& defaults, std::vecto
 constexpr double kThinLine = 1;   // metres: width of a line that says none
 constexpr double kMostPipe = 20;  // metres: diameter=* beyond that is in millimetres
 
-BuildingForm stand_in_form(const osm::Tags& tags, std::vector<TagRemark>& remarks) {
-  double height = tagged_height(tags, kMostHeight, remarks).value_or(levels_height_m(tags));
-  // A hub says how high the axis is; the rotor goes on above it.
+/// As high as its height or its hub; where it says only how many levels it has, as a building with them.
+BuildingForm stand_in_form(const osm::Tags& tags, const BuildingDefaults& buildings, std::vector<TagRemark>& remarks) {
+  const std::optional<double> said = tagged_height(tags, kMostHeight, remarks);
   const auto hub = tagged_length(tags, {"height:hub"}, kMostHeight, remarks);
+  double height = said.value_or(0);
+  if (!said && says_levels(tags)) {
+    const BuildingForm form = read_form(tags, nullptr, buildings, remarks);
+    if (!hub) return form;
+    height = form.top_m;
+  }
+  // A hub says how high the axis is; the rotor goes on above it.
   const auto rotor = tagged_length(tags, {"rotor:diameter"}, kMostRotor, remarks);
   if (hub) height = std::max(height, *hub + (rotor ? *rotor / 2 : column_radius_m(tags, *hub / (1 - kRotorShare))));
   return upright(tags, std::max(height, kLeastSize), remarks);
@@ -272,17 +298,6 @@ std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& p
 
 }  // namespace
 
-double levels_height_m(const osm::Tags& tags) {
-  constexpr double kMostLevels = 300;
-  const BuildingDefaults usual;
-  const auto levels = [&](std::string_view key) {
-    const double count = roughly_levels(tags.get(key)).value_or(0);
-    return count > 0 && count <= kMostLevels ? count : 0;
-  };
-  const double storeys = std::max(levels("building:levels"), levels("building:part:levels"));
-  return storeys == 0 ? 0 : storeys * usual.level_m + levels("roof:levels") * usual.roof_level_m;
-}
-
 void PlanBounds::extend(const Vec2& point) {
   min = min.cwiseMin(point);
   max = max.cwiseMax(point);
@@ -309,7 +324,8 @@ PlanBounds bounds_of(const std::vector<Shape>& shapes) {
 }
 
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
-                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+                                  const OccluderDefaults& defaults, const BuildingDefaults& buildings,
+                                  std::vector<TagRemark>& remarks) {
   const std::optional<ObjectKind> kind = kind_of(tags, Geometry::line);
   const bool finite = std::all_of(points.begin(), points.end(), [](const Vec2& p) { return p.allFinite(); });
   std::vector<Shape> shapes;
@@ -321,14 +337,15 @@ std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>
     }
     if (kind == ObjectKind::bridge) {
       const bool closed = points.size() > 3 && points.front() == points.back();
-      shapes = extruded(widen(points, closed, deck_width(tags, defaults, remarks)), deck_form(tags, defaults, remarks));
+      shapes =
+          extruded(widen(points, closed, deck_width(tags, defaults, remarks)), bridge_form(tags, defaults, remarks));
     }
     if (kind == ObjectKind::stand_in) {
       std::optional<double> width = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks);
       if (!width) width = tagged_length(tags, {"diameter"}, 1000 * kMostPipe, remarks);
       if (width && *width > kMostPipe && !tags.has("width") && !tags.has("est_width")) *width /= 1000;
       const bool closed = points.size() > 3 && points.front() == points.back();
-      shapes = extruded(widen(points, closed, width.value_or(kThinLine)), stand_in_form(tags, remarks));
+      shapes = extruded(widen(points, closed, width.value_or(kThinLine)), stand_in_form(tags, buildings, remarks));
     }
   }
   if (shapes.empty() && kind)
@@ -351,20 +368,23 @@ std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, con
   }
   if (!kind) return {};
   const bool is_stand_in = kind == ObjectKind::stand_in;
-  const BuildingForm form = is_stand_in ? stand_in_form(tags, remarks) : read_form(tags, nullptr, buildings, remarks);
+  const BuildingForm form =
+      is_stand_in ? stand_in_form(tags, buildings, remarks) : read_form(tags, nullptr, buildings, remarks);
   // What stands in is round what it stands in for: its sides on the circle.
   const double width = column_width(tags, form.top_m, remarks) / std::cos(std::numbers::pi / kTowerSides);
   return extruded(column(point, std::max(width, kLeastTower)), form);
 }
 
 std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
-                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+                                  const OccluderDefaults& defaults, const BuildingDefaults& buildings,
+                                  std::vector<TagRemark>& remarks) {
   const std::optional<ObjectKind> kind = kind_of(tags, Geometry::area);
   if (kind == ObjectKind::tower) return extruded(area, tower_form(tags, defaults, remarks));
-  if (kind == ObjectKind::bridge) return extruded(area, deck_form(tags, defaults, remarks));
-  if (kind == ObjectKind::stand_in) return extruded(area, stand_in_form(tags, remarks));
-  if (kind == ObjectKind::wall)
-    return extruded(area, upright(tags, wall_size(tags, defaults, remarks).height_m, remarks));
+  if (kind == ObjectKind::bridge) return extruded(area, bridge_form(tags, defaults, remarks));
+  if (kind == ObjectKind::stand_in) return extruded(area, stand_in_form(tags, buildings, remarks));
+  if (kind == ObjectKind::wall) {
+    return extruded(area, wall_form(tags, wall_size(tags, defaults, remarks).height_m, defaults, remarks));
+  }
   return {};
 }
 

@@ -29,8 +29,12 @@ std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
 /// wind turbine.
 std::optional<ObjectKind> kind_besides(const osm::Tags& tags);
 
-/// Of all levels, in the roof, too; 0: none is said.
-double levels_height_m(const osm::Tags& tags);
+/// Whether a tag says how many levels an object has.
+bool says_levels(const osm::Tags& tags);
+
+/// Whatever else it is: a fence may stand on a bridge.
+bool is_wall(const osm::Tags& tags);
+bool is_on_bridge(const osm::Tags& tags);
 
 /// A stand-in, a wood or a crane, of which no tag says how high it is: it is told of, and nothing is built.
 bool lacks_height(const osm::Tags& tags, Geometry geometry);
@@ -85,7 +89,8 @@ PlanBounds bounds_of(const std::vector<Shape>& shapes);
 /// one. Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height; the top is at its
 /// height where that is said. Empty, with a remark, for what has no length.
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
-                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
+                                  const OccluderDefaults& defaults, const BuildingDefaults& buildings,
+                                  std::vector<TagRemark>& remarks);
 
 /// The shapes of a point: towers (regular 16-gons), trees, and columns that stand in for buildings and other things.
 std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
@@ -93,7 +98,8 @@ std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, con
 
 /// The shapes of an area, cleaned: towers, bridges, walls drawn as areas, stand-ins.
 std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
-                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
+                                  const OccluderDefaults& defaults, const BuildingDefaults& buildings,
+                                  std::vector<TagRemark>& remarks);
 
 /// As make_solid does it for buildings; `ground_m`: z of the ground that the heights count from.
 CitySolid make_solid(const Shape& shape, double ground_m);

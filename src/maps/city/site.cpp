@@ -327,6 +327,7 @@ class OccluderSorter {
         frame_(frame),
         options_(options),
         defaults_(options.occluder_defaults),
+        levels_(options.defaults),
         piece_m_(options.terrain.empty() ? 0 : kWallPiece) {}
 
   void sort(const osm::Extract& extract) {
@@ -345,7 +346,8 @@ class OccluderSorter {
     for (const osm::Line& line : extract.lines) {
       std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);
       const bool has_model = kind && kind != ObjectKind::stand_in, means_area = osm::means_area(line.tags);
-      if (line.is_closed() && means_area && !has_model) continue;  // it is among the areas
+      const bool is_member = line.id.type == osm::ObjectType::relation;
+      if ((line.is_closed() || is_member) && means_area && !has_model) continue;  // it is among the areas
       // A wood or a tank whose outline is not closed is none the less an area; so is what is closed and no line.
       const bool is_area = kind ? !has_model && (line.is_closed() ? !osm::is_linear(line.tags) : means_area)
                                 : !overhead_height_m(line.tags);
@@ -361,7 +363,7 @@ class OccluderSorter {
       PlanBounds drawn;
       for (const Vec2& at : points) drawn.extend(at);
       add(line.id, line.tags, *kind, line.points, drawn, {},
-          [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, remarks); });
+          [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, levels_, remarks); });
     }
     if (options_.occluders.lines) add_overhead(extract);
     for (const osm::Point& point : extract.points) {
@@ -370,7 +372,7 @@ class OccluderSorter {
       if (!is_switched_on(kind, point.tags, options_.occluders)) continue;
       const Vec2 place = frame_.to_local(point.position);
       add(point.id, point.tags, *kind, std::vector{point.position}, {place, place}, {},
-          [&](auto& remarks) { return shapes_of_point(point.tags, place, defaults_, options_.defaults, remarks); });
+          [&](auto& remarks) { return shapes_of_point(point.tags, place, defaults_, levels_, remarks); });
     }
   }
 
@@ -431,16 +433,16 @@ class OccluderSorter {
     const bool is_wide = !line.empty() && (area.tags.has("width") || area.tags.has("est_width"));
     const std::size_t before = site_.items.size();
     add(area.id, area.tags, kind, area, drawn, repairs, [&](auto& remarks) {
-      std::vector<Shape> shapes = shapes_of_area(area.tags, footprints, defaults_, remarks);
+      std::vector<Shape> shapes = shapes_of_area(area.tags, footprints, defaults_, levels_, remarks);
       for (const osm::Tags& heights : area.heights) {
         const osm::Tags tags = osm::with_heights(area.tags, heights);
-        const std::vector<Shape> higher = shapes_of_area(tags, std::vector<Footprint>(1), defaults_, remarks);
+        const std::vector<Shape> higher = shapes_of_area(tags, std::vector<Footprint>(1), defaults_, levels_, remarks);
         for (Shape& shape : shapes) {
           if (!higher.empty()) shape.form = joined(shape.form, higher.front().form);
         }
       }
       if (!is_wide) return shapes;
-      const std::vector<Shape> wide = shapes_of_line(area.tags, line, piece_m_, defaults_, remarks);
+      const std::vector<Shape> wide = shapes_of_line(area.tags, line, piece_m_, defaults_, levels_, remarks);
       shapes.insert(shapes.end(), wide.begin(), wide.end());
       return shapes;
     });
@@ -484,6 +486,7 @@ class OccluderSorter {
   const geo::LocalFrame& frame_;
   const CityOptions& options_;
   const OccluderDefaults& defaults_;
+  const BuildingDefaults& levels_;
   double piece_m_;
 };
 

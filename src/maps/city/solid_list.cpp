@@ -119,7 +119,7 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   std::vector<Standing> all;
   const bool is_wall = item.record.object.kind == ObjectKind::wall;
   for (const Shape& shape : item.shapes) {
-    if (!is_wall && item.record.object.kind != ObjectKind::stand_in) {
+    if (shape.tree || (!is_wall && item.record.object.kind != ObjectKind::stand_in)) {
       all.push_back({shape, ground_under(item, shape, ground, together)});
       continue;
     }

@@ -127,7 +127,7 @@ struct ReadOptions {
 
 struct Extract {
   std::vector<Area> areas;  ///< in the order of type and id, as all lists here
-  std::vector<Line> lines;  ///< wanted ways, closed ones that are areas excepted
+  std::vector<Line> lines;  ///< wanted ways, closed ones that are areas excepted; members of areas with a wall round
   std::vector<Point> points;
   std::vector<BuildingRelation> building_relations;
   std::vector<Problem> problems;

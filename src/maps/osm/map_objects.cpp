@@ -277,7 +277,8 @@ Tags to_tags(const osmium::TagList& list) {
     std::string key = take();
     tags.all.emplace_back(std::move(key), take());
   }
-  // "abandoned:building=yes" still stands. https://wiki.openstreetmap.org/wiki/Lifecycle_prefix
+  // "abandoned:building=yes" still stands. Not so ways, which would make no blocker of what they cross.
+  // https://wiki.openstreetmap.org/wiki/Lifecycle_prefix
   constexpr std::array<std::string_view, 5> kStanding = {
       "abandoned:", "disused:", "ruins:", "ruined:", "construction:"};
   for (std::size_t i = 0, count = tags.all.size(); i < count; ++i) {
@@ -286,9 +287,15 @@ Tags to_tags(const osmium::TagList& list) {
         std::find_if(kStanding.begin(), kStanding.end(), [&](std::string_view one) { return key.starts_with(one); });
     if (prefix == kStanding.end()) continue;
     std::string plain(key.substr(prefix->size()));
-    if (plain.empty() || tags.has(plain)) continue;
+    if (plain.empty() || plain == "highway" || plain == "waterway") continue;
+    if (tags.has(plain) && tags.get(plain) != "no") continue;
     std::string value = tags.all[i].second;
-    tags.all.emplace_back(std::move(plain), std::move(value));
+    const auto denied = std::find(tags.all.begin(), tags.all.end(), std::pair<std::string, std::string>(plain, "no"));
+    if (denied != tags.all.end()) {
+      denied->second = std::move(value);
+    } else {
+      tags.all.emplace_back(std::move(plain), std::move(value));
+    }
   }
   return tags;
 }

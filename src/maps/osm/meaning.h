@@ -14,7 +14,7 @@ bool means_area(const Tags& tags);
 /// A closed way with these tags is a line, whether or not it bounds an area besides: a wall round a garden.
 bool means_line(const Tags& tags);
 
-/// A multipolygon with these tags has a wall or trees along its rings, whatever it bounds besides.
+/// A multipolygon with these tags has a wall or trees along its members, whatever it bounds besides.
 bool has_line_round(const Tags& tags);
 
 /// What they name is a line by nature, open or closed: a barrier, a dyke, a track.

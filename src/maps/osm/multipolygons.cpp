@@ -187,14 +187,9 @@ void Multipolygons::build_area(const osmium::Relation& relation, Tags tags, Memb
   add_rings_of_others(relation, area.tags, members.there);
   if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), area.tags, false));
   if (!old_style && has_line_round(area.tags)) {  // else its ways are lines
-    const auto add_line = [&](const Ring& ring) {
-      Line& line = extract_.lines.emplace_back(Line{area.id, area.tags, ring});
-      line.points.push_back(ring.front());
-    };
-    for (const Polygon& polygon : area.polygons) {
-      if (polygon.incomplete) continue;
-      add_line(polygon.outer);
-      for (const Ring& hole : polygon.holes) add_line(hole);
+    for (const MemberWay& member : members.there) {
+      std::vector<LonLat> points = positions(*member.way);
+      if (points.size() > 1) extract_.lines.push_back({area.id, area.tags, std::move(points)});
     }
   }
   extract_.areas.push_back(std::move(area));

@@ -53,6 +53,12 @@ item_type type_of(std::string_view name) {
                               : item_type::undefined;
 }
 
+/// Elements that say something about the map, and hold nothing of it.
+bool is_about_map(std::string_view name) {
+  return name == "bounds" || name == "bound" || name == "note" || name == "meta" || name == "remark" ||
+         name == "count" || name == "area" || name == "timeline" || name == "changeset" || name == "user";
+}
+
 /// What is told of a remark: of an error alone. Overpass also remarks on what it did not mind.
 std::string error_in(const std::string& remark) {
   if (remark.find("error") == std::string::npos) return {};
@@ -224,6 +230,7 @@ class XmlReader {
       object_ = TextObject();
       object_.type = type_of(name);
       is_object_ = object_.type != item_type::undefined;
+      if (!is_object_ && !is_about_map(name)) refuse("an element of the file is not of a map: " + printable(name));
       is_wanted_ = is_object_ && writer_.wants(object_.type);
       if (is_wanted_) begin_object(attributes);
     } else if (is_object_) {
@@ -395,6 +402,7 @@ class JsonReader {
   JsonReader(ObjectWriter& writer, Characters& characters) : writer_(writer), characters_(characters) {}
 
   bool has_elements() const { return has_elements_; }
+  const std::string& unknown() const { return unknown_; }  ///< a list or an object that may hold some of the map
   const std::string& remark() const { return remark_; }
 
   // What the parser calls. They return whether to go on.
@@ -415,6 +423,7 @@ class JsonReader {
   bool start_object(std::size_t /*size*/) {
     const In around = in_.empty() ? In::other : in_.back();
     if (in_.empty()) return enter(In::top);
+    note_unknown();
     if (around == In::elements) {
       object_ = TextObject();
       type_.clear();
@@ -439,6 +448,7 @@ class JsonReader {
       has_elements_ = true;
       return enter(In::elements);
     }
+    note_unknown();
     if (is_in(In::element) && key_ == "nodes") return enter(In::nodes);
     if (is_in(In::element) && key_ == "members") {
       own_positions_.swap(positions_);
@@ -474,6 +484,9 @@ class JsonReader {
 
   [[noreturn]] void refuse(const std::string& problem) const {
     throw RefusedInput(ErrorCode::map_syntax, problem, characters_.place(), kFetchAgain);
+  }
+  void note_unknown() {
+    if (is_in(In::top) && key_ != "elements" && key_ != "osm3s" && key_ != "bounds") unknown_ = key_;
   }
   bool is_in(In what) const { return !in_.empty() && in_.back() == what; }
   bool enter(In what) {
@@ -563,7 +576,7 @@ class JsonReader {
   ObjectWriter& writer_;
   Characters& characters_;
   std::vector<In> in_;
-  std::string key_, type_, remark_;
+  std::string key_, type_, remark_, unknown_;
   TextObject object_;
   std::vector<osmium::Location> positions_, own_positions_;  ///< of the list at hand; of the element, meanwhile
   double longitude_ = std::nan(""), latitude_ = std::nan(""), own_longitude_ = std::nan(""),
@@ -584,6 +597,10 @@ std::string read_json(TextInput& input, std::string part, ObjectWriter& writer,
   JsonReader reader(writer, characters);
   nlohmann::json::sax_parse(CharacterIterator{&characters}, CharacterIterator{}, &reader);
   if (!reader.has_elements()) refuse_format(start);
+  if (!reader.unknown().empty()) {
+    throw RefusedInput(ErrorCode::map_syntax, "a member of the file is not of a map: " + printable(reader.unknown()),
+                       "", kFetchAgain);
+  }
   writer.flush();
   return error_in(reader.remark());
 }
