@@ -75,7 +75,9 @@ std::map<std::string, ObjectKind> told_of(const City& city) {
   for (const CityRecord& record : city.report.records) tell(record.object);
   for (const CityPassedOver& one : city.report.passed_over) tell(one.object);
   for (const LedgerEntry& entry : city.scene.ledger) {
-    const bool is_group = entry.reason.find("outlines and parts") != std::string::npos;
+    // Of a building relation the parts may be built, and its outline at fault.
+    const bool is_group =
+        entry.reason.find("outlines and parts") != std::string::npos || entry.what == "type=building";
     if (!entry.stand_in && !is_group) tell(entry.object);
   }
   return told;
