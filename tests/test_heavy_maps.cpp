@@ -76,8 +76,7 @@ std::map<std::string, ObjectKind> told_of(const City& city) {
   for (const CityPassedOver& one : city.report.passed_over) tell(one.object);
   for (const LedgerEntry& entry : city.scene.ledger) {
     // Of a building relation the parts may be built, and its outline at fault.
-    const bool is_group =
-        entry.reason.find("outlines and parts") != std::string::npos || entry.what == "type=building";
+    const bool is_group = entry.reason.find("outlines and parts") != std::string::npos || entry.what == "type=building";
     if (!entry.stand_in && !is_group) tell(entry.object);
   }
   return told;
