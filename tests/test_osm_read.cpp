@@ -241,6 +241,9 @@ TEST(OsmRead, RefusesObjectsThatAreInNoMap) {
   std::string derived = kJsonHouse;
   derived.replace(derived.find("\"way\""), 5, "\"house\"");
   refused(derived, "an element is no node, way or relation: its type is house");
+  derived = kJsonHouse;
+  derived.replace(derived.find("\"way\""), 5, "\"area\"");
+  refused(derived, "an area of Overpass has no outline; ask for ways and relations instead");
 }
 
 TEST(OsmRead, RefusesBrokenJson) {

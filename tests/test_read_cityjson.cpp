@@ -452,6 +452,7 @@ TEST(ReadCityJson, PartsStandForTheirWholeIfAllAreThereAndHaveABody) {
   const json extent = {100, 100, 30, 200, 200, 80};
   const auto is_held = [&](const json& children, const char* type, const json& body) {
     json file = document();
+    file["vertices"].push_back({400, 400, 400});
     json& objects = file["CityObjects"];
     objects["part"] = {{"type", type}, {"geometry", body}};
     objects["whole"] = {{"type", "Building"}, {"children", children}, {"geographicalExtent", extent}};
@@ -468,7 +469,10 @@ TEST(ReadCityJson, PartsStandForTheirWholeIfAllAreThereAndHaveABody) {
   const json flat = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
   const json nothing = json::array({geometry("MultiSurface", "1", json::array({json::array({{0, 0, 0}})}))});
   const json shell = json::array({geometry("Solid", "1", json::array({json::array()}))});
-  for (const json& none : {flat, nothing, shell}) EXPECT_TRUE(is_held({"part"}, "BuildingPart", none)) << none;
+  const json line = json::array({geometry("MultiSurface", "1", json::array({json::array({{0, 7, 8}})}))});
+  const json level = json::array({geometry("MultiSurface", "1", json::array({json::array({{0, 1, 3, 2}})}))});
+  for (const json& none : {flat, nothing, shell, line, level})
+    EXPECT_TRUE(is_held({"part"}, "BuildingPart", none)) << none;
   EXPECT_TRUE(is_held({"whole"}, "BuildingPart", body));
 }
 
@@ -486,7 +490,7 @@ TEST(ReadCityJson, StandInsAreAsHighAsAnythingSays) {
     EXPECT_EQ(missing.entry.box->max.z(), missing.holder.triangles.empty() ? 0 : bounding_box(missing.holder).max.z());
     return missing.entry.box->max.z();
   };
-  const json none = json::array(), low = {0, 0, 30, 9, 9, 35}, thin = {0, 0, 30, 9, 9, 30};
+  const json none = json::array(), low = {9, 19, 30, 13, 23, 35}, thin = {9, 19, 30, 13, 23, 30};
   const json flat = json::array({geometry("MultiSurface", "0", json::array({json::array({{0, 1, 3, 2}})}))});
   const json level = json::array({geometry("MultiSurface", "2", json::array({json::array({{0, 1, 3, 2}})}))});
   const json points = json::array({geometry("MultiPoint", "1", json::array({0, 1, 2, 3}))});
@@ -497,6 +501,55 @@ TEST(ReadCityJson, StandInsAreAsHighAsAnythingSays) {
   EXPECT_EQ(top(low, {}, flat), 35);
   EXPECT_EQ(top({}, 20, points), 50);
   EXPECT_EQ(top({}, 20, level), 50);
+}
+
+// An extent that is wider than the footprint holds what it says; one that tells no more than that is no height.
+TEST(ReadCityJson, ExtentsCountBesideFootprints) {
+  const auto with_extent = [](const json& extent, const json& height = {}, const char* lod = "0") {
+    json file = document();
+    json& object = file["CityObjects"]["b1"];
+    object["geometry"] = json::array({geometry("MultiSurface", lod, json::array({json::array({{0, 1, 3, 2}})}))});
+    object["geographicalExtent"] = extent;
+    if (!height.is_null()) object["attributes"]["measuredHeight"] = height;
+    file["vertices"][3] = {200, 200, 100};  // a corner that is 1 m higher
+    return read(file).ledger;
+  };
+  const auto top = [](const io::Missing& missing) { return bounding_box(missing.holder).max; };
+  const auto wide = with_extent({10, 20, 30, 20, 22, 40}, 5);
+  ASSERT_EQ(wide.size(), 2u);
+  EXPECT_EQ(top(wide[0]), Vec3(12, 22, 40));
+  EXPECT_EQ(top(wide[1]), Vec3(20, 22, 40));
+  const auto elsewhere = with_extent({1e7, 20, 30, 2e7, 22, 40}, 5);
+  ASSERT_EQ(elsewhere.size(), 2u);
+  EXPECT_EQ(top(elsewhere[0]), Vec3(12, 22, 36));
+  const auto same = with_extent({10, 20, 30, 12, 22, 31.001});
+  ASSERT_EQ(same.size(), 1u);
+  EXPECT_TRUE(same[0].holder.triangles.empty());
+  EXPECT_FALSE(same[0].entry.box->max.allFinite());
+  const auto roof = with_extent({10, 20, 25, 12, 22, 31}, {}, "0.3");
+  ASSERT_EQ(roof.size(), 1u);
+  EXPECT_NEAR(std::abs(enclosed_volume(roof[0].holder)), 2 * (2 * 2 * 6), 1e-9) << "by both diagonals";
+}
+
+TEST(ReadCityJson, WhatHasNoHeightMayReachAnywhere) {
+  json file = document();
+  json& objects = file["CityObjects"];
+  objects["flat"] = {{"type", "Building"}, {"geographicalExtent", {100, 100, 30, 120, 110, 30}}};
+  objects["points"] = {{"type", "Building"}, {"geometry", json::array({geometry("MultiPoint", "1", {0, 1, 2, 3})})}};
+  const auto ledger = read(file).ledger;
+  ASSERT_EQ(ledger.size(), 2u);
+  for (const auto& [entry, holder, is_stated] : ledger) {
+    EXPECT_TRUE(holder.triangles.empty());
+    EXPECT_FALSE(entry.box->max.allFinite()) << entry.object.source_id;
+  }
+}
+
+TEST(ReadCityJson, AnEmptyGeometryBesideOthersIsTold) {
+  json file = document();
+  file["CityObjects"]["b1"]["geometry"].push_back(geometry("Solid", "1", json::array()));
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  testing::expect_wording(told(mesh));
 }
 
 TEST(ReadCityJson, AnEmptyGeometryDoesNotTakeTheBodyOfAnotherLevel) {

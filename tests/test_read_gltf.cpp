@@ -114,7 +114,7 @@ TEST(ReadGltf, ReadsStripsFansAndUnindexedTriangles) {
   json gltf = document();
   json& primitive = gltf["meshes"][0]["primitives"][0];
   primitive.erase("indices");
-  EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}}));  // four vertices: one triangle and a rest
+  expect_unreadable(embedded(gltf), ErrorCode::mesh_syntax);  // four vertices: one triangle and a rest
   primitive["mode"] = 5;
   EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}, {1, 3, 2}}));
   primitive["mode"] = 6;
@@ -144,6 +144,8 @@ TEST(ReadGltf, ReadsStridesSparseAndQuantizedPositions) {
   gltf["meshes"][0]["primitives"][0].erase("indices");
   const RawMesh mesh = read_as("a.gltf", embedded(gltf, bytes).dump());
   EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 1)}));
+  bytes.replace(12, 2, bytes_of(std::uint16_t{3}));  // there is no such vertex
+  expect_unreadable(embedded(gltf, bytes), ErrorCode::mesh_syntax);
 }
 
 TEST(ReadGltf, TakesTheDefaultScene) {
@@ -199,6 +201,8 @@ TEST(ReadGltf, NamesWhatIsWrong) {
   expect_error([] { read_as("bad.gltf", R"({"asset": )"); }, ErrorCode::mesh_syntax);
   expect_error([] { read_as("bad.gltf", "{" + std::string(1000000, '[')); }, ErrorCode::mesh_syntax);
   expect_error([] { read_as("bad.gltf", "{\"a\":" + std::string(1000000, '[')); }, ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5}),
+                    ErrorCode::mesh_syntax);
 }
 
 TEST(ReadGltf, FindsIndicesAndCoordinatesThatAreWrong) {

@@ -296,6 +296,9 @@ TEST(ReadGltfPacked, SparseAccessorsMayBeginAsZeros) {
   ASSERT_EQ(mesh.triangles.size(), 1u);
   EXPECT_EQ(mesh.vertices[mesh.triangles[0][0]], Vec3(0, 0, 0));
   EXPECT_EQ(mesh.vertices[mesh.triangles[0][2]], Vec3(0, 3, 0));
+  extra["more"][0] = std::string("\2\1");  // they must ascend
+  auto turned = parts_of(testing::box_glb({{}}, "", extra));
+  expect_code([&] { read_as("a.glb", glb_with(gltf, turned.second)); }, ErrorCode::mesh_syntax, "a.glb");
   accessor["count"] = std::uint64_t{1} << 40;
   expect_code([&] { read_as("a.glb", glb_with(gltf, binary)); }, ErrorCode::mesh_syntax, "a.glb");
 }

@@ -196,6 +196,9 @@ TEST(ReadObj, TakesBothDiagonalsWhereAFaceIsNotFlat) {
   EXPECT_EQ(five.ledger[0].entry.object.name, "roof");
   EXPECT_EQ(five.ledger[0].entry.box->max, Vec3(9, 12, 2));
   testing::expect_wording(five.ledger[0].entry.what + ": " + five.ledger[0].entry.reason);
+  // One whose halves cancel out has no normal, and is not flat all the same.
+  const RawMesh twisted = read_as("a.obj", "v 0 0 0\nv 1 2 0\nv 3 0 2\nv 0 2 0\nv 1 0 3\nv 1 2 1\nf 1 2 3 4 5 6\n");
+  EXPECT_EQ(twisted.ledger.size(), 1u);
 }
 
 }  // namespace

@@ -45,6 +45,13 @@ double unit_normal_z(const Scene& scene, std::size_t triangle) {
   return unit(Vec3(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x())).z();
 }
 
+/// Two points, at (11, 2, 3) and (14, 5, 6).
+std::string two_points() {
+  std::string points;
+  for (const float value : {1.f, 2.f, 3.f, 4.f, 5.f, 6.f}) points += testing::bytes_of(value);
+  return testing::pnts({{"POINTS_LENGTH", 2}, {"RTC_CENTER", {10, 0, 0}}, {"POSITION", {{"byteOffset", 0}}}}, points);
+}
+
 TEST(Tileset, ReadsAGlbWithZUp) {
   Tileset tiles(tileset_json(tile_json(0, "a.glb")));
   tiles.add("a.glb", box_glb({{{3, 0, -5}, 7, 0}}));
@@ -95,6 +102,18 @@ TEST(Tileset, ChildrenThatHoldNothingReplaceNothing) {
     for (const char* name : {"coarse.glb", "fine.glb"}) tiles.add(name, box_glb({{}}));
     EXPECT_EQ(ids_of(tiles.read()), std::set<std::string>{has_fine ? "fine.glb" : "coarse.glb"});
   }
+  // Nor do those whose contents have no surfaces, whatever is in the ledger of them.
+  root["children"] = json::array({tile_json(5, "points.pnts")});
+  root["children"][0]["children"] = json::array({tile_json(0, "finer.pnts")});
+  Tileset tiles(tileset_json(root));
+  tiles.add("coarse.glb", box_glb({{}}));
+  for (const char* name : {"points.pnts", "finer.pnts"}) tiles.add(name, two_points());
+  const TilesetScene read = tiles.read();
+  EXPECT_EQ(read.report.largest_error_m, 50);
+  EXPECT_EQ(read.report.coarse, 1u);
+  ASSERT_EQ(read.scene.ledger.size(), 1u);
+  EXPECT_EQ(read.scene.ledger[0].object.source_id, "finer.pnts");
+  EXPECT_EQ(read.scene.objects.at(0).source_id, "coarse.glb");
 }
 
 TEST(Tileset, AddsAPlaneAsGround) {
@@ -324,7 +343,9 @@ TEST(Tileset, ReadsInstancesAndComposites) {
   EXPECT_LT((box.min - Vec3(-10, -23, -30)).norm(), 1e-5);
   EXPECT_EQ(ids_of(read), (std::set<std::string>{"all.cmpt", "all.cmpt#0", "all.cmpt#1"}));
   tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points + points.substr(0, 9)}));
-  EXPECT_EQ(tiles.read().report.holes, 0u);  // what follows the announced parts is not looked at
+  EXPECT_EQ(tiles.read().report.holes, 1u) << "more follows the announced parts";
+  tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points + std::string(8, '\0')}));
+  EXPECT_EQ(tiles.read().report.holes, 0u);
   tiles.add("all.cmpt", cmpt({b3dm(box_glb({{}})), cmpt({trees}), points.substr(0, 9)}));
   EXPECT_EQ(tiles.read().report.holes, 1u);
 }
@@ -637,13 +658,6 @@ TEST(Tileset, ACoarserTileHoldsThePlaceOfAFinerOne) {
   EXPECT_EQ(read.scene.objects.size(), 2u);
 }
 
-/// Two points, at (11, 2, 3) and (14, 5, 6).
-std::string two_points() {
-  std::string points;
-  for (const float value : {1.f, 2.f, 3.f, 4.f, 5.f, 6.f}) points += testing::bytes_of(value);
-  return testing::pnts({{"POINTS_LENGTH", 2}, {"RTC_CENTER", {10, 0, 0}}, {"POSITION", {{"byteOffset", 0}}}}, points);
-}
-
 // What is missing in files that are read is another thing.
 TEST(Tileset, ACoarserTileHoldsThePlaceOfFilesAlone) {
   json root = tile_json(50, "coarse.cmpt");
@@ -674,6 +688,22 @@ TilesetScene read_on_earth(Tileset& tiles, json root) {
   options.center_deg = {52, 4.4};
   options.radius_m = 100;
   return tiles.read(options);
+}
+
+// A tile of which the finer ones lie beyond the circle would only hold what is not there.
+TEST(Tileset, WhatIsReplacedBeyondTheCircleStaysOut) {
+  json root = tile_json(50, "coarse.glb", 5000);
+  root["refine"] = "REPLACE";
+  json beyond = tile_json(0, "fine.glb", 60), empty = tile_json(0, "", 60);
+  beyond["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000, 0, 0, 1};
+  root["children"] = json::array({beyond, empty, tile_json(0, "other.glb", 60)});
+  Tileset tiles(tileset_json(root));
+  for (const char* name : {"coarse.glb", "fine.glb", "other.glb"}) tiles.add(name, box_glb({{}}));
+  EXPECT_EQ(ids_of(read_on_earth(tiles, root)), std::set<std::string>{"other.glb"});
+  root["children"].erase(2);
+  expect_code([&] { read_on_earth(tiles, root); }, ErrorCode::region_empty, "");
+  root["children"].erase(0);
+  EXPECT_EQ(ids_of(read_on_earth(tiles, root)), std::set<std::string>{"coarse.glb"});
 }
 
 TEST(Tileset, TheLedgerKeepsWhatReachesIntoTheCircle) {

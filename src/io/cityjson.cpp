@@ -128,26 +128,25 @@ class CityJsonReader {
       if (!object.is_object()) trail_.fail("it is not an object");
       read_object(id, object, vertices);
     }
-    for (const Bodiless& one : std::exchange(bodiless_, {})) {
-      const Json& object = objects[one.id];
-      trail_.set_object(one.id.empty() ? "(no id)" : one.id);
-      if (!one.reason.empty()) {
-        tell_missing(one.id, object, one.box, one.reason);
-        continue;
-      }
-      if (parts_stand_for_it(one.id, object, objects)) continue;
-      if (one.footprint_end > 0) {
-        tell_footprint(one, object);
-        continue;
-      }
-      empty_.add(one.id);
-      tell_missing(one.id, object, {},
-                   object.contains("children") ? "it has no surfaces, and its parts are not all there, or have none"
-                                               : "it has neither surfaces nor parts");
+    for (const Bodiless& one : bodiless_) {
+      trail_.set_object(one.id);
+      tell_bodiless(one, objects);
     }
+    bodiless_.clear();
+    bodies_.clear();
     trail_.set_object("");
     objects_ += objects.size();
   }
+
+  /// An object that is not built as a body, until all that may be its parts are read.
+  struct Bodiless {
+    std::string id;
+    const Json* object;
+    std::string reason;               // empty where it has no geometry at all
+    Box box = {};                     // of its points
+    std::size_t first = 0, last = 0;  // the triangles of its footprint
+    bool may_be_roof = true;          // what the file has may be its upper edge, so that the body is below
+  };
 
   void read_object(const std::string& id, const Json& object, Vertices& vertices) {
     type_of(object, trail_);  // any type that has surfaces may hide something
@@ -155,7 +154,7 @@ class CityJsonReader {
     const bool has_geometry = geometry != object.end() && !geometry->is_null();
     if (has_geometry && !geometry->is_array()) trail_.fail("\"geometry\" is not an array");
     if (!has_geometry || geometry->empty()) {
-      bodiless_.push_back({id, 0, 0, {}, kNoLod});
+      bodiless_.push_back({id, &object, ""});
       return;
     }
     std::vector<std::pair<std::size_t, double>> candidates;  // which of them hold surfaces, and their levels
@@ -170,7 +169,7 @@ class CityJsonReader {
     }
     if (levels.empty()) {
       bodiless_.push_back(
-          {id, 0, 0, box_of_points(*geometry, vertices), kNoLod, "it has points or lines, and no surfaces"});
+          {id, &object, "it has points or lines, and no surfaces", cityjson::box_of_points(*geometry, vertices)});
       return;
     }
     found_lods_.insert(levels.begin(), levels.end());
@@ -178,17 +177,21 @@ class CityJsonReader {
     double chosen = wanted;
 
     const std::size_t before = builder_.triangle_count();
-    builder_.identify_object(builder_.add_object(id), identity_of(id, object));
-    for (; builder_.triangle_count() == before && !levels.empty(); std::erase(levels, chosen)) {
+    builder_.identify_object(builder_.add_object(id), cityjson::identity_of(id, object));
+    bool lacks_one = false;
+    for (; !has_area(before) && !levels.empty(); std::erase(levels, chosen)) {
       chosen = choose_lod(levels, asked_);
       for (const auto& [i, lod] : candidates) {
+        if (lod != chosen) continue;
         const Trail::Step step(trail_, "geometry", i);
-        if (lod == chosen) read_geometry((*geometry)[i], vertices);
+        const std::size_t count = builder_.triangle_count();
+        read_geometry((*geometry)[i], vertices);
+        lacks_one |= !has_area(count);
       }
     }
-    if (builder_.triangle_count() == before) {
+    if (!has_area(before)) {
       empty_.add(id);
-      bodiless_.push_back({id, 0, 0, {}, kNoLod, "its surfaces have no extent"});
+      bodiless_.push_back({id, &object, "its surfaces have no extent", cityjson::box_of_points(*geometry, vertices)});
       return;
     }
     Box box;
@@ -196,32 +199,43 @@ class CityJsonReader {
       progress_.tick();
       for (const std::uint32_t corner : builder_.triangle(i)) box.extend(builder_.vertex(corner));
     }
-    if (chosen != wanted) {
+    if (lacks_one) {
       own_faults_.push_back({id, "geometry of LoD " + lod_text(wanted), "its surfaces have no extent",
-                             "its geometry of LoD " + lod_text(chosen), box});
+                             chosen == wanted ? "its other geometry" : "its geometry of LoD " + lod_text(chosen), box});
     }
     if (asked_ && !meets_lod(wanted, *asked_)) {
       other_lod_.add(id);
       own_faults_.push_back(
           {id, "geometry of LoD " + lod_text(*asked_), "it has none", "its geometry of LoD " + lod_text(chosen), box});
     }
-    // What lies flat is no body either, of whatever level, where the file says that there is one.
-    const bool is_flat_body = box.min.z() == box.max.z() && (height_of(object) || has_height(extent_of(object)));
-    if ((chosen < 0 || chosen >= 1) && !is_flat_body) {
+    if (is_footprint(object, box, chosen)) {
+      std::string reason = "the file has only its footprint";
+      if (chosen == 0) reason += " (LoD 0)";
+      bodiless_.push_back({id, &object, std::move(reason), box, before, builder_.triangle_count(), chosen != 0});
+    } else if (box.min.z() < box.max.z()) {
       bodies_.insert(id);
-    } else {
-      bodiless_.push_back({id, before, builder_.triangle_count(), box, chosen});
     }
   }
 
-  /// An object of which no body is read yet: without geometry, or with a footprint alone, which is in these triangles.
-  struct Bodiless {
-    std::string id;
-    std::size_t footprint_begin = 0, footprint_end = 0;
-    Box box;  ///< of that, or of its points
-    double lod = 0;
-    std::string reason = {};  ///< why it is told whatever its parts are
-  };
+  bool has_area(std::size_t first) const {
+    for (std::size_t i = first; i < builder_.triangle_count(); ++i) {
+      const Triangle& t = builder_.triangle(i);
+      const Vec3 &a = builder_.vertex(t[0]), &b = builder_.vertex(t[1]), &c = builder_.vertex(t[2]);
+      if ((b - a).cross(c - a).norm() > 0) return true;
+    }
+    return false;
+  }
+
+  /// Whether surfaces are no body: of LoD 0, or flat where the file states a height. Without a level also those that
+  /// are low beside that.
+  bool is_footprint(const Json& object, const Box& box, double lod) {
+    if (lod >= 0 && lod < 1) return true;
+    const auto stated_m = cityjson::height_of(object);
+    const Box extent = cityjson::extent_of(object);
+    const double height = box.max.z() - box.min.z();
+    if (height == 0) return lod == kNoLod || stated_m || (!extent.empty() && extent.min.z() < extent.max.z());
+    return lod == kNoLod && stated_m && 2 * height * std::abs(unit_m()) < *stated_m;
+  }
 
   /// Whether all of what an object consists of is in the file, and some of it is no mere fitting, and has a body.
   bool parts_stand_for_it(const std::string& id, const Json& object, const Json& objects) const {
@@ -231,30 +245,15 @@ class CityJsonReader {
     for (const Json& child : *children) {
       const auto part = child.is_string() ? objects.find(child.get_ref<const std::string&>()) : objects.end();
       if (part == objects.end() || child == Json(id) || !part->is_object()) return false;
-      has_body |= is_part(text_in(*part, "type"), text_in(object, "type")) && bodies_.contains(part.key());
+      has_body |= is_part(cityjson::text_in(*part, "type"), cityjson::text_in(object, "type")) &&
+                  bodies_.contains(child.get_ref<const std::string&>());
     }
     return has_body;
-  }
-
-  static std::string_view text_in(const Json& object, const char* key) {
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return found != object.end() && found->is_string() ? found->get_ref<const std::string&>() : std::string_view();
   }
 
   /// Installations and furniture are in or on a thing and not what it consists of. A group has members of all types.
   static bool is_part(std::string_view type, std::string_view whole) {
     return whole == "CityObjectGroup" || type.ends_with("Part") || type.ends_with("ConstructiveElement");
-  }
-
-  /// "measuredHeight", in metres: also where it is a text.
-  static std::optional<double> height_of(const Json& object) {
-    const auto attributes = object.find("attributes");
-    if (attributes == object.end() || !attributes->is_object()) return std::nullopt;
-    const auto height = attributes->find("measuredHeight");
-    if (height == attributes->end()) return std::nullopt;
-    double metres = height->is_number() ? height->get<double>() : 0;
-    if (height->is_string()) metres = parse_length(height->get_ref<const std::string&>()).value;
-    return metres > 0 && metres < core::kMaxCoordinate ? std::optional(metres) : std::nullopt;
   }
 
   /// Metres in one unit of z, as to_scene_frame takes it: negative where z is a depth.
@@ -270,140 +269,108 @@ class CityJsonReader {
 
   std::string crs_place() const { return source_.file().string() + ", metadata, referenceSystem"; }
 
-  /// "geographicalExtent"; an empty box where it is missing or makes no sense: the object is in the ledger all the
-  /// same.
-  static Box extent_of(const Json& object) {
-    const auto extent = object.find("geographicalExtent");
-    if (extent == object.end() || !extent->is_array() || extent->size() != 6) return {};
-    std::array<double, 6> n{};
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (!(*extent)[i].is_number()) return {};
-      n[i] = (*extent)[i].get<double>();
+  /// Tells of an object without a body, and of its extent by itself where that lies elsewhere, or reaches farther than
+  /// its footprint.
+  void tell_bodiless(Bodiless one, const Json& objects) {
+    const Json& object = *one.object;
+    const bool is_footprint = one.first < one.last;
+    if ((is_footprint || one.reason.empty()) && parts_stand_for_it(one.id, object, objects)) return;
+    if (is_footprint && !cityjson::height_of(object) && cityjson::is_flat(type_of(object, trail_))) return;
+    if (one.reason.empty()) {
+      empty_.add(one.id);
+      one.reason = object.contains("children") ? "it has no surfaces, and its parts are not all there, or have none"
+                                               : "it has neither surfaces nor parts";
     }
-    const Box box{Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5])};
-    const bool has_width = box.min.x() < box.max.x() && box.min.y() < box.max.y() && box.min.z() <= box.max.z();
-    return has_width && box.min.allFinite() && box.max.allFinite() ? box : Box{};
+    const Box extent = cityjson::extent_of(object);
+    const auto lies_in = [](const Box& a, const Box& b) {
+      return (a.min.head<2>().array() >= b.min.head<2>().array()).all() &&
+             (a.max.head<2>().array() <= b.max.head<2>().array()).all();
+    };
+    Box common{one.box.min.cwiseMax(extent.min), one.box.max.cwiseMin(extent.max)};
+    common.min.z() = common.max.z() = 0;
+    constexpr double kShare = 1e-3;  // of its width, by which an extent may differ from rounding
+    const Vec3 slack = kShare * (extent.max - extent.min);
+    const bool is_all =
+        one.box.empty() || extent.empty() ||
+        (!common.empty() && (!is_footprint || lies_in({extent.min + slack, extent.max - slack}, one.box)));
+    tell_place(one, is_all || !common.empty() ? extent : Box{});
+    if (!is_all) tell_place({one.id, one.object, one.reason}, extent);
   }
 
-  /// Of all vertices that geometries of points and lines refer to, as far as these can be read.
-  static Box box_of_points(const Json& geometries, const Vertices& vertices) {
-    Box box;
-    for (const Json& geometry : geometries) {
-      const auto boundaries = geometry.find("boundaries");
-      if (boundaries == geometry.end()) continue;
-      std::vector<const Json*> waiting = {&*boundaries};
-      while (!waiting.empty()) {
-        const Json& next = *waiting.back();
-        waiting.pop_back();
-        if (next.is_array()) {
-          for (const Json& one : next) waiting.push_back(&one);
-        } else if (next.is_number_unsigned() && next.get<std::uint64_t>() < vertices.size()) {
-          box.extend(vertices.position(next.get<std::size_t>()));
-        }
-      }
-    }
-    return box;
-  }
-
-  static bool has_height(const Box& box) { return !box.empty() && box.max.z() > box.min.z(); }
-
-  LedgerEntry entry_of(const std::string& id, const Json& object, std::string reason) const {
+  /// What holds the place of an object is never smaller than what the file states: its extent, its height, and where
+  /// its points are.
+  void tell_place(const Bodiless& one, const Box& extent) {
     LedgerEntry entry;
-    entry.object = identity_of(id, object);
-    entry.what = type_of(object, trail_);
-    entry.reason = std::move(reason);
-    entry.height_m = height_of(object);
-    return entry;
-  }
-
-  /// An object without surfaces: a box of its points and its stated extent holds its place, up to all of the heights
-  /// that are stated. `points`: where it has points.
-  void tell_missing(const std::string& id, const Json& object, const Box& points, std::string reason) {
-    LedgerEntry entry = entry_of(id, object, std::move(reason));
-    Box place = extent_of(object);
-    const bool has_extent = !place.empty();
-    if (!points.empty()) {
-      place.extend(points.min);
-      place.extend(points.max);
+    entry.object = cityjson::identity_of(one.id, *one.object);
+    entry.what = type_of(*one.object, trail_);
+    entry.reason = one.reason;
+    entry.height_m = cityjson::height_of(*one.object);
+    const double unit = unit_m(), up = entry.height_m.value_or(0) / unit;
+    const double down = one.may_be_roof && extent.empty() ? -up : 0;
+    const auto column = [&](const Box& place) {
+      Box box = place;
+      for (const double by : {up, down}) {
+        box.extend(place.min + Vec3(0, 0, by));
+        box.extend(place.max + Vec3(0, 0, by));
+      }
+      box.min.z() = std::min(box.min.z(), extent.min.z());
+      box.max.z() = std::max(box.max.z(), extent.max.z());
+      return box;
+    };
+    const bool is_footprint = one.first < one.last;
+    Box box = one.box.empty() ? one.box : column(one.box);
+    if (!is_footprint && !extent.empty()) {
+      Box ground = extent;
+      (unit > 0 ? ground.max : ground.min).z() = (unit > 0 ? ground.min : ground.max).z();
+      box.extend(column(ground));
     }
-    if (!place.empty() && entry.height_m) raise(place, *entry.height_m);
-    const bool has_width = !place.empty() && (place.max - place.min).head<2>().minCoeff() > 0;
-    if (!has_width || !(has_extent || entry.height_m)) {
-      if (!place.empty()) entry.box = place;
+    constexpr double kLeastM = 0.1;  // above that a footprint's extent says more than the footprint
+    const double bare = is_footprint ? one.box.max.z() - one.box.min.z() + kLeastM / std::abs(unit) : 0;
+    const bool is_high = entry.height_m || (!extent.empty() && box.max.z() - box.min.z() > bare);
+    if (!box.empty()) entry.box = box;
+    if (!is_high || !(box.min.x() < box.max.x() && box.min.y() < box.max.y())) {
+      if (is_footprint) entry.reason += ", and no measuredHeight";
+      if (!is_high && entry.box && !cityjson::is_flat(entry.what)) {
+        (unit > 0 ? entry.box->max : entry.box->min).z() = std::copysign(std::numeric_limits<double>::infinity(), unit);
+      }
       ledger_.push_back({std::move(entry), {}});
       return;
     }
-    entry.height_m = std::abs((place.max.z() - place.min.z()) * unit_m());
-    entry.may_be_larger = !has_extent;
-    Missing missing = held_by_box(std::move(entry), place);
-    missing.entry.instead = has_extent ? "the box of its extent" : "the box of its points";
-    ledger_.push_back(std::move(missing));
-  }
-
-  /// To a height, from the lowest place of a box on.
-  void raise(Box& box, double height_m) {
-    const double height = height_m / unit_m();
-    if (height > 0) {
-      box.max.z() = std::max(box.max.z(), box.min.z() + height);
-    } else {
-      box.min.z() = std::min(box.min.z(), box.max.z() + height);
-    }
-  }
-
-  /// Whether a type lies on the ground, so that its footprint is all of it (CityJSON 2.0, chapter 2).
-  static bool is_flat(std::string_view type) {
-    constexpr std::array<std::string_view, 7> kFlat = {"Road",    "Railway",   "TransportSquare", "Waterway",
-                                                       "LandUse", "WaterBody", "TINRelief"};
-    return std::find(kFlat.begin(), kFlat.end(), type) != kFlat.end();
-  }
-
-  /// An object of which the file has only the footprint: raised to its height, where that or its extent is stated.
-  /// Above LoD 0 it may be the edge of the roof, so that the body is below.
-  void tell_footprint(const Bodiless& one, const Json& object) {
-    Box box = one.box;
-    LedgerEntry entry = entry_of(one.id, object, "the file has only its footprint");
-    if (one.lod == 0) entry.reason += " (LoD 0)";
-    const Box extent = extent_of(object);
-    if (!extent.empty() && (entry.height_m || !is_flat(entry.what))) {
-      const double up = unit_m() > 0 ? extent.max.z() - box.min.z() : extent.min.z() - box.max.z();
-      const double height_m = up * unit_m();
-      if (height_m > entry.height_m.value_or(0)) entry.height_m = height_m;
-    }
-    if (!entry.height_m && is_flat(entry.what)) return;
-    if (!entry.height_m) {
-      entry.reason += ", and no measuredHeight";
-      entry.box = Box{box.min, Vec3(box.max.x(), box.max.y(), std::numeric_limits<double>::infinity())};
-      ledger_.push_back({std::move(entry), {}});
-      return;
-    }
-    const double height = *entry.height_m / unit_m();
-    double foot = one.lod == 0 ? 0 : -height;
     if (!extent.empty()) {
-      foot = height > 0 ? std::min(0.0, extent.min.z() - box.min.z()) : std::max(0.0, extent.max.z() - box.max.z());
+      entry.height_m = std::max(entry.height_m.value_or(0), (extent.max.z() - extent.min.z()) * std::abs(unit));
     }
-    Missing missing{std::move(entry), {}};
-    auto& [vertices, triangles] = missing.holder;
-    for (std::size_t i = one.footprint_begin; i < one.footprint_end; ++i) {
+    if (is_footprint) {
+      entry.instead = core::format("its footprint, {:.4g} m high", *entry.height_m);
+      ledger_.push_back({std::move(entry), prisms(one, column)});
+      return;
+    }
+    entry.may_be_larger = extent.empty();
+    ledger_.push_back(held_by_box(std::move(entry), box));
+    ledger_.back().entry.instead = extent.empty() ? "the box of its points" : "the box of its extent";
+  }
+
+  /// What is above and below the triangles of a footprint.
+  template <class Column>
+  Mesh prisms(const Bodiless& one, const Column& column) const {
+    Mesh mesh;
+    for (std::size_t i = one.first; i < one.last; ++i) {
       progress_.tick();
-      const auto at = static_cast<std::uint32_t>(vertices.size());
-      for (const double up : {foot, height}) {
+      const auto at = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const bool is_top : {false, true}) {
         for (const std::uint32_t corner : builder_.triangle(i)) {
-          vertices.push_back(builder_.vertex(corner) + Vec3(0, 0, up));
+          const Box box = column(Box{builder_.vertex(corner), builder_.vertex(corner)});
+          mesh.vertices.push_back(is_top ? box.max : box.min);
         }
       }
-      triangles.push_back({at, at + 2, at + 1});
-      triangles.push_back({at + 3, at + 4, at + 5});
+      mesh.triangles.push_back({at, at + 2, at + 1});
+      mesh.triangles.push_back({at + 3, at + 4, at + 5});
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t a = at + k, b = at + (k + 1) % 3;
-        triangles.push_back({a, b, b + 3});
-        triangles.push_back({a, b + 3, a + 3});
+        mesh.triangles.push_back({a, b, b + 3});
+        mesh.triangles.push_back({a, b + 3, a + 3});
       }
     }
-    (height > 0 ? box.max : box.min).z() += height;
-    (height > 0 ? box.min : box.max).z() += foot;
-    missing.entry.box = box;
-    missing.entry.instead = core::format("its footprint, {:.4g} m high", *missing.entry.height_m);
-    ledger_.push_back(std::move(missing));
+    return mesh;
   }
 
   /// What is wrong with objects that are built.
@@ -426,29 +393,6 @@ class CityJsonReader {
     for (const auto& fault : surfaces_.faults()) tell(fault);
     for (const auto& fault : own_faults_) tell(fault);
     for (Missing& missing : ledger_) mesh.ledger.push_back(std::move(missing));
-  }
-
-  /// What an object's type says of it (CityJSON 2.0, chapter 2).
-  static ObjectKind kind_of(std::string_view type) {
-    constexpr std::array<std::pair<std::string_view, ObjectKind>, 6> kKinds = {
-        {{"Building", ObjectKind::building},
-         {"BuildingPart", ObjectKind::building_part},
-         {"Bridge", ObjectKind::bridge},
-         {"BridgePart", ObjectKind::bridge},
-         {"BridgeConstructiveElement", ObjectKind::bridge},
-         {"SolitaryVegetationObject", ObjectKind::tree}}};
-    const auto* const found =
-        std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& entry) { return entry.first == type; });
-    return found == kKinds.end() ? ObjectKind::other : found->second;
-  }
-
-  static SceneObject identity_of(const std::string& id, const Json& object) {
-    SceneObject identity{"", id, ObjectKind::other};
-    identity.kind = kind_of(text_in(object, "type"));
-    const auto attributes = object.find("attributes");
-    if (attributes == object.end() || !attributes->is_object()) return identity;
-    if (text_in(*attributes, "name") != id) identity.name = text_in(*attributes, "name");
-    return identity;
   }
 
   static const GeometryType* find_type(std::string_view name) {
@@ -609,9 +553,9 @@ class CityJsonReader {
   std::size_t objects_ = 0, largest_instance_ = 0;  // triangles of an instance of a template
   Finding other_lod_, empty_, no_surfaces_;
   std::vector<cityjson::SurfaceBuilder::Fault> own_faults_;
+  std::vector<Bodiless> bodiless_;  // of the document or feature that is read, as are the next
+  std::set<std::string> bodies_;    // ids of what is built as a body
   std::vector<Missing> ledger_;
-  std::vector<Bodiless> bodiless_;  // of the objects that are being read
-  std::set<std::string> bodies_;    // objects that have one
 
   // For the geometry that is being read.
   Vertices* vertices_ = nullptr;

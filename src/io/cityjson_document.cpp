@@ -1,11 +1,15 @@
 #include "io/cityjson_document.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
+
+#include "common/input.h"
+#include "io/object_text.h"
 
 namespace vantage::internal::io::cityjson {
 namespace {
@@ -182,6 +186,81 @@ std::vector<double> numbers(const Json& array, std::size_t count, const char* wh
   if (result.size() != count)
     trail.fail(std::string(what) + " is not an array of " + std::to_string(count) + " numbers");
   return result;
+}
+
+std::string_view text_in(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_string() ? found->get_ref<const std::string&>() : std::string_view();
+}
+
+ObjectKind kind_of(std::string_view type) {
+  constexpr std::array<std::pair<std::string_view, ObjectKind>, 6> kKinds = {
+      {{"Building", ObjectKind::building},
+       {"BuildingPart", ObjectKind::building_part},
+       {"Bridge", ObjectKind::bridge},
+       {"BridgePart", ObjectKind::bridge},
+       {"BridgeConstructiveElement", ObjectKind::bridge},
+       {"SolitaryVegetationObject", ObjectKind::tree}}};
+  const auto* const found =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& entry) { return entry.first == type; });
+  return found == kKinds.end() ? ObjectKind::other : found->second;
+}
+
+bool is_flat(std::string_view type) {
+  constexpr std::array<std::string_view, 7> kFlat = {"Road",    "Railway",   "TransportSquare", "Waterway",
+                                                     "LandUse", "WaterBody", "TINRelief"};
+  return std::find(kFlat.begin(), kFlat.end(), type) != kFlat.end();
+}
+
+std::optional<double> height_of(const Json& object) {
+  const auto attributes = object.find("attributes");
+  if (attributes == object.end() || !attributes->is_object()) return std::nullopt;
+  const auto height = attributes->find("measuredHeight");
+  if (height == attributes->end()) return std::nullopt;
+  double metres = height->is_number() ? height->get<double>() : 0;
+  if (height->is_string()) metres = parse_length(height->get_ref<const std::string&>()).value;
+  return metres > 0 && metres < core::kMaxCoordinate ? std::optional(metres) : std::nullopt;
+}
+
+Box extent_of(const Json& object) {
+  const auto extent = object.find("geographicalExtent");
+  if (extent == object.end() || !extent->is_array() || extent->size() != 6) return {};
+  std::array<double, 6> n{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!(*extent)[i].is_number()) return {};
+    n[i] = (*extent)[i].get<double>();
+  }
+  const Box box{Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5])};
+  const bool has_width = box.min.x() < box.max.x() && box.min.y() < box.max.y() && box.min.z() <= box.max.z();
+  return has_width && box.min.allFinite() && box.max.allFinite() ? box : Box{};
+}
+
+SceneObject identity_of(const std::string& id, const Json& object) {
+  SceneObject identity{"", id, ObjectKind::other};
+  identity.kind = kind_of(text_in(object, "type"));
+  const auto attributes = object.find("attributes");
+  if (attributes == object.end() || !attributes->is_object()) return identity;
+  if (text_in(*attributes, "name") != id) identity.name = text_in(*attributes, "name");
+  return identity;
+}
+
+Box box_of_points(const Json& geometries, const Vertices& vertices) {
+  Box box;
+  for (const Json& geometry : geometries) {
+    const auto boundaries = geometry.find("boundaries");
+    if (boundaries == geometry.end()) continue;
+    std::vector<const Json*> waiting = {&*boundaries};
+    while (!waiting.empty()) {
+      const Json& next = *waiting.back();
+      waiting.pop_back();
+      if (next.is_array()) {
+        for (const Json& one : next) waiting.push_back(&one);
+      } else if (next.is_number_unsigned() && next.get<std::uint64_t>() < vertices.size()) {
+        box.extend(vertices.position(next.get<std::size_t>()));
+      }
+    }
+  }
+  return box;
 }
 
 }  // namespace vantage::internal::io::cityjson

@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/cityjson_trail.h"
@@ -63,5 +65,26 @@ std::size_t index_below(const Json& value, std::size_t count, const char* what, 
 
 /// `count` finite numbers.
 std::vector<double> numbers(const Json& array, std::size_t count, const char* what, const Trail& trail);
+
+/// The text of a member of an object; empty where there is none.
+std::string_view text_in(const Json& object, const char* key);
+
+/// What an object's type says of it (CityJSON 2.0, chapter 2).
+ObjectKind kind_of(std::string_view type);
+
+/// Its id, name and kind.
+SceneObject identity_of(const std::string& id, const Json& object);
+
+/// Whether a type lies on the ground, so that its footprint is all of it (chapter 2, too).
+bool is_flat(std::string_view type);
+
+/// "measuredHeight", in metres: also where it is a text.
+std::optional<double> height_of(const Json& object);
+
+/// "geographicalExtent"; an empty box where it is missing or makes no sense: the object is in the ledger all the same.
+Box extent_of(const Json& object);
+
+/// Of all vertices that geometries refer to, as far as these can be read.
+Box box_of_points(const Json& geometries, const Vertices& vertices);
 
 }  // namespace vantage::internal::io::cityjson

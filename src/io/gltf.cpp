@@ -93,6 +93,11 @@ Eigen::Affine3d local_transform(const Document& document, const Json& node) {
     const std::vector<double> columns = numbers(document, node, "matrix", std::vector<double>(16));
     Eigen::Affine3d transform;
     transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
+    constexpr double kRounding = 1e-6;
+    if ((transform.matrix().row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > kRounding) {
+      document.fail("the last row of the \"matrix\" of a node is not 0, 0, 0, 1");
+    }
+    transform.makeAffine();
     return transform;
   }
   const auto t = numbers(document, node, "translation", {0, 0, 0});
@@ -565,6 +570,9 @@ class GltfReader {
     const std::uint32_t own = object_;
 
     const std::uint64_t corners = indices ? indices->count() : positions.count();
+    if (mode == kTriangleList && corners % 3 != 0) {
+      document_.fail("a primitive has " + std::to_string(corners) + " corners: no whole number of triangles");
+    }
     const std::uint64_t triangles = mode == kTriangleList ? corners / 3 : corners < 3 ? 0 : corners - 2;
     check_total(triangles);
     const Pose pose = poses_.of(placed.node, placed.mesh, primitive, positions, placed.world);

@@ -330,6 +330,12 @@ Accessor Document::accessor(std::uint64_t index) {
   if (!Accessor::is_unsigned(index_type)) fail(name + " has sparse indices of a wrong type");
   accessor.sparse_indices_ = elements(part("indices"), index_type, 1, replaced, name);
   accessor.sparse_values_ = elements(part("values"), type, components, replaced, name);
+  if (!checked_sparse_.insert(index).second) return accessor;
+  for (std::uint64_t i = 0; i < replaced; ++i) {
+    if (accessor.sparse_indices_.whole(i) >= (i + 1 < replaced ? accessor.sparse_indices_.whole(i + 1) : count)) {
+      fail(name + " has sparse indices that do not ascend, or go beyond its end");
+    }
+  }
   return accessor;
 }
 

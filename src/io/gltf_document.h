@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -130,6 +131,7 @@ class Document {
   std::map<std::uint64_t, std::string_view> buffers_;    // by index
   std::map<std::string, std::string> contents_;          // of external files by path, of data URIs by index
   std::map<std::uint64_t, std::string> unpacked_views_;  // by index
+  std::set<std::uint64_t> checked_sparse_;               // accessors
   std::map<std::pair<std::uint64_t, std::vector<std::uint32_t>>, DracoMesh> unpacked_meshes_;  // by view, attributes
   std::uint64_t buffer_bytes_ = 0;
   std::uint64_t held_bytes_ = 0;  // of a tile's files and of unpacked meshes

@@ -84,6 +84,10 @@ double MeshBuilder::off_plane() const {
   constexpr double kFlatM = 0.01;  // what val3dity (H. Ledoux, 2018) allows by default for a surface to count as flat
   constexpr double kShare = 1e-3, kSingle = 0x1p-22;
   const Vec3& origin = polygon_[0];
+  const auto farthest_from = [&](const auto& distance) {
+    return *std::max_element(polygon_.begin(), polygon_.end(),
+                             [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+  };
   Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
   Box box;
   double largest = 0;
@@ -94,7 +98,11 @@ double MeshBuilder::off_plane() const {
     box.extend(a);
     largest = std::max(largest, polygon_[i].cwiseAbs().maxCoeff());
   }
-  if (!(normal.norm() > 0)) return 0;
+  if (!(normal.norm() > 0)) {  // its halves cancel out: the plane of what lies farthest out
+    const Vec3 along = farthest_from([&](const Vec3& p) { return (p - origin).norm(); }) - origin;
+    normal = along.cross(farthest_from([&](const Vec3& p) { return along.cross(p - origin).norm(); }) - origin);
+    if (!(normal.norm() > 0)) return 0;
+  }
   normal.normalize();
   double farthest = 0;
   for (const Vec3& corner : polygon_) farthest = std::max(farthest, std::abs(normal.dot(corner - origin - middle)));

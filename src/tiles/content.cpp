@@ -110,6 +110,9 @@ bool ContentReader::read_composite(const std::string& address, std::string_view 
     any = read_part(address, bytes.substr(at, length), placement, depth + 1) || any;
     at += length;
   }
+  if (bytes.find_first_not_of(std::string_view(" \0", 2), at) != std::string_view::npos) {
+    fail(address, "more follows the " + std::to_string(count) + " tiles that it announces");
+  }
   return any;
 }
 

@@ -48,16 +48,6 @@ bool is_named_json(const std::string& uri) {
   return path.size() >= 5 && path.compare(path.size() - 5, 5, ".json") == 0;
 }
 
-/// Whether there is a finer form of what their parent holds.
-bool hold_anything(const nlohmann::json& tiles, int depth = 0) {
-  return std::any_of(tiles.begin(), tiles.end(), [depth](const nlohmann::json& tile) {
-    if (!tile.is_object() || depth > kDeepest) return true;  // told when it is read
-    const auto children = tile.find("children");
-    return tile.contains("content") || tile.contains("contents") || tile.contains("implicitTiling") ||
-           (children != tile.end() && hold_anything(*children, depth + 1));
-  });
-}
-
 }  // namespace
 
 Walk::Walk(TileSource& source, Collector& collector, const Wanted& wanted, TilesetReport& report,
@@ -202,7 +192,31 @@ std::optional<std::uint32_t> Walk::keep_coarser(std::shared_ptr<Coarser> tile) {
   return std::nullopt;
 }
 
+/// Tiles without surfaces replace nothing: what they were to replace stays, unless some of them lie beyond the circle.
+void Walk::keep_unreplaced(Coarser& tile) {
+  if (tile.is_cut && tile.above) tile.above->is_cut = true;
+  if (tile.is_cut || tile.is_taken || collector_.triangles.size() > tile.triangles) return;
+  tile.is_taken = true;
+  Visit visit;
+  visit.trail = tile.trail;
+  visit.coarser = tile.above;
+  visit.depth = tile.depth;
+  visit.bounds = tile.here.bounds;
+  std::erase_if(tile.here.contents, [](const ContentName& content) { return is_named_json(content.uri); });
+  const std::size_t missing = collector_.missing.size();
+  TilesetReport before = report_;
+  take(visit, tile.here, false);
+  if (collector_.triangles.size() > tile.triangles || report_.holes > before.holes) return;
+  collector_.missing.erase(collector_.missing.begin() + static_cast<std::ptrdiff_t>(missing), collector_.missing.end());
+  before.bytes = report_.bytes;
+  report_ = std::move(before);
+}
+
 void Walk::visit(Visit& visit) {
+  if (visit.is_end) {
+    keep_unreplaced(*visit.coarser);
+    return;
+  }
   if (++looked_at_ > kMostTiles) {
     throw Error(ErrorCode::region_invalid,
                 "the region has more than " + std::to_string(kMostTiles) + " tiles, or the tileset has no end",
@@ -226,7 +240,7 @@ void Walk::visit_explicit(Visit& visit) {
   here.bounds = moved(tile.bounds, here.into_world);
   here.error_m = tile.error_m.value_or(visit.error_m);
   here.refinement = tile.refinement.value_or(visit.refinement);
-  if (!reach_.meets(here.bounds)) return;
+  if (!meets(visit, here.bounds)) return;
   if (!std::holds_alternative<Everywhere>(here.bounds)) visit.bounds = here.bounds;
   if (tile.implicit) {
     enter_tree(visit, tile, here);
@@ -234,7 +248,7 @@ void Walk::visit_explicit(Visit& visit) {
   }
   here.contents = tile.contents;
   ++report_.tiles;
-  if (!take(visit, here, tile.children != nullptr && (tile.contents.empty() || hold_anything(*tile.children)))) return;
+  if (!take(visit, here, tile.children != nullptr)) return;
   for (auto child = tile.children->rbegin(); child != tile.children->rend(); ++child) {
     Visit next;
     next.trail = visit.trail;
@@ -247,6 +261,13 @@ void Walk::visit_explicit(Visit& visit) {
     next.depth = visit.depth + 1;
     waiting_.push_back(std::move(next));
   }
+}
+
+/// Whether something lies within the circle. What does not may replace some of the tile above.
+bool Walk::meets(const Visit& visit, const Volume& bounds) const {
+  const bool is_met = reach_.meets(bounds);
+  if (!is_met && visit.coarser) visit.coarser->is_cut = true;
+  return is_met;
 }
 
 /// Reads what a tile holds where it is wanted. Returns whether the tile's children are wanted, too.
@@ -274,7 +295,13 @@ bool Walk::take(const Visit& visit, Here& here, bool has_children) {
       });
   if (report_.holes > holes) hold_by_coarser(missing, visit.coarser);
   if (has_own && !is_taken) {
-    here.coarser = std::make_shared<Coarser>(Coarser{visit.trail, here, visit.coarser, visit.depth, false});
+    here.coarser =
+        std::make_shared<Coarser>(Coarser{visit.trail, here, visit.coarser, visit.depth, collector_.triangles.size()});
+    Visit end;  // it comes when all that is to replace the tile has been read
+    end.trail = visit.trail;
+    end.coarser = here.coarser;
+    end.is_end = true;
+    waiting_.push_back(std::move(end));
   }
   return goes_on;
 }
@@ -285,7 +312,7 @@ void Walk::read_contents(const Visit& visit, const Here& here, const std::functi
   const TilesetDocument& document = *visit.trail->document;
   for (const ContentName& content : here.contents) {
     if (!is_wanted(content)) continue;
-    if (!reach_.meets(moved(content.bounds, here.into_world))) continue;
+    if (!meets(visit, moved(content.bounds, here.into_world))) continue;
     try {
       const std::string address = source_.resolve(document.address(), content.uri);
       if (is_named_json(content.uri)) {
@@ -444,7 +471,7 @@ void Walk::visit_implicit(Visit& visit) {
   here.bounds = moved(tree.bounds_of(index), here.into_world);
   here.error_m = std::ldexp(tree.error_m, -static_cast<int>(index.level));
   here.refinement = visit.refinement;
-  if (!reach_.meets(here.bounds)) return;
+  if (!meets(visit, here.bounds)) return;
   if (!std::holds_alternative<Everywhere>(here.bounds)) visit.bounds = here.bounds;
   if (level == tree.shape.levels) {  // the root of the next subtree
     enter_subtree(visit, visit.subtree->tree, index, visit.parent, visit.refinement);

@@ -59,6 +59,7 @@ class Walk {
     double error_m = 0;  ///< of the parent
     int depth = 0;
     std::shared_ptr<Coarser> coarser = {};  ///< the nearest tile above that was passed over for finer ones
+    bool is_end = false;                    ///< no tile: all that replace `coarser` have been visited
   };
   /// A visited tile in the world.
   struct Here {
@@ -76,7 +77,9 @@ class Walk {
     Here here;
     std::shared_ptr<Coarser> above;
     int depth = 0;
+    std::size_t triangles;                     ///< that there were before those that replace it
     bool is_taken = false;                     ///< after all, for want of a tile that was to replace it
+    bool is_cut = false;                       ///< some of what replaces it lies beyond the circle
     std::optional<std::uint32_t> object = {};  ///< the first of its objects, where it was taken and could be read
   };
 
@@ -88,6 +91,8 @@ class Walk {
                      const std::function<bool(const ContentName& content)>& is_wanted,
                      const std::function<void(const ContentName& content, const Error& error)>& tell);
   std::optional<std::uint32_t> keep_coarser(std::shared_ptr<Coarser> tile);
+  void keep_unreplaced(Coarser& tile);
+  bool meets(const Visit& visit, const Volume& bounds) const;
   void read_content(const Visit& visit, const Here& here, const std::string& address);
   void read_mesh(const std::string& address, const std::string& bytes, const Placement& placement);
   void wait_for(const Visit& visit, const Here& here, const std::string& address, bool is_taken);

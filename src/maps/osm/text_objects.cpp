@@ -557,6 +557,10 @@ class JsonReader {
   void end_element() {
     object_.type = type_of(type_);
     if (object_.type == item_type::undefined) {
+      const bool is_built = std::any_of(object_.tags.begin(), object_.tags.end(), [](const auto& tag) {
+        return tag.first.starts_with("building") || tag.first == "height";
+      });
+      if (type_ == "area" && is_built) refuse("an area of Overpass has no outline; ask for ways and relations instead");
       if (type_ == "count" || type_ == "area" || type_ == "timeline") return;  // of objects that are elsewhere
       refuse("an element is no node, way or relation: its type is " + (type_.empty() ? "not said" : printable(type_)));
     }
