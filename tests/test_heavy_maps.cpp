@@ -429,15 +429,16 @@ struct Tally {
 /// Looks at every building of a city; tells of each that is not a solid.
 Tally count_solids(const City& city, const std::string& map) {
   const std::vector<Piece> pieces = pieces_of(city.scene);
-  std::map<std::string, std::size_t> object_of;
+  // What is a building and a tower is two objects with one id.
+  std::map<std::pair<std::string, ObjectKind>, std::size_t> object_of;
   for (std::size_t i = 0; i < city.scene.objects.size(); ++i) {
-    object_of[city.scene.objects[i].source_id] = i;
+    object_of[{city.scene.objects[i].source_id, city.scene.objects[i].kind}] = i;
   }
   Tally tally;
   for (const CityRecord& record : city.report.records) {
     if (!is_building(record)) continue;
     ++tally.built;
-    const auto found = object_of.find(record.object.source_id);
+    const auto found = object_of.find({record.object.source_id, record.object.kind});
     if (found == object_of.end()) {
       ADD_FAILURE() << record.object.source_id << " is not in the scene";
       continue;
