@@ -133,25 +133,65 @@ TEST(FlightCheck, NoFlightMeetsTheScene) {
   EXPECT_EQ(failures(beside), std::vector<std::string>());
   EXPECT_EQ(failures(beside, 9), std::vector<std::string>());
   EXPECT_EQ(failures(beside, 11).size(), 1U);
-  // Inside of it from end to end, and far from its faces. A building may have no floor.
-  SceneBuilder block;
-  block.ground("ground", 200, -0.5).box("block", {-30, -30, -0.5}, {30, 30, 60});
-  for (const bool has_floor : {true, false}) {
-    Scene scene = with_ground(block);
-    const auto is_floor = [&](std::size_t i) {
-      const auto z = [&](std::size_t k) { return scene.mesh.vertices[scene.mesh.triangles[i][k]].z(); };
-      return scene.object_of[i] == 1 && std::max({z(0), z(1), z(2)}) < 0;
-    };
-    for (std::size_t i = scene.mesh.triangles.size(); !has_floor && i-- > 0;) {
-      if (!is_floor(i)) continue;
-      scene.mesh.triangles.erase(scene.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
-      scene.object_of.erase(scene.object_of.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+/// A copy whose object 1 has no floor: no triangle at its lowest z.
+Scene without_floor(Scene scene) {
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto highest_of = [&](std::size_t t) {
+    double z = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t vertex : scene.mesh.triangles[t]) z = std::max(z, scene.mesh.vertices[vertex].z());
+    return z;
+  };
+  for (std::size_t t = 0; t < scene.object_of.size(); ++t) {
+    if (scene.object_of[t] == 1) lowest = std::min(lowest, highest_of(t));
+  }
+  for (std::size_t t = scene.object_of.size(); t-- > 0;) {
+    if (scene.object_of[t] != 1 || highest_of(t) > lowest) continue;
+    scene.mesh.triangles.erase(scene.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+    scene.object_of.erase(scene.object_of.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+  return scene;
+}
+
+// From end to end, far from its faces or beside them, from the ground up or from below it.
+TEST(FlightCheck, NoFlightIsInsideASolid) {
+  SceneBuilder block, sunk, welded, hollow;
+  block.ground("ground", 200, 0).box("block", {-30, -30, 0}, {30, 30, 60});
+  sunk.ground("ground", 200, 0).box("block", {-30, -30, -1}, {30, 30, 60});
+  Mesh around = make_box_mesh({-200, -200, 0}, {200, 200, 1});  // the ground ends at the block
+  around.vertices = {{-200, -200, 0}, {200, -200, 0}, {200, 200, 0}, {-200, 200, 0},
+                     {-30, -30, 0},   {30, -30, 0},   {30, 30, 0},   {-30, 30, 0}};
+  around.triangles = {{0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  welded.add("ground", around).box("block", {-30, -30, 0}, {30, 30, 60});
+  const std::vector<std::vector<Vec3>> flights = {
+      {{-9, 0, 30}, {9, 0, 30}}, {{9, 0, 0.5}, {9, 0, 30}}, {{29.9995, 0, 30}, {0, 0, 30}}, {{9, 0, -0.9}, {9, 0, 30}}};
+  for (const SceneBuilder* builder : {&block, &sunk, &welded}) {
+    for (const bool has_floor : {true, false}) {
+      const Scene scene = with_ground(builder->scene());
+      const Mission inside = mission_in(has_floor ? scene : without_floor(scene), checked_square({0, 0, 20}), 100);
+      for (const std::vector<Vec3>& flight : flights) {
+        const FlightCheck check = check_flight(inside, flight_along(flight), {.clearance_m = 0});
+        EXPECT_EQ(check.failures.size(), 1U) << has_floor << flight[0].transpose();
+        EXPECT_EQ(check.nearest.distance_m, 0);
+        EXPECT_EQ(check.nearest.object, "block");
+      }
     }
-    const Mission inside = mission_in(std::move(scene), checked_square(), 100);
-    const FlightCheck check = check_flight(inside, flight_along({{-9, 0, 30}, {9, 0, 30}}), {.clearance_m = 5});
-    EXPECT_EQ(check.failures.size(), 1U) << has_floor;
-    EXPECT_EQ(check.nearest.distance_m, 0);
-    EXPECT_EQ(check.nearest.object, "block");
+  }
+  // A hall with walls of 2 m is free inside, and so is a pit whose faces are turned downward.
+  Mesh hall = make_box_mesh({-50, -50, 0}, {50, 50, 60}), room = make_box_mesh({-48, -48, 1}, {48, 48, 58});
+  for (Triangle& triangle : room.triangles) std::swap(triangle[1], triangle[2]);
+  append(hall, room);
+  hollow.add("hall", hall);
+  Mesh pit = make_box_mesh({-40, -40, -60}, {40, 40, 60});
+  std::erase_if(pit.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t vertex) { return pit.vertices[vertex].z() > 0; });
+  });
+  SceneBuilder open;
+  open.add("pit", pit);
+  for (const SceneBuilder* builder : {&hollow, &open}) {
+    const Mission free = mission_in(builder->scene(), checked_square({0, 0, 20}), 100);
+    EXPECT_EQ(check_flight(free, flight_along(flights[0])).failures, std::vector<std::string>());
   }
 }
 
@@ -166,8 +206,53 @@ TEST(FlightCheck, NoFlightIsBelowTheGround) {
       {0, -20, -0.9}, {0, -20, 9}, {0, -10, 9}, {0, -10, -0.5}};  // the ground is not exact
   expect_wording(plan_texts::joined(failures(under), "\n") + "\n" + plan_texts::joined(failures(level), "\n"));
   EXPECT_EQ(failures(flown), std::vector<std::string>());
+  // For kilometres, or down to a valley: where it takes off and lands it is near the ground's level alone.
+  for (const std::vector<Vec3>& flat :
+       {std::vector<Vec3>{{-150, 0, -1.4}, {150, 0, 0}}, {{0, -20, 5}, {0, -20, -0.3}, {0, 150, -1.4}}}) {
+    EXPECT_NE(plan_texts::joined(failures(flat), "\n").find("m below the ground"), std::string::npos);
+  }
   mission.navigation.above_ground = AboveGround{-100, 400, *ground_of(mission.scene())};
   EXPECT_EQ(failures(under).size(), 1U);
+  // Heights are above another ground: that of the scene counts all the same.
+  mission.as_written.ground = GroundSource{-50.0, ""};
+  mission.navigation.above_ground->ground = Ground{-50};
+  EXPECT_EQ(failures(under).size(), 1U);
+}
+
+// A ridge that is thinner than any step is met where 1 m would be borne, too.
+TEST(FlightCheck, NoRidgeIsPassedWhereAFlightTakesOff) {
+  for (const double half_width : {1e-3, 0.1, 1.0}) {
+    Mesh ridge;
+    for (const auto& [x, z] :
+         {std::pair(-200.0, 0.0), {-10 - half_width, 0}, {-10, 20}, {-10 + half_width, 0}, {200, 0}}) {
+      ridge.vertices.insert(ridge.vertices.end(), {{x, -200, z}, {x, 200, z}});
+    }
+    for (std::uint32_t i = 0; i < 8; i += 2) {
+      ridge.triangles.insert(ridge.triangles.end(), {{i, i + 2, i + 3}, {i, i + 3, i + 1}});
+    }
+    const Mission mission =
+        mission_in(with_ground(SceneBuilder().add("ground", ridge)), checked_square({0, 0, 30}), 99);
+    const auto failures = check_flight(mission, flight_along({{-20, 0, -0.5}, {20, 0, 0.6}, {0, 0, 60}})).failures;
+    ASSERT_EQ(failures.size(), 1U) << half_width;
+    EXPECT_NE(failures[0].find("below the ground"), std::string::npos) << failures[0];
+  }
+}
+
+// What all heights are above may be touched where a flight begins: all of the scene, or a raster.
+TEST(FlightCheck, MayTakeOffFromWhatIsTheGround) {
+  SceneBuilder terrain;
+  terrain.ground("terrain", 200, 0);
+  const std::vector<Vec3> flown = {{50, 0, -0.5}, {50, 0, 30}, {20, 0, 30}}, below = {{50, 0, -9}, {20, 0, -9}};
+  for (const bool is_raster : {true, false}) {
+    Scene scene = terrain;
+    if (is_raster) scene.objects[0].kind = ObjectKind::surface;
+    Mission mission = mission_in(scene, checked_square({0, 0, 5}), 100);
+    EXPECT_EQ(check_flight(mission, flight_along(flown)).passes(), is_raster);
+    if (!is_raster) mission.as_written.ground = GroundSource{std::nullopt, "all"};
+    EXPECT_EQ(check_flight(mission, flight_along(flown)).failures, std::vector<std::string>());
+    EXPECT_FALSE(check_flight(mission, flight_along(flown), {.clearance_m = 1}).passes());
+    EXPECT_FALSE(check_flight(mission, flight_along(below)).passes());
+  }
 }
 
 TEST(FlightCheck, OfOnePointIsAStay) {

@@ -153,9 +153,10 @@ struct FlightCheck {
 /// all of the tube, is inside it: exactly, and shorter by what rounding may do, never longer. It needs a volume of its
 /// own, as with Combine::each.
 ///
-/// Whatever is asked, it may not meet an object of the scene or lie inside of a solid (a winding number above 1/2 of a
-/// connected piece, or -1; `nearest` is then 0), nor may its middle be below the ground (a BrokenLimit "ground"), but
-/// for 1 m where it takes off and lands. Ground is what ground_of(Mission) has.
+/// Whatever is asked, it may not meet an object of the scene that is not ground, or lie inside of a solid (a winding
+/// number above 1/2 of an object or a connected piece, or -1, and something above it; `nearest` is then 0), nor may its
+/// middle be below the ground (a BrokenLimit "ground"): by more than 1 m within 20 m of its ends and on upright legs,
+/// by more than 1 mm elsewhere. Ground is what ground_of(Mission) and ground_of(Scene) have.
 ///
 /// Exact along straight legs: LegViews, LegLimits and LegDistances (vantage/query.h), which err on the safe side.
 /// With a tube of radius R, what is said holds for every position within R of the flight, but for the yaw of the

@@ -323,43 +323,107 @@ NearestPass nearest_pass(const std::vector<Leg>& legs, const LegDistances& scene
   return nearest;
 }
 
-/// A flight that crosses nothing is inside a solid where its first point is.
-NearestPass inside_of(const Mission& mission, const std::vector<std::uint32_t>& ground, const Vec3& first) {
+/// What of the scene is the mission's ground. It is met where a flight takes off; find_below_ground judges it.
+std::vector<std::uint32_t> all_ground(const Mission& mission) {
+  std::vector<std::uint32_t> ground = flight::named_ground(mission);
+  const std::vector<SceneObject>& objects = mission.scene().objects;
+  const auto& named = mission.as_written.ground;
+  const bool is_whole_scene = named && !named->plane_z_m && ground.empty();
+  const bool is_surface = !named && std::none_of(objects.begin(), objects.end(), [](const SceneObject& object) {
+    return object.kind == ObjectKind::ground;
+  });
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    if (is_whole_scene || (is_surface && objects[i].kind == ObjectKind::surface)) ground.push_back(i);
+  }
+  return ground;
+}
+
+/// A flight that crosses nothing is inside a solid all along, but for one without a floor, which it may come into from
+/// below. Then it is in it where it is highest, or else at one of the ends.
+NearestPass inside_of(const Mission& mission, const std::vector<std::uint32_t>& ground, const std::vector<Leg>& legs,
+                      const FlightTimeline& along) {
   const Scene& scene = mission.scene();
   if (scene.mesh.empty()) return {};
-  const auto solid = internal::scene::ViewpointCheck(scene).look(first).inside;
-  if (!solid || scene.objects[*solid].kind == ObjectKind::ground) return {};
-  if (std::find(ground.begin(), ground.end(), *solid) != ground.end()) return {};
-  return {0, 0, first, first, display_name(scene.objects[*solid])};
+  std::pair<std::size_t, double> highest = {0, 0}, middle = {0, 0.5};
+  const auto length = [&](std::size_t leg) { return (legs[leg].to - legs[leg].from).norm(); };
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (legs[i].to.z() > along.position(highest.first, highest.second).z()) highest = {i, 1};
+    if (length(i) > length(middle.first)) middle.first = i;
+  }
+  const internal::scene::ViewpointCheck solids(scene, ground);
+  for (const auto& [leg, share] : {std::pair<std::size_t, double>(0, 0), highest, middle, {legs.size() - 1, 1}}) {
+    const Vec3 at = along.position(leg, share);
+    const auto solid = solids.solid_around(at);
+    if (!solid || solids.is_ground(*solid)) continue;
+    return {0, along.at_m(leg, share), at, at, display_name(scene.objects[*solid])};
+  }
+  return {};
 }
 
 constexpr const char* kBelowGround = "ground";
 
-/// Where the middle of the flight is below the ground, whatever heights the mission asks for. Takeoffs and landings
-/// touch the ground, which is known to a metre there.
-void find_below_ground(const Mission& mission, const std::vector<Leg>& legs, std::vector<OnLeg>& found) {
-  constexpr double kTouchM = 1, kRoundingM = 1e-3, kAnyHeightM = 1e9;
-  const auto& asked = mission.navigation.above_ground;
-  if (asked && asked->min_m >= 0) return;  // told as that limit
-  std::optional<Ground> ground = flight::ground_if_known(mission);
-  if (!ground) return;
-  Navigation navigation;
-  navigation.above_ground = AboveGround{0, kAnyHeightM, *std::move(ground)};
-  const LegLimits limits(navigation);
+/// A part of a leg, and how far below the ground it may be.
+struct Allowed {
+  double begin = 0, end = 1, depth_m = 0;
+};
+
+/// The ground is known to a metre where a flight takes off and lands: on legs that go up and down, near its ends or
+/// without going aside.
+std::vector<Allowed> allowed_on(const Leg& leg, bool is_first, bool is_last) {
+  constexpr double kTouchM = 1, kNearM = 20, kRoundingM = 1e-3;
+  const Vec3 way = leg.to - leg.from;
+  const double aside = way.head<2>().norm(), near = std::min(1.0, kNearM / aside);
+  if (!(std::abs(way.z()) > kTouchM)) return {{0, 1, kRoundingM}};
+  if (aside < kTouchM) return {{0, 1, kTouchM}};
+  const double begin = is_first ? near : 0, end = is_last ? 1 - near : 1;
+  if (begin >= end) return {{0, 1, kTouchM}};
+  return {{0, begin, kTouchM}, {begin, end, kRoundingM}, {end, 1, kTouchM}};
+}
+
+/// Where the middle of the flight is below the ground, whatever heights the mission asks for.
+void find_below(const Ground& ground, const std::vector<Leg>& legs, double radius_m, std::vector<OnLeg>& found) {
+  constexpr double kAnyHeightM = 1e9;
+  std::map<double, LegLimits> limits;  // by the depth that is allowed
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Vec3 way = legs[i].to - legs[i].from;
-    const bool is_end = i == 0 || i + 1 == legs.size();
-    const bool may_touch = std::abs(way.z()) > kTouchM && (is_end || way.head<2>().norm() < kTouchM);
-    for (LegBreak& broken : limits.broken(legs[i])) {
-      if (broken.limit != "agl min" || !(broken.worst > (may_touch ? kTouchM : kRoundingM))) continue;
-      broken.limit = kBelowGround;
-      found[i].broken.push_back(std::move(broken));
+    for (const Allowed& part : allowed_on(legs[i], i == 0, i + 1 == legs.size())) {
+      if (!(part.begin < part.end)) continue;
+      auto judge = limits.find(part.depth_m);
+      if (judge == limits.end()) {
+        Navigation navigation;
+        navigation.above_ground = AboveGround{-part.depth_m, kAnyHeightM, ground};
+        judge = limits.emplace(part.depth_m, LegLimits(navigation)).first;
+      }
+      const auto on_leg = [&](double share) { return part.begin + share * (part.end - part.begin); };
+      const Leg flown = {legs[i].from + part.begin * way, part.end < 1 ? legs[i].from + part.end * way : legs[i].to};
+      for (LegBreak& broken : judge->second.broken(flown, radius_m)) {
+        if (broken.limit != "agl min") continue;
+        broken.limit = kBelowGround;
+        broken.worst += part.depth_m;
+        broken.worst_share = on_leg(broken.worst_share);
+        for (LegInterval& interval : broken.intervals) interval = {on_leg(interval.begin), on_leg(interval.end)};
+        found[i].broken.push_back(std::move(broken));
+      }
     }
   }
 }
 
+/// Below what the mission measures heights from, and below what the scene calls its ground.
+void find_below_ground(const Mission& mission, const std::vector<Leg>& legs, double radius_m,
+                       std::vector<OnLeg>& found) {
+  const auto& asked = mission.navigation.above_ground;
+  const bool is_asked = asked && asked->min_m >= 0;  // told as that limit
+  if (!is_asked) {
+    if (const auto ground = flight::ground_if_known(mission)) find_below(*ground, legs, radius_m, found);
+  }
+  if (!mission.as_written.ground) return;
+  if (const auto ground = ground_of(mission.scene())) find_below(*ground, legs, radius_m, found);
+}
+
 /// What is required and does not hold.
-std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheckOptions& options) {
+/// `met`: what the flight meets, at a distance of 0, or else anything.
+std::vector<std::string> failures_of(const FlightCheck& check, const NearestPass& met,
+                                     const FlightCheckOptions& options) {
   using internal::core::number_text;
   std::vector<std::string> failures;
   const double dwell = options.dwell_s.value_or(0);
@@ -397,9 +461,8 @@ std::vector<std::string> failures_of(const FlightCheck& check, const FlightCheck
                                      number_text(limit.worst), limit.unit, number_text(limit.worst_at_m))
             : internal::core::format("{} is broken, {} m along the flight", limit.name, number_text(limit.worst_at_m)));
   }
-  if (check.nearest.distance_m == 0) {
-    failures.push_back(internal::core::format("the flight meets {}, {} m along it", check.nearest.object,
-                                              number_text(check.nearest.at_m)));
+  if (met.distance_m == 0) {
+    failures.push_back(internal::core::format("the flight meets {}, {} m along it", met.object, number_text(met.at_m)));
   } else if (options.clearance_m && check.nearest.distance_m < *options.clearance_m) {
     failures.push_back(internal::core::format("{} is {} m away, {} m along the flight, and {} m are asked for",
                                               check.nearest.object.empty() ? "the scene" : check.nearest.object,
@@ -473,7 +536,7 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
   reporter.begin("checking the flight");
   std::vector<OnLeg> found = judge_legs(flight, legs, judges, check.tube_radius_m, reporter);
   reporter.finish();
-  find_below_ground(mission, legs, found);
+  find_below_ground(mission, legs, flight.chord_error_m, found);
   for (std::size_t i = 0; i < judges.targets.size(); ++i) {
     check.targets.push_back(check_target(judges.targets[i], i, found, flight, along, options));
   }
@@ -483,14 +546,18 @@ FlightCheck check_flight(const Mission& mission, const Flight& flight, const Fli
     check.links.push_back(judges.links[i].check(views, legs, along, check.tube_radius_m));
   }
   check.broken = broken_limits(found, along);
-  const std::vector<std::uint32_t> ground = flight::named_ground(mission);
-  const LegDistances distances(scene, {.without_ground = true, .without_objects = ground});
-  check.nearest = nearest_pass(legs, distances, along, check.tube_radius_m, progress);
-  if (check.nearest.distance_m > 0) {
-    const NearestPass inside = inside_of(mission, ground, legs.front().from);
-    if (!inside.object.empty()) check.nearest = inside;
+  const auto nearest_but = [&](const std::vector<std::uint32_t>& ground) {
+    const LegDistances distances(scene, {.without_ground = true, .without_objects = ground});
+    return nearest_pass(legs, distances, along, check.tube_radius_m, progress);
+  };
+  check.nearest = nearest_but(flight::named_ground(mission));
+  const std::vector<std::uint32_t> ground = all_ground(mission);
+  NearestPass met = check.nearest.distance_m > 0 ? check.nearest : nearest_but(ground);
+  if (met.distance_m > 0) {
+    if (const NearestPass inside = inside_of(mission, ground, legs, along); !inside.object.empty()) met = inside;
   }
-  check.failures = failures_of(check, options);
+  if (met.distance_m == 0) check.nearest = met;
+  check.failures = failures_of(check, met, options);
   check.not_judged = flight.not_judged;
   for (const Warning& note : mission.notes) check.notes.push_back(note.text);
   for (const Warning& note : beyond_data_warnings(mission, places_of(check, mission, options), progress)) {

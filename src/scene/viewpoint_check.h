@@ -19,25 +19,32 @@ inline constexpr double kOnSurface = 1e-3;
 /// Inside a solid is told by the winding number (the solid angle that a surface spans around the viewpoint, over 4
 /// pi) of each connected piece of the mesh, and of each object, whose faces may not meet: 1 inside a closed surface,
 /// above 1/2 above the missing floor of a building that has none, -1 inside one whose normals point inward. An open
-/// ground spans 1/2 from below and -1/2 from above. Pieces whose triangles are turned at random are not noticed.
+/// ground spans 1/2 from below and -1/2 from above; ground is no piece with what stands on it. Not inside is a place
+/// with nothing above it, or in the cavity of an object that is solid round it. Pieces whose triangles are turned at
+/// random, and buildings turned inside out that have no floor, are not noticed.
 /// Cost: linear in the triangles, each time.
 class ViewpointCheck {
  public:
-  VANTAGE_INTERNAL_API explicit ViewpointCheck(const Scene& scene);
+  /// `ground`: objects that are ground beside those of its kind.
+  VANTAGE_INTERNAL_API explicit ViewpointCheck(const Scene& scene, const std::vector<std::uint32_t>& ground = {});
 
-  /// The object that a place lies on, or else one that it lies inside of; neither in the open.
-  struct Place {
-    std::optional<std::uint32_t> on, inside;
-  };
-  Place look(const Vec3& viewpoint) const;
+  /// The object that a place is inside of; one that is ground only where it is inside of no other.
+  VANTAGE_INTERNAL_API std::optional<std::uint32_t> solid_around(const Vec3& viewpoint) const;
+  bool is_ground(std::uint32_t object) const { return is_ground_[object]; }
 
   /// Throws Error(input) that names the object. `name` begins the message: "the viewpoint of volume 2".
   VANTAGE_INTERNAL_API void check(const Vec3& viewpoint, const std::string& name) const;
 
  private:
   const Scene& scene_;
+  std::vector<bool> is_ground_;          // per object
   std::vector<std::uint32_t> piece_of_;  // per triangle
-  std::size_t pieces_ = 0;
+  struct Piece {
+    std::uint32_t object;  // the first
+    bool is_of_one = true;
+    Box box = {};
+  };
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace vantage::internal::scene
