@@ -1003,6 +1003,19 @@ TEST(ReadFlightPlan, NamesCurvesOfTheAircraftsOwn) {
   EXPECT_TRUE(read("toPointAndStopWithDiscontinuityCurvature", "0").not_judged.empty());
 }
 
+TEST(ReadFlightPlan, TurnsNoWaylineAtItsEnds) {
+  const std::string turn =
+      "<wpml:waypointTurnParam><wpml:waypointTurnMode>coordinateTurn</wpml:waypointTurnMode>"
+      "<wpml:waypointTurnDampingDist>5</wpml:waypointTurnDampingDist></wpml:waypointTurnParam>";
+  const std::string points =
+      wayline_point(11, 48, 40, turn) + wayline_point(11.001, 48, 40, turn) + wayline_point(11.001, 48.001, 40, turn);
+  const FlightPlan plan =
+      parsed_plan(waylines(wayline(points, "relativeToStartPoint", 0) + wayline(points, "relativeToStartPoint", 1),
+                           "<wpml:finishAction>goHome</wpml:finishAction>"));
+  ASSERT_EQ(plan.items.size(), 7u);
+  for (std::size_t i = 0; i < plan.items.size(); ++i) EXPECT_EQ(plan.items[i].cut_m, i == 1 || i == 4 ? 5 : 0) << i;
+}
+
 // Nobody knows which of the two counts.
 TEST(ReadFlightPlan, RefusesElementsOfDjiThatAreThereTwice) {
   const std::string point = wayline_point(11, 48, 40);
@@ -1078,12 +1091,18 @@ TEST(ReadFlightPlan, NamesWhatOfDjiIsNotKnown) {
   const std::string straight = "<wpml:useStraightLine>1</wpml:useStraightLine>",
                     early = "toPointAndPassWithContinuityCurvature";
   expect_told(read(mode(early) + straight), 1);
-  EXPECT_TRUE(read(mode(early, "<wpml:waypointTurnDampingDist>9</wpml:waypointTurnDampingDist>") + straight).empty());
+  expect_told(read(mode(early, "<wpml:waypointTurnDampingDist>9</wpml:waypointTurnDampingDist>") + straight), 1);
   const std::string home =
       "<wpml:takeOffSecurityHeight>25</wpml:takeOffSecurityHeight><wpml:takeOffRefPoint>48,11,560"
       "</wpml:takeOffRefPoint><wpml:flyToWaylineMode>";
   expect_told(read("", home + "inCircles</wpml:flyToWaylineMode>"), 1);
   EXPECT_TRUE(read("", home + "pointToPoint</wpml:flyToWaylineMode>").empty());
+  for (const char* drone : {"60", "89"}) {  // Matrice 300, 350
+    const std::string info =
+        std::string("<wpml:droneInfo><wpml:droneEnumValue>") + drone + "</wpml:droneEnumValue></wpml:droneInfo>";
+    EXPECT_EQ(read("", home + "pointToPoint</wpml:flyToWaylineMode>" + info).size(), 1u);
+    EXPECT_TRUE(read("", home + "safely</wpml:flyToWaylineMode>" + info).empty());
+  }
   expect_told(read("", "", "<wpml:waylineType>poi</wpml:waylineType>"), 1);
   const auto action = [](const std::string& name) {
     return "<wpml:startActionGroup><wpml:action><wpml:actionActuatorFunc>" + name +

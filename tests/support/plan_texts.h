@@ -58,10 +58,14 @@ inline std::string wayline_point(double longitude, double latitude, double heigh
          "</coordinates></Point><wpml:executeHeight>" + shortest(height) + "</wpml:executeHeight>" + more +
          "</Placemark>\n";
 }
+
+/// A plan of DJI; it stays at the end, if `config` says nothing else.
 inline std::string waylines(const std::string& folders, const std::string& config = "") {
+  const bool ends = config.find("finishAction") != std::string::npos;
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\" "
          "xmlns:wpml=\"http://www.dji.com/wpmz/1.0.2\"><Document><wpml:missionConfig>" +
-         config + "</wpml:missionConfig>\n" + folders + "</Document></kml>\n";
+         config + (ends ? "" : "<wpml:finishAction>noAction</wpml:finishAction>") + "</wpml:missionConfig>\n" +
+         folders + "</Document></kml>\n";
 }
 inline std::string wayline(const std::string& points, const std::string& mode = "relativeToStartPoint",
                            int number = 0) {

@@ -30,13 +30,13 @@ class Waylines {
     plan_.vehicle = PlanVehicle::multirotor;
     const XmlTree::Node document = document_of(xml_);
     const XmlTree::Node config = child(document, "missionConfig");
-    if (config != XmlTree::kNone) read_home(config);
+    read_home(config);
     for (XmlTree::Node node = xml_.first_child(document); node != XmlTree::kNone; node = xml_.next(node)) {
       if (xml_.name(node) == "Folder") add_folder(node);
     }
     check_all_read(document);
     take_tracks(std::move(tracks_), "wayline", "waylines", source_, plan_);
-    if (config != XmlTree::kNone && !plan_.items.empty()) add_ends(config);
+    if (!plan_.items.empty()) add_ends(config);
     name_unknown_actions(document);
     if (curves_ > 0) {
       plan_.not_judged.push_back(
@@ -168,8 +168,8 @@ class Waylines {
       not_judged_.name(source_.place(track.place),
                        "it is a wayline of the type " + in_quotes(type) + ", which is not followed here");
     }
-    bool turns_somewhere = false;  // at the last waypoint, if there is another behind it
-    double speed = kNoValue;       // of the leg to come: that of the waypoint before
+    std::string turns;        // what is not known of the turn at the last waypoint, if there is another behind it
+    double speed = kNoValue;  // of the leg to come: that of the waypoint before
     double last_index = kNoValue;
     camera_ = {};
     for (XmlTree::Node node = xml_.first_child(folder); node != XmlTree::kNone; node = xml_.next(node)) {
@@ -189,14 +189,14 @@ class Waylines {
       item.speed_m_s = speed;
       const double own_speed = word(node, "useGlobalSpeed") == "1" ? kNoValue : number(node, "waypointSpeed");
       speed = own_speed > 0 ? own_speed : folder_speed > 0 ? folder_speed : kNoValue;
-      if (turns_somewhere) {
-        not_judged_.name(track.items[track.items.size() - 2].place,
-                         "it is turned before, and the plan does not say how far (waypointTurnDampingDist)");
-      }
-      turns_somewhere = read_turn(node, folder_turn, item) && track.items.size() > 1;
+      if (!turns.empty()) not_judged_.name(track.items[track.items.size() - 2].place, turns);
+      turns = read_turn(node, folder_turn, item);
+      if (track.items.size() == 1) turns.clear();
       read_camera(node, item);
     }
-    if (!track.items.empty()) tracks_.push_back(std::move(track));
+    if (track.items.empty()) return;
+    track.items.front().cut_m = track.items.back().cut_m = 0;  // a wayline is not turned at its ends
+    tracks_.push_back(std::move(track));
   }
 
   void read_position(XmlTree::Node placemark, const Heights& heights, PlanItem& item) {
@@ -219,23 +219,27 @@ class Waylines {
     }
   }
 
-  /// Whether it turns before the waypoint, and does not say how far.
-  bool read_turn(XmlTree::Node placemark, std::string_view folder_turn, PlanItem& item) {
+  /// What is not known of how it turns before the waypoint.
+  std::string read_turn(XmlTree::Node placemark, std::string_view folder_turn, PlanItem& item) {
     const XmlTree::Node turn = child(placemark, "waypointTurnParam");
     const bool is_global = turn == XmlTree::kNone || word(placemark, "useGlobalTurnParam") == "1";
     const std::string_view mode = is_global ? folder_turn : word(turn, "waypointTurnMode");
     const bool is_straight = word(placemark, "useStraightLine") == "1";
-    if (mode == "coordinateTurn" || (mode == "toPointAndPassWithContinuityCurvature" && is_straight)) {
+    if (mode == "coordinateTurn") {
       const double distance = number(turn, "waypointTurnDampingDist");
       item.cut_m = distance > 0 ? distance : 0;
-      return !(distance > 0);
+      return distance > 0 ? "" : "it is turned before, and the plan does not say how far (waypointTurnDampingDist)";
+    }
+    if (mode == "toPointAndPassWithContinuityCurvature" && is_straight) {
+      return "it is turned before, in a curve of the aircraft's own: let the aircraft stop there, or give it a "
+             "coordinateTurn";
     }
     const bool is_curve = mode.find("ContinuityCurvature") != std::string_view::npos;  // not "Discontinuity..."
     if (is_curve && !is_straight && ++curves_ == 1) first_curve_ = item.place;
     if (!is_curve && !mode.empty() && mode != "toPointAndStopWithDiscontinuityCurvature") {
       not_judged_.name(item.place, "how it is turned there is not known here: " + in_quotes(mode));
     }
-    return false;
+    return {};
   }
 
   /// What an action has set stays so.
@@ -309,7 +313,7 @@ class Waylines {
     } else if (finish == "gotoFirstWaypoint") {
       last.position = plan_.items.front().position;
       plan_.items.push_back(last);
-    } else if (child(config, "finishAction") != XmlTree::kNone && finish != "noAction") {
+    } else if (finish != "noAction") {
       not_judged_.name(last.place, "what the vehicle does at the end is not known here: " + in_quotes(finish));
     }
     const XmlTree::Node reroute = child(config, "autoRerouteInfo");
@@ -322,11 +326,12 @@ class Waylines {
 
   /// Where the file does not say it, the place may be known to who locates the plan.
   void add_takeoff(XmlTree::Node config) {
-    constexpr double kMatrice300 = 60;
+    constexpr double kMatrice300 = 60, kMatrice350 = 89;
     const double security = number(config, "takeOffSecurityHeight");
     if (std::isnan(security)) return;
     const std::string_view mode = word(config, "flyToWaylineMode");
-    const bool is_300 = number(child(config, "droneInfo"), "droneEnumValue") == kMatrice300, is_safe = mode == "safely";
+    const double drone = number(child(config, "droneInfo"), "droneEnumValue");
+    const bool is_300 = drone == kMatrice300 || drone == kMatrice350, is_safe = mode == "safely";
     if (!(security > 0)) {
       not_judged_.name(source_.place("takeOffSecurityHeight"),
                        "how high the aircraft climbs before it flies to the first waypoint is not said");
