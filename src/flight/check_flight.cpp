@@ -355,7 +355,7 @@ NearestPass inside_of(const Mission& mission, const std::vector<std::uint32_t>& 
     const Vec3 at = along.position(leg, share);
     const auto solid = solids.solid_around(at);
     if (!solid || solids.is_ground(*solid)) continue;
-    return {0, along.at_m(leg, share), at, at, display_name(scene.objects[*solid])};
+    return {0, along.at_m(leg, share), at, at, solids.name_of(*solid)};
   }
   return {};
 }

@@ -55,6 +55,9 @@ bool is_about(double value, double wanted) { return std::abs(value - wanted) < 1
 
 ViewpointCheck::ViewpointCheck(const Scene& scene, const std::vector<std::uint32_t>& ground) : scene_(scene) {
   for (const SceneObject& object : scene.objects) is_ground_.push_back(object.kind == ObjectKind::ground);
+  if (is_ground_.empty()) is_ground_.push_back(false);  // a scene without objects is one
+  object_of_ = scene.object_of;
+  object_of_.resize(scene.mesh.triangles.size(), 0);
   for (const std::uint32_t object : ground) is_ground_[object] = true;
   // Numbers of corners: those of ground, then those of all else.
   const std::vector<std::uint32_t> weld = core::first_at_position(scene.mesh.vertices);
@@ -62,7 +65,7 @@ ViewpointCheck::ViewpointCheck(const Scene& scene, const std::vector<std::uint32
   std::vector<std::uint32_t> parent(2 * vertices);
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<std::uint32_t>(i);
   const auto corner = [&](std::size_t t, std::size_t k) {
-    const std::size_t first = is_ground_[scene.object_of[t]] ? 0 : vertices;
+    const std::size_t first = is_ground_[object_of_[t]] ? 0 : vertices;
     return static_cast<std::uint32_t>(first + weld[scene.mesh.triangles[t][k]]);
   };
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
@@ -77,23 +80,23 @@ ViewpointCheck::ViewpointCheck(const Scene& scene, const std::vector<std::uint32
     std::uint32_t& number = piece[root_of(parent, corner(t, 0))];
     if (number == kNone) {
       number = static_cast<std::uint32_t>(pieces_.size());
-      pieces_.push_back({scene.object_of[t]});
+      pieces_.push_back({object_of_[t]});
     }
     piece_of_.push_back(number);
-    pieces_[number].is_of_one &= pieces_[number].object == scene.object_of[t];
+    pieces_[number].is_of_one &= pieces_[number].object == object_of_[t];
     for (const std::uint32_t vertex : scene.mesh.triangles[t]) pieces_[number].box.extend(scene.mesh.vertices[vertex]);
   }
 }
 
 std::optional<std::uint32_t> ViewpointCheck::solid_around(const Vec3& viewpoint) const {
-  std::vector<double> winding(pieces_.size(), 0.0), of_object(scene_.objects.size(), 0.0);
+  std::vector<double> winding(pieces_.size(), 0.0), of_object(is_ground_.size(), 0.0);
   bool has_above = false;
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
     const double seen = solid_angle(corners) / (4 * std::numbers::pi);
     winding[piece_of_[t]] += seen;
-    of_object[scene_.object_of[t]] += seen;
+    of_object[object_of_[t]] += seen;
     has_above = has_above || is_above(corners);
   }
   if (!has_above) return std::nullopt;
@@ -121,6 +124,10 @@ std::optional<std::uint32_t> ViewpointCheck::solid_around(const Vec3& viewpoint)
   return found;
 }
 
+std::string ViewpointCheck::name_of(std::uint32_t object) const {
+  return object < scene_.objects.size() ? display_name(scene_.objects[object]) : "scene";
+}
+
 void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const {
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     Corners corners;
@@ -129,14 +136,13 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
         kOnSurface * kOnSurface) {
       continue;
     }
-    const std::uint32_t object = scene_.object_of[t];
-    throw Error(ErrorCode::viewpoint_on_surface, name + " lies on a surface",
-                "object '" + display_name(scene_.objects[object]) + "'", "move it off the surface, by 1 mm or more",
-                object);
+    const std::uint32_t object = object_of_[t];
+    throw Error(ErrorCode::viewpoint_on_surface, name + " lies on a surface", "object '" + name_of(object) + "'",
+                "move it off the surface, by 1 mm or more", object);
   }
   if (const auto object = solid_around(viewpoint)) {
-    throw Error(ErrorCode::viewpoint_inside_solid, name + " lies inside a solid",
-                "object '" + display_name(scene_.objects[*object]) + "'", "move it into the open", *object);
+    throw Error(ErrorCode::viewpoint_inside_solid, name + " lies inside a solid", "object '" + name_of(*object) + "'",
+                "move it into the open", *object);
   }
 }
 

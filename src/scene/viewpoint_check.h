@@ -29,16 +29,18 @@ class ViewpointCheck {
   VANTAGE_INTERNAL_API explicit ViewpointCheck(const Scene& scene, const std::vector<std::uint32_t>& ground = {});
 
   /// The object that a place is inside of; one that is ground only where it is inside of no other.
-  VANTAGE_INTERNAL_API std::optional<std::uint32_t> solid_around(const Vec3& viewpoint) const;
+  std::optional<std::uint32_t> solid_around(const Vec3& viewpoint) const;
   bool is_ground(std::uint32_t object) const { return is_ground_[object]; }
+  /// display_name; "scene" in a scene without objects.
+  std::string name_of(std::uint32_t object) const;
 
   /// Throws Error(input) that names the object. `name` begins the message: "the viewpoint of volume 2".
   VANTAGE_INTERNAL_API void check(const Vec3& viewpoint, const std::string& name) const;
 
  private:
   const Scene& scene_;
-  std::vector<bool> is_ground_;          // per object
-  std::vector<std::uint32_t> piece_of_;  // per triangle
+  std::vector<bool> is_ground_;                      // per object
+  std::vector<std::uint32_t> object_of_, piece_of_;  // per triangle
   struct Piece {
     std::uint32_t object;  // the first
     bool is_of_one = true;

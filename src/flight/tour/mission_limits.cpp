@@ -178,9 +178,10 @@ Vec3 start_above(const Vec3& given, const Mission& mission, const PreparedScene&
   const Vec3 home = on_ground(given, mission);
   const Vec3 off_ground = home + Vec3(0, 0, 0.008);
   const std::string& where = mission.as_written.places.tour;
-  if (const auto solid = scene::ViewpointCheck(mission.scene()).solid_around(off_ground)) {
+  const scene::ViewpointCheck solids(mission.scene());
+  if (const auto solid = solids.solid_around(off_ground)) {
     throw Error(ErrorCode::viewpoint_inside_solid, "tour.home lies inside a solid",
-                where + (where.empty() ? "" : ", ") + "object '" + display_name(mission.scene().objects[*solid]) + "'",
+                where + (where.empty() ? "" : ", ") + "object '" + solids.name_of(*solid) + "'",
                 "move it into the open", *solid);
   }
   const auto height = lowest_allowed_m(home, airspace, deviation_m);
